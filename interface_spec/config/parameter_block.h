@@ -1,0 +1,83 @@
+/* The parameter block: what the machine and site files compile to, and all the kernel knows of machine and site.
+ *
+ * C11 and C++17. A file of exactly sizeof(berm_parameters) bytes, little endian, int32 fields only (no padding), CRC-32 (IEEE) over
+ * all bytes before crc32. Units in the names. Link frames: x along the pin line from the link's near pin, z to the left of x
+ * seen from the right-hand side of the machine (so +z is up when the link points forward and level). Normative text: CONFIG.md.
+ */
+#ifndef BERM_PARAMETER_BLOCK_H
+#define BERM_PARAMETER_BLOCK_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define BERM_PARAMETERS_MAGIC 0x42504152 /* "RAPB" */
+#define BERM_PARAMETERS_VERSION 1
+#define BERM_PARTS 5            /* convex prisms that cover the implements with the heaviest payload */
+#define BERM_PART_VERTICES 8
+#define BERM_BRAKE_SPEEDS 8     /* table columns: speeds k * velocity_max / (BERM_BRAKE_SPEEDS - 1) */
+#define BERM_BRAKE_REACHES 4    /* table rows: reach up to brake_reach_mm[r] */
+#define BERM_DIG_ZONES 4
+#define BERM_SCANNER_MOUNTS 2
+
+typedef struct berm_part {
+  int32_t link;                                   /* 1 boom, 2 stick, 3 bucket */
+  int32_t half_width_mm;                          /* lateral, about the swing plane */
+  int32_t vertices;                               /* 3..BERM_PART_VERTICES used */
+  int32_t vertex_mm[BERM_PART_VERTICES][2];       /* x, z in the link's frame; convex, counter-clockwise (x towards z) */
+} berm_part;
+
+typedef struct berm_scanner_mount {               /* head in the upper body's frame */
+  int32_t x_mm, y_mm, z_mm;
+  int32_t pan_low_urad, pan_high_urad;            /* pan limits */
+  int32_t pan_rate_max_urad_s;
+} berm_scanner_mount;
+
+typedef struct berm_dig_zone { int32_t x_low_mm, y_low_mm, x_high_mm, y_high_mm, floor_mm; } berm_dig_zone; /* base frame */
+
+typedef struct berm_parameters {
+  int32_t magic, version, size, cell_mm;
+  /* kinematics: joint 0 swing about z at the origin; boom pin at (boom_pin_x, 0, boom_pin_z) in the upper body's frame */
+  int32_t boom_pin_x_mm, boom_pin_z_mm, boom_length_mm, stick_length_mm, bucket_length_mm;
+  int32_t own_body_radius_mm;                     /* cells nearer the swing axis are the machine's own; only the boom may be over them */
+  int32_t joint_low_urad[4], joint_high_urad[4];  /* permitted range; swing too (+-2 pi at most) */
+  int32_t velocity_max_urad_s[4];
+  int32_t acceleration_max_urad_s2[4];            /* largest the machine can do, either direction */
+  int32_t creep_velocity_urad_s[4];               /* recovery motion: see SK requirements */
+  int32_t angle_error_urad[4], velocity_error_urad_s[4];
+  int32_t state_latency_us;                       /* age of a state frame when it arrives, at most */
+  int32_t command_latency_us;                     /* from sending a command to the joint obeying it, at most */
+  /* braking table: angle from obeying the stop to standstill, worst case for speeds and reaches up to the entry, heaviest payload */
+  int32_t brake_reach_mm[BERM_BRAKE_REACHES];
+  int32_t brake_angle_urad[4][BERM_BRAKE_REACHES][BERM_BRAKE_SPEEDS];
+  int32_t brake_time_us[4][BERM_BRAKE_REACHES][BERM_BRAKE_SPEEDS];
+  int32_t parts;
+  berm_part part[BERM_PARTS];
+  /* sensors */
+  berm_scanner_mount scanner[BERM_SCANNER_MOUNTS];
+  int32_t scanner_silent_us;                      /* a scanner silent for longer is a fault */
+  int32_t spurious_range_mm;                      /* a single return that differs by more from both neighbours is dropped */
+  int32_t range_min_mm, range_max_mm;
+  int32_t self_margin_mm;                         /* returns nearer to the own implements are taken for them */
+  /* map and clearance */
+  int32_t margin_mm;                              /* added to every column: calibration and range noise */
+  int32_t fresh_us;                               /* a cell observed longer ago is stale */
+  int32_t generation_us;                          /* a new sweep of a cell begins when the last began longer ago */
+  int32_t dig_swing_limit_urad_s;                 /* contact in the dig zone only below this swing speed */
+  int32_t dig_zones;
+  berm_dig_zone dig_zone[BERM_DIG_ZONES];
+  /* requests and frames */
+  int32_t request_age_us, request_hold_us, request_silent_us; /* 50 000 hold, 500 000 latched stop */
+  int32_t state_frame_age_us, machine_state_age_us, operator_age_us;
+  int32_t cycle_us;
+  int32_t standstill_urad_s, standstill_us;       /* 0.5 deg/s for 200 ms */
+  int32_t crc32;                                  /* bit pattern of the CRC-32 */
+} berm_parameters;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,27 @@
+/* What every file of the core shares. The core is the common subset of C11 and C++17: integers only, no allocation, no recursion,
+ * no function pointers, no unions, no pointer casts. The files that ship are the files that Frama-C/WP reads. */
+#ifndef SK_COMMON_H
+#define SK_COMMON_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+#define SK_BEGIN extern "C" {
+#define SK_END }
+#else
+#define SK_BEGIN
+#define SK_END
+#endif
+
+#define SK_JOINTS 4
+#define SK_MAP_CELLS 104 /* along one side */
+#ifndef SK_CELL_MM
+#define SK_CELL_MM 300
+#endif
+#define SK_MAP_ORIGIN_MM (-(SK_MAP_CELLS * SK_CELL_MM) / 2) /* x and y of the low corner */
+#define SK_COORD_MAX_MM 32000   /* every coordinate the core takes lies within +- this */
+#define SK_HEIGHT_MAX_MM 20000  /* heights are clamped to +- this by the map */
+
+#endif
