@@ -1,0 +1,20 @@
+// UDP payloads of a capture file (pcap or pcapng).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace berm::run {
+
+struct CapturedDatagram {
+  double time_s;  // capture time
+  std::uint16_t destination_port;
+  std::vector<std::uint8_t> payload;
+};
+
+// Reads the whole file; throws std::runtime_error with one line naming the file and what is wrong: not a capture, truncated, a link layer that
+// is none of Ethernet, raw IP and Linux cooked. Fragmented and non-UDP packets are passed over.
+std::vector<CapturedDatagram> read_capture(const std::string& path);
+
+}  // namespace berm::run

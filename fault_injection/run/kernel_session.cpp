@@ -1,0 +1,107 @@
+#include "run/kernel_session.hpp"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+namespace berm::run {
+
+namespace {
+
+constexpr uid_t kKernelUid = 64600;  // outside Debian's ranges for people and packages
+constexpr uid_t kAppUid = 64601;
+constexpr int kReadyDescriptor = 10;  // number in the kernel's process
+constexpr int kReadyPatienceMs = 20000;
+
+}  // namespace
+
+RunFolder::RunFolder() {
+  const char* base = std::getenv("TMPDIR");
+  std::string pattern = std::string(base != nullptr && *base != '\0' ? base : "/tmp") + "/berm-run-XXXXXX";
+  if (mkdtemp(pattern.data()) == nullptr) throw std::system_error(errno, std::generic_category(), pattern);
+  path_ = pattern;
+  chmod(path_.c_str(), 0755);
+}
+
+RunFolder::~RunFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+void RunFolder::give_to(uid_t uid) const {
+  if (chown(path_.c_str(), uid, static_cast<gid_t>(uid)) != 0) throw std::system_error(errno, std::generic_category(), path_);
+}
+
+Uids choose_uids() {
+  const uid_t own = geteuid();
+  if (own == 0) return {true, kKernelUid, kAppUid, own};
+  return {false, own, own, own};
+}
+
+std::uint16_t free_udp_port() {
+  const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  const bool good = fd >= 0 && bind(fd, reinterpret_cast<sockaddr*>(&address), size) == 0 && getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) == 0;
+  const int error = errno;
+  if (fd >= 0) close(fd);
+  if (!good) throw std::system_error(error, std::generic_category(), "no free UDP port on loopback");
+  return ntohs(address.sin_port);
+}
+
+std::string free_can_address() { return fmt::format("udp:239.255.66.{}:{}", 1 + getpid() % 250, free_udp_port()); }
+
+std::string program_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path().string(); }
+
+std::string last_json_line(const std::vector<std::string>& lines) {
+  for (auto line = lines.rbegin(); line != lines.rend(); ++line)
+    if (!line->empty() && line->front() == '{') return *line;
+  return {};
+}
+
+void start_kernel(ChildProcess& kernel, const RunFolder& folder, const Uids& uids, const std::string& parameters, std::vector<std::string> extra,
+                  std::vector<std::pair<int, int>> descriptors) {
+  int ready[2];
+  if (pipe2(ready, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  ChildOptions options;
+  options.program = program_folder() + "/berm_kernel";
+  options.arguments = {"--parameters",   parameters,
+                       "--socket",       folder.file("kernel.sock"),
+                       "--app-uid",      std::to_string(uids.app),
+                       "--recorder-uid", std::to_string(uids.recorder),
+                       "--ready-fd",     std::to_string(kReadyDescriptor)};
+  options.arguments.insert(options.arguments.end(), extra.begin(), extra.end());
+  options.descriptors = std::move(descriptors);
+  options.descriptors.emplace_back(ready[1], kReadyDescriptor);
+  if (uids.separate) {
+    folder.give_to(uids.kernel);
+    options.uid = uids.kernel;
+  }
+  kernel.start(options);
+  close(ready[1]);
+  pollfd wait{ready[0], POLLIN, 0};
+  char byte = 0;
+  const bool good = poll(&wait, 1, kReadyPatienceMs) == 1 && read(ready[0], &byte, 1) == 1;
+  close(ready[0]);
+  if (!good) {
+    kernel.wait_ended(1.0);
+    throw std::runtime_error("the kernel did not start: " + kernel.describe_end());
+  }
+  // Whoever may connect is decided by the kernel from the peer's uid, not by the file's mode.
+  chmod(folder.file("kernel.sock").c_str(), 0666);
+}
+
+}  // namespace berm::run

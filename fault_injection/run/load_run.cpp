@@ -1,0 +1,276 @@
+#include "run/load_run.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+
+#include "run/child_process.hpp"
+#include "run/contract_text.hpp"
+#include "run/kernel_session.hpp"
+#include "run/parameter_file.hpp"
+#include "run/recorder.hpp"
+#include "run/scenario_names.hpp"
+#include "run/site_picture.hpp"
+
+namespace berm::run {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using nlohmann::json;
+
+constexpr int kTickDescriptor = 11;    // numbers in the children
+constexpr int kKernelDescriptor = 12;
+constexpr double kConnectPatience_s = 20.0;
+constexpr double kEndPatience_s = 10.0;
+
+class FilePair {  // two connected descriptors, closed with the object
+ public:
+  static FilePair pipe() {
+    FilePair p;
+    if (pipe2(p.fd_, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+    return p;
+  }
+  static FilePair packets() {
+    FilePair p;
+    if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, p.fd_) != 0) throw std::system_error(errno, std::generic_category(), "socketpair");
+    return p;
+  }
+  FilePair(FilePair&& other) noexcept {
+    std::swap(fd_[0], other.fd_[0]);
+    std::swap(fd_[1], other.fd_[1]);
+  }
+  FilePair(const FilePair&) = delete;
+  FilePair& operator=(const FilePair&) = delete;
+  ~FilePair() { drop(); }
+  int first() const { return fd_[0]; }
+  int second() const { return fd_[1]; }
+  void drop() {  // the children keep theirs: only so can the end of one be seen by another
+    for (int& fd : fd_) {
+      if (fd >= 0) close(fd);
+      fd = -1;
+    }
+  }
+
+ private:
+  FilePair() = default;
+  int fd_[2] = {-1, -1};
+};
+
+class LoadRun {
+ public:
+  explicit LoadRun(const RunOptions& options) : options_(options), uids_(choose_uids()), can_(free_can_address()), scan_port_(free_udp_port()) {
+    result_.options = options;
+  }
+
+  RunResult run() {
+    const std::string scenario = find_scenario(options_.scenario);
+    const auto names = scenario_names(scenario);
+    machine_ = find_machine(names.machine);
+    site_ = find_site(names.site);
+    prepare_out();
+    begin_ = Clock::now();
+    start_processes(scenario);
+    follow();
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  void prepare_out() {
+    if (options_.out.empty()) {
+      out_ = folder_.file("out");
+    } else {
+      out_ = options_.out;
+    }
+    std::error_code error;
+    std::filesystem::create_directories(out_, error);
+    if (error) throw std::runtime_error(fmt::format("{}: {}", out_, error.message()));
+  }
+
+  void start_processes(const std::string& scenario) {
+    const std::string parameters = folder_.file("kernel.params");
+    compile_parameter_file(machine_, site_, parameters);
+    const std::string mode = options_.realtime ? "--realtime" : "--lockstep";
+    auto lifeline = FilePair::pipe();   // the kernel alone holds the write end: its death is a hang-up
+    auto ticks = FilePair::packets();   // app to plant, simulation only
+    const std::string port = std::to_string(scan_port_);
+
+    std::vector<std::string> kernel_options{"--can", can_, "--scan-port", port};
+    if (!options_.realtime) kernel_options.push_back("--lockstep");
+    start_kernel(kernel_, folder_, uids_, parameters, kernel_options, {{lifeline.second(), kKernelDescriptor}});
+
+    // The app runs as a stranger to this folder: it reads copies.
+    std::filesystem::copy_file(machine_, folder_.file("machine.toml"));
+    std::filesystem::copy_file(site_, folder_.file("site.toml"));
+    ChildOptions app;
+    app.program = program_folder() + "/berm_app";
+    app.arguments = {"--machine", folder_.file("machine.toml"), "--site", folder_.file("site.toml"), "--socket", folder_.file("kernel.sock"),
+                     "--trucks",  std::to_string(options_.trucks), "--tick-fd", std::to_string(kTickDescriptor)};
+    app.descriptors = {{ticks.second(), kTickDescriptor}};
+    if (uids_.separate) app.uid = uids_.app;
+    app_.start(app);
+    wait_for_app();
+    recorder_.connect(folder_.file("kernel.sock"));
+    recorder_.open_journal(out_ + "/journal.jsonl");
+
+    ChildOptions plant;
+    plant.program = program_folder() + "/berm_plant";
+    plant.arguments = {"--scenario", scenario, "--seed", std::to_string(options_.seed), "--trucks", std::to_string(options_.trucks), "--can", can_,
+                       "--scan-port", port, "--out", out_, mode, "--tick-fd", std::to_string(kTickDescriptor), "--kernel-fd", std::to_string(kKernelDescriptor)};
+    plant.descriptors = {{ticks.first(), kTickDescriptor}, {lifeline.first(), kKernelDescriptor}};
+    plant_.start(plant);
+    result_.pids[0] = plant_.pid();
+    result_.pids[1] = kernel_.pid();
+    result_.pids[2] = app_.pid();
+    say(fmt::format("plant {}, kernel {}, app {} on {}", plant_.pid(), kernel_.pid(), app_.pid(), can_));
+    if (!uids_.separate) result_.notes.emplace_back("kernel and app share your uid; run as root to give each its own");
+  }
+
+  void wait_for_app() {
+    const auto until = Clock::now() + std::chrono::duration<double>(kConnectPatience_s);
+    for (;;) {
+      take_app_lines();
+      for (const auto& event : result_.app_events)
+        if (event.value("event", "") == "connected") return;
+      if (app_.ended()) throw std::runtime_error("the app did not start: " + app_.describe_end());
+      if (kernel_.ended()) throw std::runtime_error("the kernel ended: " + kernel_.describe_end());
+      if (Clock::now() > until) throw std::runtime_error("the app did not connect to the kernel");
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  }
+
+  void follow() {
+    while (!plant_.ended()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      recorder_.poll(0.0);
+      take_app_lines();
+      take_plant_lines();
+      inject();
+    }
+    recorder_.poll(0.0);
+    take_app_lines();
+    take_plant_lines();
+    result_.wall_seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+  }
+
+  void inject() {
+    if (!options_.fault || injected_ || recorder_.time_s() < options_.fault->at_s) return;
+    injected_ = true;
+    switch (options_.fault->kind) {
+      case FaultKind::kill_app: app_.signal(SIGKILL); break;
+      case FaultKind::stop_app: app_.signal(SIGSTOP); break;
+      case FaultKind::kill_kernel: kernel_.signal(SIGKILL); break;
+    }
+    say(fmt::format("{:7.1f} s  fault injected", recorder_.time_s()));
+  }
+
+  void take_app_lines() {
+    for (const auto& line : app_.take_lines()) {
+      auto event = json::parse(line, nullptr, false);
+      if (!event.is_object()) continue;
+      const std::string name = event.value("event", "");
+      if (name == "pass") {
+        say(fmt::format("{:7.1f} s  truck {} pass {:2}: {:.2f} t in {:.1f} s", recorder_.time_s(), event.value("truck", 1), event.value("pass", 0),
+                        event.value("payload_kg", 0.0) / 1000, event.value("seconds", 0.0)));
+      } else if (name == "truck_full") {
+        say(fmt::format("{:7.1f} s  truck {} is full", recorder_.time_s(), event.value("truck", 1)));
+      } else if (name == "stopped") {
+        say(fmt::format("{:7.1f} s  the kernel stopped the machine: {}", recorder_.time_s(), event.value("reason", "?")));
+      } else if (name == "resumed") {
+        say(fmt::format("{:7.1f} s  moving again", recorder_.time_s()));
+      }
+      result_.app_events.push_back(std::move(event));
+    }
+  }
+
+  void take_plant_lines() {
+    for (const auto& line : plant_.take_lines()) {
+      const auto event = json::parse(line, nullptr, false);
+      if (!event.is_object()) continue;
+      const std::string name = event.value("event", "");
+      if (name == "contact") say(fmt::format("{:7.1f} s  CONTACT: {}", event.value("t", 0.0), event.value("what", "?")));
+      if (name == "truck_arrived") say(fmt::format("{:7.1f} s  a truck stands ready", event.value("t", 0.0)));
+      if (name == "truck_left") say(fmt::format("{:7.1f} s  the truck has left", event.value("t", 0.0)));
+    }
+  }
+
+  void finish() {
+    kernel_.signal(SIGTERM);
+    app_.signal(SIGCONT);
+    app_.signal(SIGTERM);
+    const bool kernel_ended = kernel_.wait_ended(kEndPatience_s);
+    if (!app_.wait_ended(kEndPatience_s)) app_.signal(SIGKILL);
+    recorder_.poll(0.0);
+    recorder_.close_journal();
+    if (plant_.exit_status() != 0) throw std::runtime_error("the plant failed: " + plant_.describe_end());
+    const bool kernel_killed = options_.fault && options_.fault->kind == FaultKind::kill_kernel;
+    if (!kernel_ended) throw std::runtime_error("the kernel does not end");
+    result_.kernel = json::parse(last_json_line(kernel_.take_lines()), nullptr, false);
+    if (result_.kernel.is_discarded()) {
+      if (!kernel_killed) throw std::runtime_error("the kernel ended without its report: " + kernel_.describe_end());
+      result_.kernel = nullptr;
+    }
+    std::ifstream truth(out_ + "/truth.json");
+    result_.truth = json::parse(truth, nullptr, false);
+    if (!result_.truth.is_object()) throw std::runtime_error("the plant left no ground truth");
+    result_.contacts = result_.truth.value("contacts", 0);
+    result_.stops = recorder_.stops();
+    result_.stop_events = recorder_.stop_events();
+    result_.kernel_faults = recorder_.faults();
+    result_.first_fault = recorder_.first_fault();
+    result_.journal_lost = recorder_.lost();
+    if (recorder_.lost() > 0) result_.notes.push_back(fmt::format("{} decisions did not reach the journal", recorder_.lost()));
+    if (options_.fault && !injected_) result_.notes.emplace_back("the run ended before the fault was due");
+    if (!options_.out.empty()) write_out();
+  }
+
+  void write_out() {
+    SitePictureInput picture;
+    picture.title = fmt::format("{}, seed {}, at the end of the run (simulation)", options_.scenario, options_.seed);
+    picture.map = recorder_.map();
+    picture.swept = recorder_.fastest_swing();
+    picture.path = recorder_.path();
+    picture.stops = recorder_.stop_events();
+    describe_site(machine_, site_, picture);
+    picture.movers = mover_paths(out_ + "/trace.csv");
+    write_site_picture(out_ + "/site.svg", picture);
+    write_text_file(out_ + "/result.json", flat_json(result_).dump(2) + "\n");
+    result_.notes.push_back(fmt::format("trace.csv, truth.json, journal.jsonl, site.svg and result.json are in {}", out_));
+  }
+
+  void say(const std::string& words) const {
+    if (options_.quiet) return;
+    fmt::print("{}\n", words);
+    std::fflush(stdout);
+  }
+
+  RunOptions options_;
+  Uids uids_;
+  std::string can_;
+  std::uint16_t scan_port_;
+  RunFolder folder_;
+  std::string out_, machine_, site_;
+  Clock::time_point begin_;
+  ChildProcess kernel_, app_, plant_;
+  Recorder recorder_;
+  RunResult result_;
+  bool injected_ = false;
+};
+
+}  // namespace
+
+RunResult load_trucks(const RunOptions& options) { return LoadRun(options).run(); }
+
+}  // namespace berm::run

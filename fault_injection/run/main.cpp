@@ -1,0 +1,26 @@
+// berm load: the main job.
+#include <fmt/format.h>
+
+#include <exception>
+
+#include "run/load_run.hpp"
+#include "run/parameter_file.hpp"
+#include "run/svg.hpp"
+
+int main(int argc, char** argv) {
+  berm::run::RunOptions options;
+  if (const auto status = berm::run::read_options(argc, argv, options)) return *status;
+  try {
+    const auto result = berm::run::load_trucks(options);
+    fmt::print("{}", berm::run::summary_text(result));
+    if (!options.json.empty()) berm::run::write_text_file(options.json, berm::run::flat_json(result).dump(2) + "\n");
+    const auto reasons = berm::run::shortcomings(result);
+    for (const auto& reason : reasons) fmt::print(stderr, "berm load: {}\n", reason);
+    return reasons.empty() ? 0 : 1;
+  } catch (const berm::run::ToldAlready&) {
+    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "berm load: {}\n", error.what());
+    return 2;
+  }
+}

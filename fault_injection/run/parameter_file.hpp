@@ -1,0 +1,23 @@
+// Machine and site files by name or path, and their compilation into the kernel's parameter block.
+#pragma once
+
+#include <exception>
+#include <string>
+
+namespace berm::run {
+
+// A name ("zx200") is looked up among the files that come with Berm; anything with a slash or ".toml" is a path. Throws std::runtime_error with what there is.
+std::string find_machine(const std::string& name);
+std::string find_site(const std::string& name);
+std::string find_scenario(const std::string& name);
+
+// A child process has told on standard error what is wrong; nothing more is to be said.
+class ToldAlready : public std::exception {
+ public:
+  const char* what() const noexcept override { return ""; }
+};
+
+// Compiles machine and site into a block at path with berm_params, which tells what is wrong; then throws ToldAlready.
+void compile_parameter_file(const std::string& machine, const std::string& site, const std::string& path);
+
+}  // namespace berm::run

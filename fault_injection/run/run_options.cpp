@@ -1,0 +1,51 @@
+#include "run/run_options.hpp"
+
+#include "run/command_line.hpp"
+
+namespace berm::run {
+
+namespace {
+
+ProcessFault parse_fault(const std::string& text) {
+  const auto at = text.find('@');
+  const std::string kind = text.substr(0, at);
+  ProcessFault fault{};
+  if (kind == "kill-app") fault.kind = FaultKind::kill_app;
+  else if (kind == "stop-app") fault.kind = FaultKind::stop_app;
+  else if (kind == "kill-kernel") fault.kind = FaultKind::kill_kernel;
+  else throw CLI::ValidationError("--fault", "unknown fault '" + kind + "': kill-app, stop-app or kill-kernel, then @SECONDS");
+  char* end = nullptr;
+  const std::string seconds = at == std::string::npos ? "" : text.substr(at + 1);
+  fault.at_s = std::strtod(seconds.c_str(), &end);
+  if (seconds.empty() || *end != '\0' || !(fault.at_s >= 0.0)) throw CLI::ValidationError("--fault", "'" + text + "' wants a time: e.g. kill-app@12.5");
+  return fault;
+}
+
+}  // namespace
+
+std::optional<int> read_options(int argc, char** argv, RunOptions& options) {
+  std::string fault;
+  CLI::App app{"Starts plant (simulated machine and site), safety kernel and planning app as three processes and loads trucks.\n"
+               "Exit status 0: every truck was loaded to at least 95 % of its target, nothing was touched, the kernel saw no fault.",
+               "berm load"};
+  app.add_option("--scenario", options.scenario, "a name (bench, person, ...) or a TOML file")->capture_default_str();
+  app.add_option("--trucks", options.trucks, "trucks to load")->capture_default_str()->check(CLI::Range(1, 100));
+  app.add_option("--seed", options.seed, "seed of every random draw")->capture_default_str();
+  app.add_flag("--realtime", options.realtime, "run on the wall clock instead of as fast as the computer allows");
+  app.add_option("--json", options.json, "write the result as one flat JSON object");
+  app.add_option("--out", options.out, "folder for trace.csv, truth.json, journal.jsonl, site.svg and result.json");
+  app.add_option("--fault", fault, "a process fault in the run: kill-app@S, stop-app@S or kill-kernel@S, S in simulated seconds; then status 0 means that the machine stood still in time, untouched");
+  app.add_flag("--quiet", options.quiet, "no progress, only the summary");
+  if (const auto status = parse(app, argc, argv)) return status;
+  if (!fault.empty()) {
+    try {
+      options.fault = parse_fault(fault);
+    } catch (const CLI::Error& error) {
+      fmt::print(stderr, "berm load: {}\n", error.what());
+      return 2;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace berm::run

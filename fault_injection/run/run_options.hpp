@@ -1,0 +1,32 @@
+// What `berm load` was asked to do.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace berm::run {
+
+enum class FaultKind { kill_app, stop_app, kill_kernel };
+
+// A fault of a process at a virtual time, for demonstrations and tests: "kill-app@12.5".
+struct ProcessFault {
+  FaultKind kind;
+  double at_s;
+};
+
+struct RunOptions {
+  std::string scenario = "bench";
+  int trucks = 1;
+  std::uint64_t seed = 1;
+  bool realtime = false;
+  std::string json;
+  std::string out;  // empty: a temporary folder, removed afterwards
+  std::optional<ProcessFault> fault;
+  bool quiet = false;
+};
+
+// Reads the command line; the exit status when the program should end now.
+std::optional<int> read_options(int argc, char** argv, RunOptions& options);
+
+}  // namespace berm::run

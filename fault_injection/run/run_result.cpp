@@ -1,0 +1,132 @@
+#include "run/run_result.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace berm::run {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr double kLoadedShare = 0.95;          // of the target: a truck that counts as loaded
+constexpr double kStandstillWithin_s = 6.0;    // 0.5 s of silence, 0.1 s latency and the longest stop of the braking table, 4.4 s, with a second to spare
+
+std::vector<double> pass_seconds(const RunResult& r) {
+  std::vector<double> seconds;
+  for (const auto& event : r.app_events)
+    if (event.value("event", "") == "pass") seconds.push_back(event.value("seconds", 0.0));
+  return seconds;
+}
+
+std::vector<double> loads(const RunResult& r) { return r.truth.value("truck_load_kg", std::vector<double>{}); }
+
+int trucks_loaded(const RunResult& r) {
+  const double target = r.truth.value("target_kg", 0.0);
+  const auto kg = loads(r);
+  return static_cast<int>(std::count_if(kg.begin(), kg.end(), [target](double load) { return target > 0.0 && load >= kLoadedShare * target; }));
+}
+
+std::string place(const StopEvent& stop) {
+  if (!stop.has_place) return fmt::format("{:.1f} s", stop.time_s);
+  return fmt::format("{:.1f} s at ({:.1f}, {:.1f}) height {:.1f} m", stop.time_s, stop.x_m, stop.y_m, stop.height_m);
+}
+
+std::string stops_text(const RunResult& r) {
+  if (r.stops.empty()) return "none";
+  std::string text;
+  for (const auto& [reason, count] : r.stops) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", reason, count);
+    std::vector<std::string> where;
+    for (const auto& stop : r.stop_events)
+      if (stop.reason == reason && where.size() < 3) where.push_back(place(stop));
+    text += fmt::format(" ({}{})", fmt::join(where, ", "), count > 3 ? ", ..." : "");
+  }
+  return text;
+}
+
+}  // namespace
+
+json flat_json(const RunResult& r) {
+  json out;
+  out["scenario"] = r.options.scenario;
+  out["seed"] = r.options.seed;
+  out["trucks_loaded"] = trucks_loaded(r);
+  const auto passes = pass_seconds(r);
+  out["passes"] = passes.size();
+  out["pass_seconds"] = passes;
+  out["target_kg"] = r.truth.value("target_kg", 0.0);
+  out["payload_kg"] = loads(r);
+  out["spill_fraction"] = r.truth.value("spill_fraction", 0.0);
+  out["load_centre_offset_m"] = r.truth.value("load_centre_offset_m", 0.0);
+  out["load_height_stddev_m"] = r.truth.value("load_height_stddev_m", 0.0);
+  out["contacts"] = r.contacts;
+  out["closest_approach_m"] = r.truth.contains("closest_approach_m") ? r.truth["closest_approach_m"] : json(nullptr);
+  out["kernel_stops"] = r.stops;
+  out["kernel_faults"] = r.kernel_faults;
+  for (const char* name : {"cycle_us_p50", "cycle_us_p99", "cycle_us_max"}) out[name] = r.kernel.contains(name) ? r.kernel[name] : json(nullptr);
+  out["simulated_seconds"] = r.truth.value("simulated_seconds", 0.0);
+  out["wall_seconds"] = r.wall_seconds;
+  out["end_reason"] = r.truth.value("end_reason", "");
+  out["standstill_after_fault_s"] = r.truth.contains("standstill_after_fault_s") ? r.truth["standstill_after_fault_s"] : json(nullptr);
+  out["journal_lost"] = r.journal_lost;
+  out["pid_plant"] = r.pids[0];
+  out["pid_kernel"] = r.pids[1];
+  out["pid_app"] = r.pids[2];
+  return out;
+}
+
+std::vector<std::string> shortcomings(const RunResult& r) {
+  std::vector<std::string> reasons;
+  if (r.contacts > 0) reasons.push_back(fmt::format("{} contact(s)", r.contacts));
+  if (r.options.fault) {
+    const auto standstill = r.truth.find("standstill_after_fault_s");
+    if (standstill == r.truth.end() || !standstill->is_number()) reasons.emplace_back("the machine did not come to a standstill after the fault");
+    else if (standstill->get<double>() > kStandstillWithin_s) reasons.push_back(fmt::format("standstill only {:.2f} s after the fault", standstill->get<double>()));
+    return reasons;
+  }
+  if (trucks_loaded(r) < r.options.trucks) reasons.push_back(fmt::format("{} of {} trucks loaded to {:.0f} % of target", trucks_loaded(r), r.options.trucks, 100 * kLoadedShare));
+  if (r.kernel_faults > 0) reasons.push_back(fmt::format("{} kernel fault(s), the first: {}", r.kernel_faults, r.first_fault));
+  return reasons;
+}
+
+std::string summary_text(const RunResult& r) {
+  const auto j = flat_json(r);
+  const auto passes = pass_seconds(r);
+  std::vector<double> sorted = passes;
+  std::sort(sorted.begin(), sorted.end());
+  const auto kg = loads(r);
+  const double target = j["target_kg"].get<double>();
+  std::string text = fmt::format("\nSummary ({}, seed {}; a simulation)\n", r.options.scenario, r.options.seed);
+  const auto row = [&text](const std::string& name, const std::string& value) { text += fmt::format("  {:<22}{}\n", name, value); };
+  std::vector<std::string> trucks;
+  for (const double load : kg) trucks.push_back(fmt::format("{:.2f} t ({:.1f} %)", load / 1000, target > 0 ? 100 * load / target : 0.0));
+  row("trucks loaded", fmt::format("{} of {}", j["trucks_loaded"].get<int>(), r.options.trucks));
+  row("payload", fmt::format("{} of {:.2f} t target", fmt::join(trucks, ", "), target / 1000));
+  row("passes", fmt::format("{}", passes.size()));
+  if (!sorted.empty())
+    row("seconds per pass", fmt::format("median {:.1f}, {:.1f} to {:.1f}", sorted[sorted.size() / 2], sorted.front(), sorted.back()));
+  row("spill", fmt::format("{:.2f} % of what was dug", 100 * j["spill_fraction"].get<double>()));
+  row("load", fmt::format("centre {:.2f} m off the bed's, height standard deviation {:.2f} m", j["load_centre_offset_m"].get<double>(), j["load_height_stddev_m"].get<double>()));
+  row("contacts (oracle)", fmt::format("{}", r.contacts));
+  if (r.truth.contains("contact_list"))
+    for (const auto& contact : r.truth["contact_list"]) row("", contact.is_string() ? contact.get<std::string>() : contact.dump());
+  if (j["closest_approach_m"].is_number())
+    row("closest approach", fmt::format("{:.2f} m{}", j["closest_approach_m"].get<double>(),
+                                        r.truth.contains("closest_what") ? fmt::format(" ({})", r.truth["closest_what"].get<std::string>()) : ""));
+  row("kernel stops", stops_text(r));
+  row("kernel faults", r.kernel_faults == 0 ? "none" : fmt::format("{} (first: {})", r.kernel_faults, r.first_fault));
+  if (j["cycle_us_p50"].is_number())
+    row("kernel cycle, CPU", fmt::format("median {} us, p99 {} us, maximum {} us", j["cycle_us_p50"].dump(), j["cycle_us_p99"].dump(), j["cycle_us_max"].dump()));
+  if (j["standstill_after_fault_s"].is_number()) row("after the fault", fmt::format("standstill in {:.2f} s", j["standstill_after_fault_s"].get<double>()));
+  const double simulated = j["simulated_seconds"].get<double>();
+  row("time", fmt::format("{:.1f} s simulated in {:.1f} s: {:.1f} times real time", simulated, r.wall_seconds, r.wall_seconds > 0 ? simulated / r.wall_seconds : 0.0));
+  row("processes", fmt::format("plant {}, kernel {}, app {}", r.pids[0], r.pids[1], r.pids[2]));
+  for (const auto& note : r.notes) row("note", note);
+  return text;
+}
+
+}  // namespace berm::run

@@ -1,0 +1,37 @@
+// The result of one run, merged from the plant's ground truth, the kernel's report, the app's log and the recorder.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "run/recorder.hpp"
+#include "run/run_options.hpp"
+
+namespace berm::run {
+
+struct RunResult {
+  RunOptions options;
+  nlohmann::json truth;                     // truth.json of the plant
+  nlohmann::json kernel;                    // report of the kernel at its end; null when it was killed
+  std::vector<nlohmann::json> app_events;
+  double wall_seconds = 0.0;
+  int contacts = 0;
+  int pids[3] = {};                         // plant, kernel, app
+  std::map<std::string, int> stops;
+  std::vector<StopEvent> stop_events;
+  int kernel_faults = 0;
+  std::string first_fault;
+  std::uint64_t journal_lost = 0;
+  std::vector<std::string> notes;           // things a person should know
+};
+
+// The documented flat object.
+nlohmann::json flat_json(const RunResult& result);
+// What a person reads.
+std::string summary_text(const RunResult& result);
+// Whether the run did what the command is for; otherwise the reasons.
+std::vector<std::string> shortcomings(const RunResult& result);
+
+}  // namespace berm::run

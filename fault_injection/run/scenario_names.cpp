@@ -1,0 +1,97 @@
+#include "run/scenario_names.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+#include <toml.hpp>
+
+namespace berm::run {
+
+namespace {
+
+toml::value parse_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path + ": cannot be opened");
+  try {
+    return toml::parse(file, path);
+  } catch (const std::exception& error) {
+    std::istringstream text(error.what());
+    std::string line, where;
+    std::getline(text, line);
+    for (std::string next; std::getline(text, next);)
+      if (where.empty() && next.find(" | ") != std::string::npos) where = next;
+    throw std::runtime_error(fmt::format("{}: not TOML: {}{}", path, line, where.empty() ? "" : " near" + where));
+  }
+}
+
+double number(const toml::value& value) { return value.is_integer() ? static_cast<double>(value.as_integer()) : value.as_floating(); }
+double number(const toml::value& table, const char* key) { return number(toml::find(table, key)); }
+
+std::vector<Point2> rectangle(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
+
+}  // namespace
+
+ScenarioNames scenario_names(const std::string& path) {
+  const auto file = parse_file(path);
+  const auto name = [&](const char* key) {
+    if (!file.is_table() || !file.contains(key) || !toml::find(file, key).is_string())
+      throw std::runtime_error(fmt::format("{}: {}: missing, or no name in quotes", path, key));
+    return toml::find<std::string>(file, key);
+  };
+  return {name("machine"), name("site")};
+}
+
+void describe_site(const std::string& machine, const std::string& site, SitePictureInput& picture) {
+  const auto m = toml::find(parse_file(machine), "kinematics");
+  picture.arm = {number(m, "boom_pin_x"), number(m, "boom_pin_z"), number(m, "boom"), number(m, "stick"), number(m, "bucket")};
+  const auto s = parse_file(site);
+  for (const auto& zone : toml::find(s, "dig_zone").as_array()) {
+    const auto& x = toml::find(zone, "x").as_array();
+    const auto& y = toml::find(zone, "y").as_array();
+    picture.dig_zones.push_back(rectangle(number(x[0]), number(y[0]), number(x[1]), number(y[1])));
+  }
+  const auto truck = toml::find(s, "truck");
+  const auto& centre = toml::find(truck, "centre").as_array();
+  const double cx = number(centre[0]), cy = number(centre[1]), yaw = number(truck, "yaw_deg") * std::numbers::pi / 180;
+  for (const auto& [x, y] : rectangle(-number(truck, "length") / 2, -number(truck, "width") / 2, number(truck, "length") / 2, number(truck, "width") / 2))
+    picture.truck_bed.emplace_back(cx + x * std::cos(yaw) - y * std::sin(yaw), cy + x * std::sin(yaw) + y * std::cos(yaw));
+  picture.truck_bearing_rad = std::atan2(cy, cx);
+  picture.dig_bearing_rad = 0.0;
+}
+
+std::vector<MoverPath> mover_paths(const std::string& trace) {
+  constexpr double kMoved_m = 0.5;
+  constexpr int kEvery = 10;
+  std::ifstream file(trace);
+  std::string line, cell;
+  if (!std::getline(file, line)) return {};
+  std::vector<std::string> names;
+  for (std::istringstream header(line); std::getline(header, cell, ',');) names.push_back(cell);
+  std::vector<MoverPath> paths;
+  std::vector<std::array<std::size_t, 2>> columns;
+  for (std::size_t i = 0; i + 1 < names.size(); ++i) {
+    if (!names[i].ends_with("_x_m")) continue;
+    paths.push_back({names[i].substr(0, names[i].size() - 4), {}});
+    columns.push_back({i, i + 1});
+  }
+  for (int row = 0; std::getline(file, line); ++row) {
+    if (row % kEvery != 0) continue;
+    std::vector<double> values;
+    for (std::istringstream cells(line); std::getline(cells, cell, ',');) values.push_back(std::strtod(cell.c_str(), nullptr));
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      if (columns[i][1] < values.size()) paths[i].points.emplace_back(values[columns[i][0]], values[columns[i][1]]);
+  }
+  std::erase_if(paths, [](const MoverPath& path) {
+    for (const auto& point : path.points)
+      if (std::hypot(point.first - path.points.front().first, point.second - path.points.front().second) > kMoved_m) return false;
+    return true;
+  });
+  return paths;
+}
+
+}  // namespace berm::run

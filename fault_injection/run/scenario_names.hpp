@@ -1,0 +1,21 @@
+// What the launcher itself needs of a scenario, a site and a trace: the names of the machine and site files, outlines for the picture, paths of
+// people and vehicles. The plant reads and checks the whole scenario.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run/site_picture.hpp"
+
+namespace berm::run {
+
+struct ScenarioNames { std::string machine, site; };
+
+// Throws std::runtime_error with one line when the file is missing, is no TOML, or names no machine or site.
+ScenarioNames scenario_names(const std::string& path);
+// Fills the arm, dig zones, truck bed and bearings.
+void describe_site(const std::string& machine, const std::string& site, SitePictureInput& picture);
+// From the columns NAME_x_m and NAME_y_m of trace.csv; only what moved.
+std::vector<MoverPath> mover_paths(const std::string& trace);
+
+}  // namespace berm::run

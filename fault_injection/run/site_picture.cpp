@@ -1,0 +1,123 @@
+#include "run/site_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "run/map_picture.hpp"
+
+namespace berm::run {
+
+namespace {
+
+constexpr std::array<const char*, BERM_JOINTS> kLinkColours{"#888888", "#1d4ed8", "#0e7490", "#b91c1c"};
+constexpr const char* kPathStyle = "stroke:#7c3aed;stroke-width:1;stroke-opacity:0.7";
+
+struct Tip { double r, z; };
+
+Tip bucket_tip(const SitePictureInput& in, const std::array<double, 4>& q) {
+  const double boom = q[1], stick = boom + q[2], bucket = stick + q[3];
+  return {in.arm.boom_pin_x + in.arm.boom * std::cos(boom) + in.arm.stick * std::cos(stick) + in.arm.bucket * std::cos(bucket),
+          in.arm.boom_pin_z + in.arm.boom * std::sin(boom) + in.arm.stick * std::sin(stick) + in.arm.bucket * std::sin(bucket)};
+}
+
+// Convex outline of a slice in a plane (Andrew's monotone chain).
+std::vector<Point2> hull(std::vector<Point2> points) {
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
+  const auto turn = [](const Point2& a, const Point2& b, const Point2& c) {
+    return (b.first - a.first) * (c.second - a.second) - (b.second - a.second) * (c.first - a.first);
+  };
+  std::vector<Point2> chain;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t base = chain.size();
+    for (const auto& point : points) {
+      while (chain.size() >= base + 2 && turn(chain[chain.size() - 2], chain.back(), point) <= 0) chain.pop_back();
+      chain.push_back(point);
+    }
+    chain.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return chain;
+}
+
+template <typename Project>
+void draw_slices(SvgPanel& panel, const SliceSnapshot& swept, Project project) {
+  for (const auto& slice : swept.slices) {
+    std::vector<Point2> points;
+    for (std::uint32_t v = 0; v < std::min<std::uint32_t>(slice.vertices, BERM_SLICE_VERTICES); ++v) points.push_back(project(slice.vertex_mm[v]));
+    const std::string colour = kLinkColours[slice.link < kLinkColours.size() ? slice.link : 0];
+    panel.polygon(hull(points), fmt::format("fill:{0};fill-opacity:0.06;stroke:{0};stroke-opacity:0.45;stroke-width:0.6", colour));
+  }
+}
+
+std::vector<Point2> profile(const MapSnapshot& map, double bearing, double r0, double r1) {
+  std::vector<Point2> line;
+  for (double r = r0; r <= r1; r += map.cell_m / 2) {
+    const int ix = static_cast<int>(std::floor((r * std::cos(bearing) - map.origin_m) / map.cell_m));
+    const int iy = static_cast<int>(std::floor((r * std::sin(bearing) - map.origin_m) / map.cell_m));
+    if (ix < 0 || iy < 0 || ix >= BERM_MAP_CELLS || iy >= BERM_MAP_CELLS) continue;
+    const auto i = static_cast<std::size_t>(iy * BERM_MAP_CELLS + ix);
+    if (map.status[i] == BERM_CELL_OBSERVED || map.status[i] == BERM_CELL_STALE) line.emplace_back(r, map.height_mm[i] * 1e-3);
+  }
+  return line;
+}
+
+void draw_from_above(SvgPanel& panel, const SitePictureInput& in, HeightRange range) {
+  draw_map(panel, in.map, range);
+  for (const auto& zone : in.dig_zones) panel.polygon(zone, "fill:none;stroke:#b45309;stroke-width:2;stroke-dasharray:6 4");
+  if (!in.truck_bed.empty()) panel.polygon(in.truck_bed, "fill:none;stroke:#111;stroke-width:2");
+  draw_slices(panel, in.swept, [](const std::int32_t (&v)[3]) { return Point2(v[0] * 1e-3, v[1] * 1e-3); });
+  std::vector<Point2> path;
+  for (const auto& point : in.path) {
+    const auto tip = bucket_tip(in, point.angle_rad);
+    path.emplace_back(tip.r * std::cos(point.angle_rad[0]), tip.r * std::sin(point.angle_rad[0]));
+  }
+  panel.line(path, kPathStyle);
+  for (const auto& mover : in.movers) {
+    if (mover.points.empty()) continue;
+    panel.line(mover.points, "stroke:#dc2626;stroke-width:2;stroke-dasharray:2 3");
+    panel.circle(mover.points.back().first, mover.points.back().second, 0.25, "fill:#dc2626");
+    panel.text(mover.points.back().first + 0.4, mover.points.back().second, mover.name, "font-size:12px;fill:#dc2626");
+  }
+  for (const auto& stop : in.stops)
+    if (stop.has_place) panel.circle(stop.x_m, stop.y_m, 0.2, "fill:none;stroke:#dc2626;stroke-width:2");
+  panel.circle(0, 0, 0.15, "fill:#fff");
+  panel.axes(5.0, "x (m), forward", "y (m), left");
+  panel.title("From above: " + in.title);
+}
+
+void draw_from_side(SvgPanel& panel, const SitePictureInput& in) {
+  draw_slices(panel, in.swept, [](const std::int32_t (&v)[3]) { return Point2(std::hypot(v[0], v[1]) * 1e-3, v[2] * 1e-3); });
+  panel.line(profile(in.map, in.dig_bearing_rad, 3.0, 15.0), "stroke:#b45309;stroke-width:2");
+  panel.line(profile(in.map, in.truck_bearing_rad, 3.0, 15.0), "stroke:#111;stroke-width:2");
+  std::vector<Point2> path;
+  for (const auto& point : in.path) {
+    const auto tip = bucket_tip(in, point.angle_rad);
+    path.emplace_back(tip.r, tip.z);
+  }
+  panel.line(path, kPathStyle);
+  panel.axes(2.0, "distance from the swing axis (m)", "height (m)");
+  panel.title("From the side, swing plane: ground at the dig face (brown) and at the truck (black) as the kernel's map has it");
+  panel.text(9.2, 6.4, "swept volume of the fastest swing: boom", fmt::format("font-size:11px;fill:{}", kLinkColours[1]));
+  panel.text(9.2, 5.95, "stick", fmt::format("font-size:11px;fill:{}", kLinkColours[2]));
+  panel.text(9.2, 5.5, "bucket with its heaviest load", fmt::format("font-size:11px;fill:{}", kLinkColours[3]));
+  panel.text(9.2, 5.05, "path of the bucket's tip", "font-size:11px;fill:#7c3aed");
+}
+
+}  // namespace
+
+void write_site_picture(const std::string& path, const SitePictureInput& in) {
+  const auto range = height_range(in.map);
+  SvgPanel above(-6.0, -8.0, 14.0, 13.0, 60, 40, 36.0);
+  SvgPanel side(-1.0, -4.0, 14.0, 7.0, 60, 40 + above.pixel_height() + 110, 48.0);
+  draw_from_above(above, in, range);
+  draw_from_side(side, in);
+  write_svg(path, above.pixel_width() + 90, above.pixel_height() + side.pixel_height() + 200, {&above, &side},
+            colour_bar(60, 40 + above.pixel_height() + 42, above.pixel_width(), range));
+}
+
+}  // namespace berm::run

@@ -1,0 +1,42 @@
+// berm_params: compiles a machine and a site file into the kernel's parameter block, or shows a block.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "config/compile_parameters.hpp"
+
+int main(int argc, char** argv) {
+  std::string machine, site, out, show;
+  CLI::App app{"Compiles a machine file and a site file (TOML) into the kernel's parameter block, or shows a block.", "berm_params"};
+  app.add_option("MACHINE", machine, "machine profile, TOML");
+  app.add_option("SITE", site, "site, TOML");
+  app.add_option("-o,--out", out, "where the block goes");
+  app.add_option("--show", show, "print what a block says");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    std::string what = error.what();
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    fmt::print(stderr, "berm_params: {} (see --help)\n", what);
+    return 2;
+  }
+  try {
+    if (!show.empty()) {
+      fmt::print("{}", berm::config::describe(berm::config::load_parameters(show)));
+      return 0;
+    }
+    if (machine.empty() || site.empty() || out.empty()) {
+      fmt::print(stderr, "berm_params: MACHINE, SITE and --out are needed, or --show FILE (see --help)\n");
+      return 2;
+    }
+    const auto block = berm::config::compile_parameters(berm::config::load_machine_file(machine), berm::config::load_site_file(site));
+    berm::config::save_parameters(block, out);
+    return 0;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "berm_params: {}\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,112 @@
+#include "config/compile_parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+
+namespace berm::config {
+
+namespace {
+
+constexpr double kMicro = 1e6, kMilli = 1e3;
+constexpr double kSlack = 1e-6;  // a decimal that is meant to be whole stays whole
+
+std::int32_t up(double value, double scale) { return static_cast<std::int32_t>(std::ceil(value * scale - kSlack)); }
+std::int32_t down(double value, double scale) { return static_cast<std::int32_t>(std::floor(value * scale + kSlack)); }
+std::int32_t near(double value, double scale) { return static_cast<std::int32_t>(std::lround(value * scale)); }
+
+void compile_joints(const MachineFile& m, berm_parameters& p) {
+  for (std::size_t j = 0; j < kJoints; ++j) {
+    const auto& joint = m.joint[j];
+    p.joint_low_urad[j] = up(joint.low, kMicro);                            // inwards
+    p.joint_high_urad[j] = down(joint.high, kMicro);
+    p.velocity_max_urad_s[j] = down(joint.velocity_max, kMicro);            // commands are clamped to it
+    p.acceleration_max_urad_s2[j] = up(joint.acceleration_max, kMicro);
+    p.creep_velocity_urad_s[j] = down(joint.creep_velocity, kMicro);
+    p.angle_error_urad[j] = up(joint.angle_error, kMicro);
+    p.velocity_error_urad_s[j] = up(joint.velocity_error, kMicro);
+    for (std::size_t r = 0; r < BERM_BRAKE_REACHES; ++r) {
+      for (std::size_t k = 0; k < BERM_BRAKE_SPEEDS; ++k) {
+        p.brake_angle_urad[j][r][k] = up(m.braking.angle[j][r][k], kMicro);
+        p.brake_time_us[j][r][k] = up(m.braking.time[j][r][k], kMicro);
+      }
+    }
+  }
+  for (std::size_t r = 0; r < BERM_BRAKE_REACHES; ++r) p.brake_reach_mm[r] = down(m.braking.reach[r], kMilli);
+}
+
+void compile_parts(const MachineFile& m, berm_parameters& p) {
+  p.parts = static_cast<std::int32_t>(m.part.size());
+  for (std::size_t i = 0; i < m.part.size(); ++i) {
+    const auto& part = m.part[i];
+    p.part[i].link = part.link;
+    p.part[i].half_width_mm = up(part.half_width, kMilli);
+    p.part[i].vertices = static_cast<std::int32_t>(part.outline.size());
+    for (std::size_t v = 0; v < part.outline.size(); ++v)
+      for (std::size_t axis = 0; axis < 2; ++axis) p.part[i].vertex_mm[v][axis] = near(part.outline[v][axis], kMilli);
+  }
+}
+
+void compile_sensors(const MachineFile& m, berm_parameters& p) {
+  for (std::size_t i = 0; i < m.scanner.size(); ++i) {
+    const auto& s = m.scanner[i];
+    p.scanner[i] = {near(s.position[0], kMilli), near(s.position[1], kMilli), near(s.position[2], kMilli),
+                    up(s.pan_low, kMicro),       down(s.pan_high, kMicro),    down(s.pan_rate_max, kMicro)};
+  }
+  const auto& k = m.kernel;
+  p.scanner_silent_us = down(k.scanner_silent, kMicro);
+  p.spurious_range_mm = up(k.spurious_range, kMilli);
+  p.range_min_mm = near(k.range_min, kMilli);
+  p.range_max_mm = near(k.range_max, kMilli);
+  p.self_margin_mm = down(k.self_margin, kMilli);
+}
+
+void compile_rules(const MachineFile& m, const SiteFile& site, berm_parameters& p) {
+  const auto& k = m.kernel;
+  p.margin_mm = up(k.margin, kMilli);
+  p.fresh_us = down(k.fresh, kMicro);
+  p.generation_us = up(k.generation, kMicro);
+  p.dig_swing_limit_urad_s = down(k.dig_swing_limit, kMicro);
+  p.request_age_us = down(k.request_age, kMicro);
+  p.request_hold_us = down(k.request_hold, kMicro);
+  p.request_silent_us = down(k.request_silent, kMicro);
+  p.state_frame_age_us = down(k.state_frame_age, kMicro);
+  p.machine_state_age_us = down(k.machine_state_age, kMicro);
+  p.operator_age_us = down(k.operator_age, kMicro);
+  p.cycle_us = near(k.cycle, kMicro);
+  p.standstill_urad_s = down(k.standstill_speed, kMicro);
+  p.standstill_us = up(k.standstill, kMicro);
+  p.dig_zones = static_cast<std::int32_t>(site.dig_zone.size());
+  for (std::size_t i = 0; i < site.dig_zone.size(); ++i) {  // inwards
+    const auto& z = site.dig_zone[i];
+    p.dig_zone[i] = {up(z.x_low, kMilli), up(z.y_low, kMilli), down(z.x_high, kMilli), down(z.y_high, kMilli), up(z.floor, kMilli)};
+  }
+}
+
+}  // namespace
+
+berm_parameters compile_parameters(const MachineFile& m, const SiteFile& site) {
+  constexpr std::int32_t kCell_mm = 300;
+  berm_parameters p{};
+  p.magic = BERM_PARAMETERS_MAGIC;
+  p.version = BERM_PARAMETERS_VERSION;
+  p.size = static_cast<std::int32_t>(sizeof p);
+  p.cell_mm = kCell_mm;
+  p.boom_pin_x_mm = near(m.boom_pin_x, kMilli);
+  p.boom_pin_z_mm = near(m.boom_pin_z, kMilli);
+  p.boom_length_mm = near(m.boom, kMilli);
+  p.stick_length_mm = near(m.stick, kMilli);
+  p.bucket_length_mm = near(m.bucket, kMilli);
+  p.own_body_radius_mm = down(m.own_body_radius, kMilli);
+  p.state_latency_us = up(m.state_latency, kMicro);
+  p.command_latency_us = up(m.command_latency, kMicro);
+  compile_joints(m, p);
+  compile_parts(m, p);
+  compile_sensors(m, p);
+  compile_rules(m, site, p);
+  p.crc32 = parameters_crc(p);
+  return p;
+}
+
+}  // namespace berm::config

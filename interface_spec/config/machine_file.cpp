@@ -1,0 +1,145 @@
+#include "config/machine_file.hpp"
+
+#include <fmt/format.h>
+
+#include "config/parameter_block.h"
+#include "config/strict_table.hpp"
+
+namespace berm::config {
+
+const std::array<const char*, kJoints> kJointNames{"swing", "boom", "stick", "bucket"};
+
+namespace {
+
+JointFile read_joint(StrictTable table) {
+  JointFile joint{};
+  const auto range = table.array<2>("range_deg", -360.0, 360.0);
+  if (range[0] >= range[1]) table.fail("range_deg", "the low end is not below the high end");
+  joint.low = radians(range[0]);
+  joint.high = radians(range[1]);
+  joint.velocity_max = table.degrees("velocity_max_deg_s", 1.0, 180.0);
+  joint.acceleration_max = table.number("acceleration_max_rad_s2", 0.01, 20.0);
+  joint.creep_velocity = table.degrees("creep_deg_s", 0.1, 15.0);
+  if (joint.creep_velocity > joint.velocity_max) table.fail("creep_deg_s", "above velocity_max_deg_s");
+  joint.angle_error = table.degrees("angle_error_deg", 0.0, 5.0);
+  joint.velocity_error = table.degrees("velocity_error_deg_s", 0.0, 5.0);
+  table.finish();
+  return joint;
+}
+
+// One row for each reach, one column for each speed; neither may fall with growing reach or speed.
+std::vector<std::vector<double>> read_matrix(StrictTable& table, const std::string& key, std::size_t rows, double high) {
+  const auto flat = table.matrix(key, rows, BERM_BRAKE_SPEEDS, 0.0, high);
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t k = 0; k < flat[r].size(); ++k)
+      if ((k > 0 && flat[r][k] < flat[r][k - 1]) || (r > 0 && flat[r][k] < flat[r - 1][k]))
+        table.fail(key, fmt::format("row {}, column {}: falls with growing {}", r + 1, k + 1, k > 0 && flat[r][k] < flat[r][k - 1] ? "speed" : "reach"));
+  return flat;
+}
+
+BrakingFile read_braking(StrictTable table) {
+  BrakingFile braking;
+  braking.provenance = table.text("provenance");
+  braking.reach = table.numbers("reach_m", BERM_BRAKE_REACHES, 0.1, 30.0);
+  for (std::size_t r = 1; r < braking.reach.size(); ++r)
+    if (braking.reach[r] <= braking.reach[r - 1]) table.fail("reach_m", "must rise");
+  for (std::size_t j = 0; j < kJoints; ++j) {
+    StrictTable joint = table.table(kJointNames[j]);
+    braking.angle[j] = read_matrix(joint, "angle_deg", braking.reach.size(), 360.0);
+    for (auto& row : braking.angle[j])
+      for (double& angle : row) angle = radians(angle);
+    braking.time[j] = read_matrix(joint, "time_s", braking.reach.size(), 20.0);
+    joint.finish();
+  }
+  table.finish();
+  return braking;
+}
+
+PartFile read_part(StrictTable table) {
+  PartFile part;
+  const std::string link = table.choice("link", {"boom", "stick", "bucket"});
+  part.link = link == "boom" ? 1 : link == "stick" ? 2 : 3;
+  part.half_width = table.number("half_width", 0.01, 3.0);
+  part.outline = table.points("outline", 3, BERM_PART_VERTICES, -10.0, 10.0);
+  const std::size_t n = part.outline.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto& a = part.outline[i];
+    const auto& b = part.outline[(i + 1) % n];
+    const auto& c = part.outline[(i + 2) % n];
+    if ((b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]) <= 0.0)
+      table.fail("outline", fmt::format("not convex and counter-clockwise at point {}", (i + 1) % n + 1));
+  }
+  table.finish();
+  return part;
+}
+
+ScannerFile read_scanner(StrictTable table) {
+  ScannerFile scanner{};
+  scanner.position = table.array<3>("position", -10.0, 10.0);
+  const auto range = table.array<2>("pan_range_deg", -360.0, 360.0);
+  if (range[0] >= range[1]) table.fail("pan_range_deg", "the low end is not below the high end");
+  scanner.pan_low = radians(range[0]);
+  scanner.pan_high = radians(range[1]);
+  scanner.pan_rate_max = table.degrees("pan_rate_max_deg_s", 1.0, 720.0);
+  table.finish();
+  return scanner;
+}
+
+KernelFile read_kernel(StrictTable table) {
+  KernelFile k{};
+  k.cycle = table.number("cycle", 0.001, 0.1);
+  k.margin = table.number("margin", 0.0, 2.0);
+  k.fresh = table.number("fresh", 0.1, 120.0);
+  k.generation = table.number("generation", 0.05, 60.0);
+  k.dig_swing_limit = table.degrees("dig_swing_limit_deg_s", 0.1, 15.0);
+  k.scanner_silent = table.number("scanner_silent", 0.02, 2.0);
+  k.spurious_range = table.number("spurious_range", 0.1, 20.0);
+  k.range_min = table.number("range_min", 0.1, 5.0);
+  k.range_max = table.number("range_max", 10.0, 200.0);
+  k.self_margin = table.number("self_margin", 0.0, 1.0);
+  k.request_age = table.number("request_age", 0.01, 0.5);
+  k.request_hold = table.number("request_hold", 0.01, 0.05);      // the contract's 50 ms
+  k.request_silent = table.number("request_silent", 0.05, 0.5);   // the contract's 500 ms
+  k.state_frame_age = table.number("state_frame_age", 0.01, 0.2);
+  k.machine_state_age = table.number("machine_state_age", 0.05, 1.0);
+  k.operator_age = table.number("operator_age", 0.05, 1.0);
+  k.standstill_speed = table.degrees("standstill_deg_s", 0.05, 2.0);
+  k.standstill = table.number("standstill", 0.05, 2.0);
+  table.finish();
+  return k;
+}
+
+}  // namespace
+
+MachineFile load_machine_file(const std::string& path) {
+  StrictTable file = StrictTable::parse_file(path);
+  MachineFile m;
+  file.integer("schema", 1, 1);
+  m.name = file.text("name");
+  StrictTable kinematics = file.table("kinematics");
+  m.boom_pin_x = kinematics.number("boom_pin_x", -5.0, 5.0);
+  m.boom_pin_z = kinematics.number("boom_pin_z", 0.0, 10.0);
+  m.boom = kinematics.number("boom", 0.5, 15.0);
+  m.stick = kinematics.number("stick", 0.5, 15.0);
+  m.bucket = kinematics.number("bucket", 0.2, 5.0);
+  m.own_body_radius = kinematics.number("own_body_radius", 0.5, 8.0);
+  kinematics.finish();
+  StrictTable joints = file.table("joint");
+  for (std::size_t j = 0; j < kJoints; ++j) m.joint[j] = read_joint(joints.table(kJointNames[j]));
+  joints.finish();
+  StrictTable latency = file.table("latency");
+  m.state_latency = latency.number("state", 0.0, 0.5);
+  m.command_latency = latency.number("command", 0.0, 1.0);
+  latency.finish();
+  m.braking = read_braking(file.table("braking"));
+  for (auto& part : file.tables("part")) m.part.push_back(read_part(std::move(part)));
+  if (m.part.empty() || m.part.size() > BERM_PARTS) file.fail("part", fmt::format("{} parts, 1 to {} are taken", m.part.size(), BERM_PARTS));
+  auto scanners = file.tables("scanner");
+  if (scanners.size() != m.scanner.size()) file.fail("scanner", "exactly two, left and right");
+  for (std::size_t i = 0; i < scanners.size(); ++i) m.scanner[i] = read_scanner(std::move(scanners[i]));
+  m.kernel = read_kernel(file.table("kernel"));
+  file.finish();
+  return m;
+}
+
+}  // namespace berm::config

@@ -1,0 +1,59 @@
+// A machine profile as its TOML file has it (CONFIG.md), in SI units and radians.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace berm::config {
+
+constexpr std::size_t kJoints = 4;  // swing, boom, stick, bucket
+extern const std::array<const char*, kJoints> kJointNames;
+
+struct JointFile {
+  double low, high;            // permitted range, rad
+  double velocity_max;         // rad/s
+  double acceleration_max;     // rad/s2, either direction
+  double creep_velocity;       // rad/s, recovery motion
+  double angle_error, velocity_error;  // of the measurement, rad and rad/s
+};
+
+struct BrakingFile {
+  std::string provenance;
+  std::vector<double> reach;                                        // m, ascending: upper end of each row
+  std::array<std::vector<std::vector<double>>, kJoints> angle;      // [joint][reach][speed], rad
+  std::array<std::vector<std::vector<double>>, kJoints> time;       // s
+};
+
+struct PartFile {
+  int link;                                   // 1 boom, 2 stick, 3 bucket
+  double half_width;                          // m
+  std::vector<std::array<double, 2>> outline; // x, z in the link's frame, m; convex, counter-clockwise
+};
+
+struct ScannerFile {
+  std::array<double, 3> position;             // m, upper body's frame
+  double pan_low, pan_high;                   // rad
+  double pan_rate_max;                        // rad/s
+};
+
+struct KernelFile {  // seconds, metres, radians
+  double cycle, margin, fresh, generation, dig_swing_limit, scanner_silent, spurious_range, range_min, range_max, self_margin, request_age, request_hold,
+      request_silent, state_frame_age, machine_state_age, operator_age, standstill_speed, standstill;
+};
+
+struct MachineFile {
+  std::string name;
+  double boom_pin_x, boom_pin_z, boom, stick, bucket, own_body_radius;  // m
+  std::array<JointFile, kJoints> joint;
+  double state_latency, command_latency;  // s
+  BrakingFile braking;
+  std::vector<PartFile> part;
+  std::array<ScannerFile, 2> scanner;     // left, right
+  KernelFile kernel;
+};
+
+// Throws ConfigError (strict_table.hpp) with one line: file, field, limit.
+MachineFile load_machine_file(const std::string& path);
+
+}  // namespace berm::config

@@ -1,0 +1,58 @@
+#include "config/site_file.hpp"
+
+#include <fmt/format.h>
+
+#include "config/parameter_block.h"
+#include "config/strict_table.hpp"
+
+namespace berm::config {
+
+namespace {
+
+DigZoneFile read_zone(StrictTable table) {
+  DigZoneFile zone{};
+  const auto x = table.array<2>("x", -15.0, 15.0);
+  const auto y = table.array<2>("y", -15.0, 15.0);
+  if (x[0] >= x[1]) table.fail("x", "the low end is not below the high end");
+  if (y[0] >= y[1]) table.fail("y", "the low end is not below the high end");
+  zone = {x[0], x[1], y[0], y[1], table.number("floor", -15.0, 5.0)};
+  table.finish();
+  return zone;
+}
+
+TruckPlaceFile read_truck(StrictTable table) {
+  TruckPlaceFile truck{};
+  truck.centre = table.array<2>("centre", -15.0, 15.0);
+  truck.yaw = table.degrees("yaw_deg", -180.0, 180.0);
+  truck.length = table.number("length", 1.0, 12.0);
+  truck.width = table.number("width", 1.0, 6.0);
+  truck.height = table.number("height", 0.2, 4.0);
+  truck.wall_top = table.number("wall_top", -10.0, 6.0);
+  truck.target_kg = table.number("target_kg", 100.0, 200000.0);
+  table.finish();
+  return truck;
+}
+
+}  // namespace
+
+SiteFile load_site_file(const std::string& path) {
+  StrictTable file = StrictTable::parse_file(path);
+  SiteFile site;
+  file.integer("schema", 1, 1);
+  site.name = file.text("name");
+  for (auto& zone : file.tables("dig_zone")) site.dig_zone.push_back(read_zone(std::move(zone)));
+  if (site.dig_zone.empty() || site.dig_zone.size() > BERM_DIG_ZONES)
+    file.fail("dig_zone", fmt::format("{} zones, 1 to {} are taken", site.dig_zone.size(), BERM_DIG_ZONES));
+  site.truck = read_truck(file.table("truck"));
+  StrictTable dig = file.table("dig");
+  const auto swing = dig.array<2>("swing_deg", -180.0, 180.0);
+  if (swing[0] < swing[1]) dig.fail("swing_deg", "leftmost first");
+  site.dig.swing = {radians(swing[0]), radians(swing[1])};
+  site.dig.radius = dig.array<2>("radius", 1.0, 15.0);
+  if (site.dig.radius[0] <= site.dig.radius[1]) dig.fail("radius", "the drag goes inwards: the start is farther out than the end");
+  dig.finish();
+  file.finish();
+  return site;
+}
+
+}  // namespace berm::config

@@ -1,0 +1,35 @@
+// A site as its TOML file has it (CONFIG.md): base frame, metres, radians.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace berm::config {
+
+struct DigZoneFile { double x_low, x_high, y_low, y_high, floor; };
+
+struct TruckPlaceFile {            // the inside of the bed of a parked truck
+  std::array<double, 2> centre;
+  double yaw;                      // of the bed's long axis, from base x
+  double length, width, height;    // height: floor to wall top
+  double wall_top;                 // z of the wall tops
+  double target_kg;
+};
+
+struct DigFile {
+  std::array<double, 2> swing;     // leftmost and rightmost dig bearing, rad
+  std::array<double, 2> radius;    // of the tip at the start and at the end of the drag
+};
+
+struct SiteFile {
+  std::string name;
+  std::vector<DigZoneFile> dig_zone;
+  TruckPlaceFile truck;
+  DigFile dig;
+};
+
+// Throws ConfigError (strict_table.hpp) with one line: file, field, limit.
+SiteFile load_site_file(const std::string& path);
+
+}  // namespace berm::config

@@ -1,0 +1,53 @@
+"""Running Berm's programs from system tests. Standard library only."""
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+
+BIN = pathlib.Path(os.environ["BERM_BIN"])
+ROOT = pathlib.Path(os.environ["BERM_ROOT"])
+REAL_DATA = pathlib.Path(os.environ.get("BERM_REAL_DATA") or ROOT.parent / "shared" / "real_data")
+SKIPPED = 77  # ctest's SKIP_RETURN_CODE
+
+
+def run(program, *arguments, timeout=600, **options):
+    """Runs a program to its end; the command is printed so that a failure can be repeated."""
+    command = [str(BIN / program), *map(str, arguments)]
+    print("$", " ".join(command), flush=True)
+    return subprocess.run(command, capture_output=True, text=True, timeout=timeout, **options)
+
+
+def load(*arguments, timeout=600):
+    """berm load into a fresh folder: (exit status, result.json's object, folder, output)."""
+    out = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
+    done = run("berm_load", *arguments, "--out", out, "--json", out / "again.json", timeout=timeout)
+    print(done.stdout[-3000:], done.stderr[-2000:], flush=True)
+    result = out / "again.json"
+    return done.returncode, json.loads(result.read_text()) if result.exists() else None, out, done.stdout + done.stderr
+
+
+def one_clear_line(done, *words):
+    """A refusal: non-zero exit, one line on standard error with these words, nothing on standard output that looks like a result."""
+    lines = [line for line in done.stderr.splitlines() if line.strip()]
+    assert done.returncode != 0, "exit status 0 for bad input"
+    assert done.returncode > 0, f"died by signal {-done.returncode}"
+    assert len(lines) == 1, f"not one line: {lines}"
+    for word in words:
+        assert str(word) in lines[0], f"'{word}' is not in: {lines[0]}"
+
+
+def main(tests, skip_reason=None):
+    """Runs test functions by name; prints each; non-zero when one fails."""
+    if skip_reason:
+        print(f"SKIPPED: {skip_reason}")
+        raise SystemExit(SKIPPED)
+    failures = 0
+    for test in tests:
+        try:
+            test()
+            print(f"ok   {test.__name__}", flush=True)
+        except AssertionError as error:
+            failures += 1
+            print(f"FAIL {test.__name__}: {error}", flush=True)
+    raise SystemExit(1 if failures else 0)

@@ -1,0 +1,96 @@
+"""Bad input gets one clear line and a non-zero exit, and leaves nothing half-written."""
+import os
+import pathlib
+import shutil
+import struct
+import tempfile
+
+from berm_command import BIN, REAL_DATA, ROOT, main, one_clear_line, run
+
+CAPTURE = REAL_DATA / "vlp16_dual_return" / "vlp16_dual_return.pcap"
+MACHINE = ROOT / "interface_spec/config/machines/zx200.toml"
+SITE = ROOT / "interface_spec/config/sites/bench.toml"
+scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-bad-"))
+
+
+def unknown_options():
+    for program in ("berm_load", "berm_map", "berm_params", "berm_plant", "berm_app", "berm_kernel"):
+        one_clear_line(run(program, "--no-such-option"), "no-such-option")
+
+
+def help_is_no_error():
+    for program in ("berm_load", "berm_map", "berm_params", "berm_plant", "berm_app", "berm_kernel"):
+        done = run(program, "--help")
+        assert done.returncode == 0 and len(done.stdout.splitlines()) > 3, f"{program} --help"
+
+
+def scenarios():
+    one_clear_line(run("berm_load", "--scenario", "no-such-scenario"), "no-such-scenario")
+    one_clear_line(run("berm_load", "--scenario", scratch / "missing.toml"), "missing.toml")
+    for name, text in {"syntax": "schema = = 1\n", "empty": "", "foreign": "[package]\nname = 'x'\n"}.items():
+        path = scratch / f"{name}.toml"
+        path.write_text(text)
+        out = scratch / f"out-{name}"
+        one_clear_line(run("berm_load", "--scenario", path, "--out", out, "--json", scratch / "result.json"), path.name)
+        assert not (scratch / "result.json").exists(), "a result for a run that never was"
+        assert not out.exists() or not any(out.iterdir()), f"left behind: {list(out.iterdir())}"
+
+
+def scenario_fields():
+    source = (ROOT / "fault_injection/scenarios/bench.toml").read_text()
+    path = scratch / "field.toml"
+    path.write_text(source + "\nno_such_key = 1\n")
+    one_clear_line(run("berm_plant", "--scenario", path, "--seed", 1, "--trucks", 1, "--can", "udp:239.255.66.250:49999", "--scan-port", 49998,
+                       "--out", scratch / "plant-out", "--realtime", timeout=60), "field.toml", "no_such_key")
+
+
+def load_numbers():
+    one_clear_line(run("berm_load", "--trucks", "0"), "trucks")
+    one_clear_line(run("berm_load", "--seed", "many"), "seed")
+    one_clear_line(run("berm_load", "--fault", "kill-all@3"), "kill-all")
+    one_clear_line(run("berm_load", "--fault", "kill-app"), "kill-app")
+
+
+def parameter_block():
+    good = scratch / "good.params"
+    done = run("berm_params", MACHINE, SITE, "-o", good)
+    assert done.returncode == 0, done.stderr
+    block = good.read_bytes()
+    kernel = ("--can", "udp:239.255.66.251:49997", "--scan-port", 49996, "--socket", scratch / "k.sock")
+    for name, bytes_ in {"crc": block[:200] + bytes([block[200] ^ 1]) + block[201:], "short": block[:-4], "long": block + b"\0" * 4, "empty": b"",
+                         "foreign": os.urandom(len(block))}.items():
+        path = scratch / f"{name}.params"
+        path.write_bytes(bytes_)
+        one_clear_line(run("berm_kernel", "--parameters", path, *kernel, timeout=20), path.name)
+    one_clear_line(run("berm_kernel", "--parameters", scratch / "none.params", *kernel, timeout=20), "none.params")
+
+
+def compile_leaves_nothing():
+    bad = scratch / "bad_machine.toml"
+    bad.write_text(MACHINE.read_text().replace("boom = 5.648", "boom = -1.0"))
+    target = scratch / "never.params"
+    one_clear_line(run("berm_params", bad, SITE, "-o", target), "bad_machine.toml", "boom")
+    assert not target.exists(), "a parameter block of a bad machine file"
+
+
+def captures():
+    foreign = scratch / "foreign.pcap"
+    ethernet_udp = bytes(12) + b"\x08\x00" + b"\x45\x00" + struct.pack(">HHHBBH", 20 + 8 + 4, 0, 0, 64, 17, 0) + bytes(8) + struct.pack(">HHHH", 1, 2368, 12, 0) + b"none"
+    foreign.write_bytes(struct.pack("<IHHiIII", 0xA1B2C3D4, 2, 4, 0, 0, 65535, 1) + struct.pack("<IIII", 1, 0, len(ethernet_udp), len(ethernet_udp)) + ethernet_udp)
+    noise = scratch / "noise.pcap"
+    noise.write_bytes(os.urandom(4000))
+    for path in (foreign, noise, scratch / "missing.pcap"):
+        one_clear_line(run("berm_map", path, "--json", scratch / "map.json", "--picture", scratch / "map.svg"), path.name)
+    if CAPTURE.exists():
+        truncated = scratch / "truncated.pcap"
+        truncated.write_bytes(CAPTURE.read_bytes()[:100001])
+        one_clear_line(run("berm_map", truncated, "--json", scratch / "map.json", "--picture", scratch / "map.svg"), "truncated.pcap")
+    else:
+        print(f"SKIPPED part: no recording at {CAPTURE}")
+    assert not (scratch / "map.json").exists() and not (scratch / "map.svg").exists(), "a map of a bad capture"
+
+
+try:
+    main([unknown_options, help_is_no_error, scenarios, scenario_fields, load_numbers, parameter_block, compile_leaves_nothing, captures])
+finally:
+    shutil.rmtree(scratch)

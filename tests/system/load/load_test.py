@@ -1,0 +1,108 @@
+"""The main job: one truck, three processes, no contact; the same seed gives the same trace."""
+import csv
+import filecmp
+import os
+import pathlib
+import shutil
+import subprocess
+import threading
+import time
+
+from berm_command import BIN, load, main
+
+FIELDS = {"seed", "trucks_loaded", "passes", "pass_seconds", "target_kg", "payload_kg", "spill_fraction", "load_centre_offset_m",
+          "load_height_stddev_m", "contacts", "closest_approach_m", "kernel_stops", "kernel_faults", "cycle_us_p50", "cycle_us_p99",
+          "cycle_us_max", "simulated_seconds", "wall_seconds"}
+TRACE = ["time_s", "swing_rad", "boom_rad", "stick_rad", "bucket_rad", "swing_rad_s", "boom_rad_s", "stick_rad_s", "bucket_rad_s", "stop_state"]
+seen = {}
+
+
+def children_of(pid):
+    try:
+        tasks = pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    except OSError:
+        return []
+    return [int(child) for child in tasks]
+
+
+def watch_processes(pid, found):
+    """Notes pid, name and open descriptors of the launcher's children while they run."""
+    while pathlib.Path(f"/proc/{pid}").exists() and not found.get("stop"):
+        for child in children_of(pid):
+            try:
+                name = pathlib.Path(f"/proc/{child}/comm").read_text().strip()
+                links = {fd: os.readlink(f"/proc/{child}/fd/{fd}") for fd in os.listdir(f"/proc/{child}/fd")}
+                uid = os.stat(f"/proc/{child}").st_uid
+            except OSError:
+                continue
+            found.setdefault(name, {"pid": child, "links": [], "uid": uid})["links"].append(links)
+        time.sleep(0.2)
+
+
+def inet_sockets():
+    inodes = set()
+    for table in ("udp", "udp6", "tcp", "tcp6", "raw", "packet"):
+        try:
+            rows = pathlib.Path(f"/proc/net/{table}").read_text().splitlines()[1:]
+        except OSError:
+            continue
+        for row in rows:
+            inodes.update(word for word in row.split() if word.isdigit())
+    return inodes
+
+
+def loads_one_truck():
+    status, result, out, text = load("--trucks", 1, "--seed", 1)
+    assert status == 0, f"exit status {status}: {text[-500:]}"
+    missing = FIELDS - result.keys()
+    assert not missing, f"result lacks {missing}"
+    assert result["trucks_loaded"] == 1 and result["payload_kg"][0] >= 0.95 * result["target_kg"], result["payload_kg"]
+    assert result["payload_kg"][0] <= 1.05 * result["target_kg"], "overloaded"
+    assert result["contacts"] == 0 and result["kernel_faults"] == 0
+    assert result["passes"] == len(result["pass_seconds"]) >= 6
+    assert result["journal_lost"] == 0
+    assert len({result["pid_plant"], result["pid_kernel"], result["pid_app"]}) == 3
+    with open(out / "trace.csv", newline="") as file:
+        rows = list(csv.reader(file))
+    assert rows[0][:10] == TRACE, rows[0]
+    times = [float(row[0]) for row in rows[1:]]
+    assert abs(times[-1] - times[0] - 0.01 * (len(times) - 1)) < 1e-3, "the trace is not at 100 Hz"
+    assert (out / "site.svg").stat().st_size > 10000 and (out / "journal.jsonl").stat().st_size > 10000
+    seen["first"] = out
+
+
+def same_seed_same_trace():
+    status, _, out, _ = load("--trucks", 1, "--seed", 1)
+    assert status == 0
+    assert filecmp.cmp(seen["first"] / "trace.csv", out / "trace.csv", shallow=False), "two runs of seed 1 differ"
+    assert filecmp.cmp(seen["first"] / "journal.jsonl", out / "journal.jsonl", shallow=False), "two journals of seed 1 differ"
+    shutil.rmtree(out)
+    shutil.rmtree(seen["first"])
+
+
+def app_holds_no_machine_descriptor():
+    process = subprocess.Popen([str(BIN / "berm_load"), "--seed", "3", "--realtime", "--quiet"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    found = {}
+    watcher = threading.Thread(target=watch_processes, args=(process.pid, found))
+    watcher.start()
+    time.sleep(6)
+    inet = inet_sockets()
+    found["stop"] = True
+    watcher.join()
+    process.terminate()
+    process.wait()
+    del found["stop"]
+    assert {"berm_kernel", "berm_plant", "berm_app"} <= found.keys(), f"processes seen: {sorted(found)}"
+    app, kernel = found["berm_app"], found["berm_kernel"]
+    assert app["pid"] != kernel["pid"]
+    if os.geteuid() == 0:
+        assert app["uid"] != kernel["uid"], "kernel and app share a uid though run as root"
+    kernel_inet = [link for link in kernel["links"][-1].values() if link[8:-1] in inet]
+    assert kernel_inet, "the check is blind: the kernel shows no network socket"
+    for fd, link in app["links"][-1].items():
+        inode = link[8:-1] if link.startswith("socket:[") else ""
+        assert inode not in inet, f"the app holds a network socket: {fd} -> {link}"
+        assert link.startswith(("socket:[", "pipe:[", "/dev/null", "/memfd:")) or fd in "012", f"the app holds {fd} -> {link}"
+
+
+main([loads_one_truck, same_seed_same_trace, app_holds_no_machine_descriptor])
