@@ -6,6 +6,7 @@
 namespace {
 
 constexpr uint8_t kLength = 8;
+constexpr uint32_t kGuardPadding = 0xFFFF;  // bits 16 to 31 of a guard frame
 
 struct Scale {
   int32_t step;    // physical units a raw step
@@ -44,6 +45,12 @@ void put(berm_can_frame& f, int start, int length, uint32_t value) {
     const auto mask = static_cast<uint8_t>(1u << (bit % 8));
     if ((value >> i) & 1u) f.data[bit / 8] = static_cast<uint8_t>(f.data[bit / 8] | mask);
   }
+}
+
+// The same, saturated at the field.
+void put_saturated(berm_can_frame& f, int start, int length, uint32_t value) {
+  const uint32_t most = (1u << length) - 1u;
+  put(f, start, length, value < most ? value : most);
 }
 
 uint32_t get(const berm_can_frame* f, int start, int length) {
@@ -138,7 +145,7 @@ berm_can_frame berm_encode_machine_state(const berm_machine_state* m) {
   put(f, 0, 1, m->lock_command);
   put(f, 6, 1, m->pilot_unlocked);
   put(f, 8, 1, m->system_error);
-  put(f, 9, 3, m->can_errors);
+  put_saturated(f, 9, 3, m->can_errors);
   put(f, 12, 1, m->lock_receiver_error);
   put(f, 13, 1, m->estop_receiver_error);
   put(f, 14, 1, m->switch_error);
@@ -247,9 +254,9 @@ berm_can_frame berm_encode_machine_setting(const berm_machine_setting* m) {
   put(f, 8, 1, m->eco);
   put(f, 9, 1, m->fast_travel);
   put(f, 11, 1, m->working_notice);
-  put(f, 12, 2, m->led);
+  put_saturated(f, 12, 2, m->led);
   put(f, 14, 2, m->horn);
-  put(f, 28, 4, m->front_signal);
+  put_saturated(f, 28, 4, m->front_signal);
   put(f, 56, 8, m->alive_counter);
   return f;
 }
@@ -319,12 +326,13 @@ berm_can_frame berm_encode_guard(uint32_t guard_id, const berm_guard* m) {
   berm_can_frame f = empty(guard_id);
   put(f, 0, 8, m->data_id);
   put(f, 8, 8, m->counter);
-  put(f, 16, 16, 0xFFFF);
+  put(f, 16, 16, kGuardPadding);
   put(f, 32, 32, m->crc32);
   return f;
 }
 bool berm_decode_guard(const berm_can_frame* f, berm_guard* m) {
   if ((f->id & ~0xFFu) != (BERM_CAN_GUARD_MACHINE & ~0xFFu) || f->length != kLength) return false;
+  if (get(f, 16, 16) != kGuardPadding) return false;
   m->data_id = f->data[0];
   m->counter = f->data[1];
   m->crc32 = get(f, 32, 32);

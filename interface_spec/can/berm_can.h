@@ -92,7 +92,8 @@ uint32_t berm_can_guard_crc(uint32_t can_id, uint8_t counter, const uint8_t data
 uint32_t berm_can_guard_id(uint32_t can_id);
 berm_can_frame berm_can_make_guard(const berm_can_frame *guarded, uint8_t counter);
 
-/* Encoders give a complete frame; decoders return false (and change nothing) when id or length is not theirs. */
+/* Encoders give a complete frame; decoders return false (and change nothing) when id or length is not theirs; that of the guard also when bits
+ * 16..31 are not ones. */
 berm_can_frame berm_encode_front_angle(const berm_front_angle *m);
 bool berm_decode_front_angle(const berm_can_frame *f, berm_front_angle *m);
 berm_can_frame berm_encode_front_velocity(const berm_front_velocity *m);

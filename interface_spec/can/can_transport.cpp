@@ -8,6 +8,7 @@
 #include <string.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -22,6 +23,12 @@ constexpr std::size_t kData = 8;
 
 std::string failed(const std::string& address, const char* what) { return address + ": " + what + ": " + strerror(errno); }
 
+std::int64_t now_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<std::int64_t>(now.tv_sec) * 1000 + now.tv_nsec / 1000000;
+}
+
 }  // namespace
 
 Transport::~Transport() {
@@ -29,6 +36,7 @@ Transport::~Transport() {
 }
 
 std::string Transport::open(const std::string& address) {
+  if (fd_ >= 0) return address + ": this transport is open already";
   if (address.rfind("can:", 0) == 0) return open_socketcan(address.substr(4));
   const auto colon = address.rfind(':');
   if (address.rfind("udp:", 0) != 0 || colon == 3) return address + ": a CAN address is can:INTERFACE or udp:GROUP:PORT";
@@ -123,9 +131,15 @@ bool Transport::receive(berm_can_frame& frame) {
 }
 
 bool Transport::receive(berm_can_frame& frame, int timeout_ms) {
-  if (receive(frame)) return true;
-  pollfd wait{fd_, POLLIN, 0};
-  return poll(&wait, 1, timeout_ms) == 1 && receive(frame);
+  const std::int64_t deadline_ms = now_ms() + timeout_ms;
+  for (;;) {
+    if (receive(frame)) return true;
+    const std::int64_t left_ms = deadline_ms - now_ms();
+    if (left_ms <= 0) return false;
+    pollfd wait{fd_, POLLIN, 0};
+    // A signal ends the wait, so that its flag is looked at; a datagram that is no frame does not.
+    if (poll(&wait, 1, static_cast<int>(left_ms)) != 1) return false;
+  }
 }
 
 }  // namespace berm::can

@@ -30,7 +30,7 @@ class Transport {
   bool send(const berm_can_frame& frame);
   // The next frame already here. False when there is none.
   bool receive(berm_can_frame& frame);
-  // Waits at most this long for a frame.
+  // Waits at most this long for a frame; a signal ends the wait early.
   bool receive(berm_can_frame& frame, int timeout_ms);
   int fd() const { return fd_; }
   const TransportCounters& counters() const { return counters_; }

@@ -1,7 +1,6 @@
 #include "config/compile_parameters.hpp"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -11,6 +10,8 @@ namespace {
 
 constexpr double kMicro = 1e6, kMilli = 1e3;
 constexpr double kSlack = 1e-6;  // a decimal that is meant to be whole stays whole
+
+// Which way each field is rounded, and why that is the safe way: CONFIG.md, IF-CF-9 to IF-CF-13.
 
 std::int32_t up(double value, double scale) { return static_cast<std::int32_t>(std::ceil(value * scale - kSlack)); }
 std::int32_t down(double value, double scale) { return static_cast<std::int32_t>(std::floor(value * scale + kSlack)); }
@@ -44,7 +45,7 @@ void compile_parts(const MachineFile& m, berm_parameters& p) {
     p.part[i].half_width_mm = up(part.half_width, kMilli);
     p.part[i].vertices = static_cast<std::int32_t>(part.outline.size());
     for (std::size_t v = 0; v < part.outline.size(); ++v)
-      for (std::size_t axis = 0; axis < 2; ++axis) p.part[i].vertex_mm[v][axis] = near(part.outline[v][axis], kMilli);
+      for (std::size_t axis = 0; axis < 2; ++axis) p.part[i].vertex_mm[v][axis] = near(part.outline[v][axis], kMilli);  // whole already
   }
 }
 
@@ -56,17 +57,17 @@ void compile_sensors(const MachineFile& m, berm_parameters& p) {
   }
   const auto& k = m.kernel;
   p.scanner_silent_us = down(k.scanner_silent, kMicro);
-  p.spurious_range_mm = up(k.spurious_range, kMilli);
-  p.range_min_mm = near(k.range_min, kMilli);
-  p.range_max_mm = near(k.range_max, kMilli);
-  p.self_margin_mm = down(k.self_margin, kMilli);
+  p.spurious_range_mm = up(k.spurious_range, kMilli);        // fewer returns dropped
+  p.range_min_mm = down(k.range_min, kMilli);                // fewer returns dropped
+  p.range_max_mm = up(k.range_max, kMilli);
+  p.self_margin_mm = down(k.self_margin, kMilli);            // fewer returns dropped
 }
 
 void compile_rules(const MachineFile& m, const SiteFile& site, berm_parameters& p) {
   const auto& k = m.kernel;
   p.margin_mm = up(k.margin, kMilli);
   p.fresh_us = down(k.fresh, kMicro);
-  p.generation_us = up(k.generation, kMicro);
+  p.generation_us = std::min(up(k.generation, kMicro), p.fresh_us);  // old heights stay longer
   p.dig_swing_limit_urad_s = down(k.dig_swing_limit, kMicro);
   p.request_age_us = down(k.request_age, kMicro);
   p.request_hold_us = down(k.request_hold, kMicro);
@@ -74,7 +75,7 @@ void compile_rules(const MachineFile& m, const SiteFile& site, berm_parameters& 
   p.state_frame_age_us = down(k.state_frame_age, kMicro);
   p.machine_state_age_us = down(k.machine_state_age, kMicro);
   p.operator_age_us = down(k.operator_age, kMicro);
-  p.cycle_us = near(k.cycle, kMicro);
+  p.cycle_us = up(k.cycle, kMicro);
   p.standstill_urad_s = down(k.standstill_speed, kMicro);
   p.standstill_us = up(k.standstill, kMicro);
   p.dig_zones = static_cast<std::int32_t>(site.dig_zone.size());

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "config/parameter_block.h"
 #include "config/strict_table.hpp"
 
@@ -11,10 +14,15 @@ const std::array<const char*, kJoints> kJointNames{"swing", "boom", "stick", "bu
 
 namespace {
 
-JointFile read_joint(StrictTable table) {
+// The limits here are those of the kernel's own check of the block, or narrower.
+constexpr double kReachMax = 14.99;       // m; the map's half width less a cell
+constexpr double kRoundingRoom = 0.003;   // m; each length is rounded to the millimetre
+constexpr double kLeastInterval_deg = 0.01;
+constexpr double kLeastCross = 1e-9;      // m2; less is a straight corner in whole millimetres
+
+JointFile read_joint(StrictTable table, double turn_deg) {
   JointFile joint{};
-  const auto range = table.array<2>("range_deg", -360.0, 360.0);
-  if (range[0] >= range[1]) table.fail("range_deg", "the low end is not below the high end");
+  const auto range = table.interval("range_deg", -turn_deg, turn_deg, kLeastInterval_deg);
   joint.low = radians(range[0]);
   joint.high = radians(range[1]);
   joint.velocity_max = table.degrees("velocity_max_deg_s", 1.0, 180.0);
@@ -60,14 +68,21 @@ PartFile read_part(StrictTable table) {
   const std::string link = table.choice("link", {"boom", "stick", "bucket"});
   part.link = link == "boom" ? 1 : link == "stick" ? 2 : 3;
   part.half_width = table.number("half_width", 0.01, 3.0);
-  part.outline = table.points("outline", 3, BERM_PART_VERTICES, -10.0, 10.0);
+  part.outline = table.points("outline", 3, BERM_PART_VERTICES, -15.0, 15.0);
+  // The block has whole millimetres; a rounded outline could lie inside what it is to cover, or cease to be convex.
+  for (const auto& point : part.outline)
+    for (const double x : point)
+      if (std::abs(x * 1e3 - std::round(x * 1e3)) > 1e-6) table.fail("outline", fmt::format("{} is not a whole millimetre", x));
   const std::size_t n = part.outline.size();
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < n; ++i) {  // every other point strictly to the left of each edge
     const auto& a = part.outline[i];
     const auto& b = part.outline[(i + 1) % n];
-    const auto& c = part.outline[(i + 2) % n];
-    if ((b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]) <= 0.0)
-      table.fail("outline", fmt::format("not convex and counter-clockwise at point {}", (i + 1) % n + 1));
+    for (std::size_t k = 0; k < n; ++k) {
+      if (k == i || k == (i + 1) % n) continue;
+      const auto& c = part.outline[k];
+      if ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) <= kLeastCross)
+        table.fail("outline", fmt::format("not convex and counter-clockwise: point {} is not to the left of edge {}", k + 1, i + 1));
+    }
   }
   table.finish();
   return part;
@@ -75,12 +90,12 @@ PartFile read_part(StrictTable table) {
 
 ScannerFile read_scanner(StrictTable table) {
   ScannerFile scanner{};
-  scanner.position = table.array<3>("position", -10.0, 10.0);
-  const auto range = table.array<2>("pan_range_deg", -360.0, 360.0);
-  if (range[0] >= range[1]) table.fail("pan_range_deg", "the low end is not below the high end");
+  scanner.position = table.array<3>("position", -5.0, 8.0);
+  if (scanner.position[0] > 5.0 || scanner.position[1] > 5.0 || scanner.position[2] < 0.0) table.fail("position", "x and y are within -5 .. 5, z within 0 .. 8");
+  const auto range = table.interval("pan_range_deg", -180.0, 180.0, kLeastInterval_deg);
   scanner.pan_low = radians(range[0]);
   scanner.pan_high = radians(range[1]);
-  scanner.pan_rate_max = table.degrees("pan_rate_max_deg_s", 1.0, 720.0);
+  scanner.pan_rate_max = table.degrees("pan_rate_max_deg_s", 1.0, 360.0);
   table.finish();
   return scanner;
 }
@@ -91,6 +106,7 @@ KernelFile read_kernel(StrictTable table) {
   k.margin = table.number("margin", 0.0, 2.0);
   k.fresh = table.number("fresh", 0.1, 120.0);
   k.generation = table.number("generation", 0.05, 60.0);
+  if (k.generation > k.fresh) table.fail("generation", "above fresh");
   k.dig_swing_limit = table.degrees("dig_swing_limit_deg_s", 0.1, 15.0);
   k.scanner_silent = table.number("scanner_silent", 0.02, 2.0);
   k.spurious_range = table.number("spurious_range", 0.1, 20.0);
@@ -109,6 +125,12 @@ KernelFile read_kernel(StrictTable table) {
   return k;
 }
 
+void check_every_link(const StrictTable& file, const std::vector<PartFile>& parts) {
+  for (std::size_t link = 1; link < kJoints; ++link)
+    if (std::none_of(parts.begin(), parts.end(), [link](const PartFile& part) { return part.link == static_cast<int>(link); }))
+      file.fail("part", fmt::format("none covers the {}", kJointNames[link]));
+}
+
 }  // namespace
 
 MachineFile load_machine_file(const std::string& path) {
@@ -117,27 +139,33 @@ MachineFile load_machine_file(const std::string& path) {
   file.integer("schema", 1, 1);
   m.name = file.text("name");
   StrictTable kinematics = file.table("kinematics");
-  m.boom_pin_x = kinematics.number("boom_pin_x", -5.0, 5.0);
-  m.boom_pin_z = kinematics.number("boom_pin_z", 0.0, 10.0);
-  m.boom = kinematics.number("boom", 0.5, 15.0);
-  m.stick = kinematics.number("stick", 0.5, 15.0);
-  m.bucket = kinematics.number("bucket", 0.2, 5.0);
-  m.own_body_radius = kinematics.number("own_body_radius", 0.5, 8.0);
+  m.boom_pin_x = kinematics.number("boom_pin_x", -3.0, 3.0);
+  m.boom_pin_z = kinematics.number("boom_pin_z", 0.0, 5.0);
+  m.boom = kinematics.number("boom", 1.0, 12.0);
+  m.stick = kinematics.number("stick", 0.5, 8.0);
+  m.bucket = kinematics.number("bucket", 0.3, 4.0);
+  m.own_body_radius = kinematics.number("own_body_radius", 0.5, 6.0);
+  const double reach = m.boom_pin_x + m.boom + m.stick + m.bucket;
+  if (reach > kReachMax) kinematics.fail("bucket", fmt::format("boom_pin_x, boom, stick and bucket together are {}, above {}", reach, kReachMax));
   kinematics.finish();
   StrictTable joints = file.table("joint");
-  for (std::size_t j = 0; j < kJoints; ++j) m.joint[j] = read_joint(joints.table(kJointNames[j]));
+  for (std::size_t j = 0; j < kJoints; ++j) m.joint[j] = read_joint(joints.table(kJointNames[j]), j == 0 ? 360.0 : 180.0);
   joints.finish();
   StrictTable latency = file.table("latency");
   m.state_latency = latency.number("state", 0.0, 0.5);
   m.command_latency = latency.number("command", 0.0, 1.0);
   latency.finish();
   m.braking = read_braking(file.table("braking"));
+  if (m.braking.reach.back() < reach + kRoundingRoom)
+    file.fail("braking.reach_m", fmt::format("the last row ends at {}, the implements reach {}", m.braking.reach.back(), reach));
   for (auto& part : file.tables("part")) m.part.push_back(read_part(std::move(part)));
   if (m.part.empty() || m.part.size() > BERM_PARTS) file.fail("part", fmt::format("{} parts, 1 to {} are taken", m.part.size(), BERM_PARTS));
+  check_every_link(file, m.part);
   auto scanners = file.tables("scanner");
   if (scanners.size() != m.scanner.size()) file.fail("scanner", "exactly two, left and right");
   for (std::size_t i = 0; i < scanners.size(); ++i) m.scanner[i] = read_scanner(std::move(scanners[i]));
   m.kernel = read_kernel(file.table("kernel"));
+  if (m.kernel.dig_swing_limit > m.joint[0].velocity_max) file.fail("kernel.dig_swing_limit_deg_s", "above joint.swing.velocity_max_deg_s");
   file.finish();
   return m;
 }

@@ -11,10 +11,9 @@ namespace {
 
 DigZoneFile read_zone(StrictTable table) {
   DigZoneFile zone{};
-  const auto x = table.array<2>("x", -15.0, 15.0);
-  const auto y = table.array<2>("y", -15.0, 15.0);
-  if (x[0] >= x[1]) table.fail("x", "the low end is not below the high end");
-  if (y[0] >= y[1]) table.fail("y", "the low end is not below the high end");
+  constexpr double kLeastSide = 0.01;
+  const auto x = table.interval("x", -15.0, 15.0, kLeastSide);
+  const auto y = table.interval("y", -15.0, 15.0, kLeastSide);
   zone = {x[0], x[1], y[0], y[1], table.number("floor", -15.0, 5.0)};
   table.finish();
   return zone;

@@ -20,8 +20,9 @@ StrictTable StrictTable::parse_file(const std::string& file) {
     return StrictTable(file, "", toml::parse(stream, file));
   } catch (const toml::exception& error) {
     throw ConfigError(fmt::format("{}: line {}: not valid TOML", file, error.location().line()));
-  } catch (const std::runtime_error& error) {
-    if (dynamic_cast<const ConfigError*>(&error) != nullptr) throw;
+  } catch (const ConfigError&) {
+    throw;
+  } catch (const std::exception&) {  // what toml11 throws for unreadable streams and numbers that fit nowhere
     throw ConfigError(fmt::format("{}: cannot be read as TOML", file));
   }
 }
@@ -53,10 +54,6 @@ double StrictTable::checked(const std::string& key, const toml::value& value, do
 
 double StrictTable::number(const std::string& key, double low, double high) { return checked(key, at(key), low, high); }
 
-double StrictTable::number_or(const std::string& key, double low, double high, double fallback) {
-  return has(key) ? number(key, low, high) : fallback;
-}
-
 double StrictTable::degrees(const std::string& key, double low_deg, double high_deg) { return radians(number(key, low_deg, high_deg)); }
 
 std::int64_t StrictTable::integer(const std::string& key, std::int64_t low, std::int64_t high) {
@@ -65,12 +62,6 @@ std::int64_t StrictTable::integer(const std::string& key, std::int64_t low, std:
   const std::int64_t x = value.as_integer();
   if (x < low || x > high) fail(key, fmt::format("{} is outside {} .. {}", x, low, high));
   return x;
-}
-
-bool StrictTable::flag(const std::string& key) {
-  const toml::value& value = at(key);
-  if (!value.is_boolean()) fail(key, "must be true or false");
-  return value.as_boolean();
 }
 
 std::string StrictTable::text(const std::string& key) {
@@ -93,6 +84,12 @@ std::vector<double> StrictTable::numbers(const std::string& key, std::size_t cou
   std::vector<double> out;
   for (const toml::value& item : value.as_array()) out.push_back(checked(key, item, low, high));
   return out;
+}
+
+std::array<double, 2> StrictTable::interval(const std::string& key, double low, double high, double least) {
+  const auto ends = array<2>(key, low, high);
+  if (ends[1] - ends[0] < least) fail(key, fmt::format("the low end {} is not below the high end {} by {} or more", ends[0], ends[1], least));
+  return ends;
 }
 
 std::vector<std::array<double, 2>> StrictTable::points(const std::string& key, std::size_t low_count, std::size_t high_count, double low, double high) {

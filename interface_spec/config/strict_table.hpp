@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -25,10 +24,8 @@ class StrictTable {
 
   bool has(const std::string& key) const;
   double number(const std::string& key, double low, double high);           // integers are taken too
-  double number_or(const std::string& key, double low, double high, double fallback);
   double degrees(const std::string& key, double low_deg, double high_deg);  // gives radians
   std::int64_t integer(const std::string& key, std::int64_t low, std::int64_t high);
-  bool flag(const std::string& key);
   std::string text(const std::string& key);
   std::string choice(const std::string& key, const std::vector<std::string>& allowed);
   std::vector<double> numbers(const std::string& key, std::size_t count, double low, double high);
@@ -39,6 +36,8 @@ class StrictTable {
     for (std::size_t i = 0; i < N; ++i) out[i] = values[i];
     return out;
   }
+  // Low and high end, at least least apart.
+  std::array<double, 2> interval(const std::string& key, double low, double high, double least);
   std::vector<std::array<double, 2>> points(const std::string& key, std::size_t low_count, std::size_t high_count, double low, double high);
   // Exactly rows x columns numbers, an array of rows.
   std::vector<std::vector<double>> matrix(const std::string& key, std::size_t rows, std::size_t columns, double low, double high);
@@ -46,7 +45,6 @@ class StrictTable {
   std::vector<StrictTable> tables(const std::string& key);                  // [[key]]; none when absent
   void finish() const;                                                      // an unknown key is an error
   [[noreturn]] void fail(const std::string& key, const std::string& reason) const;
-  const std::string& file() const { return file_; }
 
  private:
   StrictTable(std::string file, std::string path, toml::value value);

@@ -223,6 +223,14 @@ typedef struct berm_state_segment {
 
 BERM_STATIC_ASSERT(sizeof(berm_request) == 64, "request layout");
 BERM_STATIC_ASSERT(offsetof(berm_request, crc32) == sizeof(berm_request) - 4, "the CRC is the last field");
+BERM_STATIC_ASSERT(sizeof(berm_request_segment) == 128, "request segment layout");
+BERM_STATIC_ASSERT(sizeof(berm_state) == 208, "state layout");
+BERM_STATIC_ASSERT(sizeof(berm_scan_block) == 40 + BERM_SCAN_BLOCK_SAMPLES * 18, "scan block layout");
+BERM_STATIC_ASSERT(sizeof(berm_decision) == 144, "decision layout");
+BERM_STATIC_ASSERT(sizeof(berm_slice) == 8 + BERM_SLICE_VERTICES * 12, "slice layout");
+BERM_STATIC_ASSERT(sizeof(berm_state_segment) == 64 + sizeof(berm_state) + BERM_DECISION_RING * sizeof(berm_decision) +
+                   BERM_SCAN_RING * sizeof(berm_scan_block) + BERM_SLICE_SNAPSHOT * sizeof(berm_slice) + BERM_MAP_CELLS * BERM_MAP_CELLS * 5,
+                   "state segment layout");
 
 /* The greeting on the Unix socket (SOCK_SEQPACKET): the peer sends one byte, its role; the kernel checks the peer's uid and
  * answers with one berm_welcome and the file descriptors (SCM_RIGHTS). App: state segment, request segment. Recorder: state segment. */
@@ -236,6 +244,7 @@ typedef struct berm_welcome {
   uint32_t request_size;
   char reason[108];
 } berm_welcome;
+BERM_STATIC_ASSERT(sizeof(berm_welcome) == 128, "welcome layout");
 
 #ifdef __cplusplus
 }

@@ -2,6 +2,7 @@
 #ifndef SK_STOP_LOGIC_H
 #define SK_STOP_LOGIC_H
 #include "sk_common.h"
+#include "contract/berm_contract.h"
 SK_BEGIN
 
 /* far-apart codes: no single, double or triple bit flip turns one into another */
@@ -12,7 +13,20 @@ SK_BEGIN
 #define SK_STATE_STOPPED  0x3CA5u
 #define SK_STATE_FAULT    0x6996u
 
-/* Inputs of one cycle. reason codes are BERM_STOP_* of the contract. */
+/* Ranks of what holds: a higher one replaces a lower one, an equal one does not. */
+#define SK_RANK_NONE 0u
+#define SK_RANK_HOLD 1u   /* resumes by itself */
+#define SK_RANK_LATCH 2u  /* needs the operator */
+#define SK_RANK_FAULT 3u  /* needs the operator */
+
+#define SK_CATEGORY_0 0u      /* power removed at once */
+#define SK_CATEGORY_1 1u      /* braked, then power removed */
+#define SK_CATEGORY_HELD 2u   /* braked, power kept */
+#define SK_CATEGORY_NONE 255u
+
+#define SK_STOPPING_LIMIT_US 6000000 /* a stop that has not come to standstill by then is a fault (BERM_STOP_BRAKING), category 0 */
+
+/* Inputs of one cycle. reason codes are BERM_STOP_* of the contract; a code that is none of them is read as the fault BERM_STOP_INTERNAL. */
 typedef struct sk_stop_input {
   int64_t now_us;
   uint8_t fault_reason;      /* BERM_STOP_* of a fault seen in this cycle, or 0: latches FAULT */
@@ -28,10 +42,11 @@ typedef struct sk_stop_input {
 
 typedef struct sk_stop_state {
   uint16_t code;
-  uint8_t reason;            /* in force; 0 in RUN */
-  uint8_t category;          /* 0, 1; 255 none */
+  uint8_t reason;            /* in force; 0 in RUN, and in STOPPING because the run switch was released */
+  uint8_t category;          /* SK_CATEGORY_*: 0, 1, 2 held for a hold reason, 255 none */
+  uint8_t rank;              /* SK_RANK_* of reason */
   bool latched;
-  bool reset_seen_released;  /* a reset counts only after the key was seen released */
+  bool reset_seen_released;  /* a reset counts only after the key was seen released in this latched stop */
   int64_t since_us;          /* when this state was entered */
 } sk_stop_state;
 
@@ -40,8 +55,81 @@ typedef struct sk_stop_output {
   bool heartbeat_enable;     /* the machine keeps pilot pressure */
 } sk_stop_output;
 
+/*@ predicate sk_stop_wild(sk_stop_input *i) =
+  @   i->fault_reason >= BERM_STOP_REASONS || i->latch_reason >= BERM_STOP_REASONS || i->hold_reason >= BERM_STOP_REASONS;
+  @ predicate sk_stop_fault(sk_stop_input *i) = i->fault_reason != 0 || sk_stop_wild(i);
+  @ predicate sk_stop_latch(sk_stop_input *i) = i->latch_reason != 0 && !sk_stop_fault(i);
+  @ predicate sk_stop_hold(sk_stop_input *i) = i->hold_reason != 0 && i->latch_reason == 0 && !sk_stop_fault(i);
+  @ predicate sk_stop_quiet(sk_stop_input *i) = i->fault_reason == 0 && i->latch_reason == 0 && i->hold_reason == 0;
+  @ predicate sk_stop_cut(sk_stop_input *i) =
+  @   (i->fault_reason != 0 && i->fault_category_0 == true) || (i->latch_reason != 0 && i->latch_category_0 == true) || sk_stop_wild(i);
+  @ predicate sk_stop_go(sk_stop_input *i) = i->operator_run == true && i->inputs_ready == true;
+  @ predicate sk_stop_reset(sk_stop_state *s, sk_stop_input *i) =
+  @   i->operator_reset == true && s->reset_seen_released == true && i->standstill == true && sk_stop_quiet(i);
+  @ predicate sk_stop_overdue(sk_stop_state *s, sk_stop_input *i) =
+  @   !(0 <= s->since_us <= i->now_us && i->now_us - s->since_us <= SK_STOPPING_LIMIT_US);
+  @
+  @ predicate sk_stop_idle(sk_stop_state *s) =
+  @   s->rank == SK_RANK_NONE && s->reason == 0 && s->category == SK_CATEGORY_NONE && s->latched == false;
+  @ predicate sk_stop_paused(sk_stop_state *s) =
+  @   s->rank == SK_RANK_NONE && s->reason == 0 && s->category == SK_CATEGORY_1 && s->latched == false;
+  @ predicate sk_stop_held(sk_stop_state *s) =
+  @   s->rank == SK_RANK_HOLD && 0 < s->reason < BERM_STOP_REASONS && s->category == SK_CATEGORY_HELD && s->latched == false;
+  @ predicate sk_stop_latching(sk_stop_state *s) =
+  @   s->rank == SK_RANK_LATCH && 0 < s->reason < BERM_STOP_REASONS && s->category <= SK_CATEGORY_1 && s->latched == true;
+  @ predicate sk_stop_faulting(sk_stop_state *s) =
+  @   s->rank == SK_RANK_FAULT && 0 < s->reason < BERM_STOP_REASONS && s->category <= SK_CATEGORY_1 && s->latched == true;
+  @ predicate sk_stop_valid(sk_stop_state *s) =
+  @   (s->code == SK_STATE_INIT && sk_stop_idle(s)) || (s->code == SK_STATE_STANDBY && sk_stop_idle(s)) ||
+  @   (s->code == SK_STATE_RUN && sk_stop_idle(s)) ||
+  @   (s->code == SK_STATE_STOPPING && (sk_stop_paused(s) || sk_stop_held(s) || sk_stop_latching(s) ||
+  @                                     (sk_stop_faulting(s) && s->category == SK_CATEGORY_1))) ||
+  @   (s->code == SK_STATE_STOPPED && (sk_stop_held(s) || sk_stop_latching(s))) ||
+  @   (s->code == SK_STATE_FAULT && sk_stop_faulting(s));
+  @*/
+
+/*@ requires \valid(s);
+  @ assigns *s;
+  @ ensures sk_stop_valid(s) && s->code == SK_STATE_INIT && s->since_us == 0;
+  @*/
 void sk_stop_init(sk_stop_state *s);
-/* Total: a state code that is none of the six is read as FAULT (BERM_STOP_INTERNAL). */
+
+/* Total: a state that is none of the valid ones is read as FAULT (BERM_STOP_INTERNAL), category 0. */
+/*@ requires \valid(s) && \valid_read(in) && \valid(out) && \separated(s, in, out);
+  @ assigns *s, *out;
+  @ ensures valid: sk_stop_valid(s);
+  @ ensures corrupt: !sk_stop_valid{Pre}(s) ==>
+  @   s->code == SK_STATE_FAULT && s->reason == BERM_STOP_INTERNAL && s->category == SK_CATEGORY_0;
+  @ ensures motion: out->motion_enabled == true <==> s->code == SK_STATE_RUN;
+  @ ensures motion_quiet: s->code == SK_STATE_RUN ==> sk_stop_quiet(in);
+  @ ensures motion_go: s->code == SK_STATE_RUN ==> sk_stop_go(in);
+  @ ensures power: out->heartbeat_enable == true <==> s->code == SK_STATE_RUN ||
+  @   (s->code == SK_STATE_STOPPING && s->category != SK_CATEGORY_0) || (s->code == SK_STATE_STOPPED && s->latched == false);
+  @ ensures cut: sk_stop_cut(in) ==> out->heartbeat_enable == false;
+  @ ensures no_jump: s->code == SK_STATE_RUN ==> sk_stop_valid{Pre}(s) && \old(s->latched) == false &&
+  @   (\old(s->code) == SK_STATE_STANDBY || \old(s->code) == SK_STATE_RUN || \old(s->code) == SK_STATE_STOPPED);
+  @ ensures no_init: s->code == SK_STATE_INIT ==> \old(s->code) == SK_STATE_INIT;
+  @ ensures latch: sk_stop_valid{Pre}(s) && \old(s->latched) == true ==> s->latched == true || (s->code == SK_STATE_STANDBY &&
+  @   sk_stop_reset{Pre}(s, in) && (\old(s->code) == SK_STATE_STOPPED || \old(s->code) == SK_STATE_FAULT));
+  @ ensures fault_latches: sk_stop_fault(in) ==> s->rank == SK_RANK_FAULT;
+  @ ensures latch_latches: sk_stop_latch(in) && \old(s->code) != SK_STATE_INIT ==> s->latched == true;
+  @ ensures latch_in_init: sk_stop_latch(in) && \old(s->code) == SK_STATE_INIT ==> s->code == SK_STATE_INIT || s->code == SK_STATE_FAULT;
+  @ ensures hold_stops: sk_stop_hold(in) ==> s->code != SK_STATE_RUN;
+  @ ensures fault_stays: \old(s->code) == SK_STATE_FAULT ==> s->code == SK_STATE_FAULT || s->code == SK_STATE_STANDBY;
+  @ ensures first_reason: sk_stop_valid{Pre}(s) && \old(s->rank) != 0 && s->rank != 0 ==>
+  @   s->rank > \old(s->rank) || (s->rank == \old(s->rank) && s->reason == \old(s->reason));
+  @ ensures no_weaker: sk_stop_valid{Pre}(s) && \old(s->category) == SK_CATEGORY_0 && s->latched == true ==> s->category == SK_CATEGORY_0;
+  @ ensures not_forever: \old(s->code) == SK_STATE_STOPPING && s->code == SK_STATE_STOPPING ==>
+  @   in->standstill == false && !sk_stop_overdue{Pre}(s, in);
+  @ ensures starts: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_STANDBY && sk_stop_quiet(in) && sk_stop_go(in) ==> s->code == SK_STATE_RUN;
+  @ ensures runs_on: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_RUN && sk_stop_quiet(in) && sk_stop_go(in) ==> s->code == SK_STATE_RUN;
+  @ ensures resumes: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_STOPPED && \old(s->latched) == false && sk_stop_quiet(in) &&
+  @   sk_stop_go(in) ==> s->code == SK_STATE_RUN;
+  @ ensures resets: sk_stop_valid{Pre}(s) && (\old(s->code) == SK_STATE_STOPPED || \old(s->code) == SK_STATE_FAULT) &&
+  @   \old(s->latched) == true && sk_stop_reset{Pre}(s, in) ==> s->code == SK_STATE_STANDBY;
+  @ ensures since: s->code != \old(s->code) ==> s->since_us == in->now_us;
+  @ ensures since_kept: s->code == \old(s->code) ==> s->since_us == \old(s->since_us);
+  @*/
 void sk_stop_step(sk_stop_state *s, const sk_stop_input *in, sk_stop_output *out);
 
 SK_END

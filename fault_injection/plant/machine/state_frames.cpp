@@ -1,0 +1,93 @@
+#include "plant/machine/state_frames.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "plant/machine/kinematics.hpp"
+
+namespace berm::plant {
+
+namespace {
+
+constexpr double kGravity = 9.81;
+constexpr double kBoomPistonArea = 2 * 0.0113;  // m2, two cylinders of 120 mm bore
+constexpr double kBoomLeverArm = 0.75;          // m, cylinder line to boom pin, taken as constant
+constexpr double kReturnPressure = 500.0;       // kPa in a side that does not carry
+
+std::int32_t micro(double x) { return static_cast<std::int32_t>(std::lround(x * 1e6)); }
+
+}  // namespace
+
+double boom_pressure_kpa(const DynamicsConfig& config, const ImplementShape& shape, const JointState& joints, double payload_kg) {
+  const InertiaConfig& m = config.inertia;
+  const ImplementPose pose = implement_pose(shape, joints);
+  const double boom_arm = (m.boom_radius - shape.boom_pin_x) * std::cos(pose.boom.angle);
+  const double stick_arm = place(pose.stick, m.stick_centre).r - shape.boom_pin_x;
+  const double bucket_arm = place(pose.bucket, m.bucket_centre).r - shape.boom_pin_x;
+  const double moment = kGravity * (m.boom_mass * boom_arm + m.stick_mass * stick_arm + (m.bucket_mass + payload_kg) * bucket_arm);
+  return std::max(0.0, moment / (kBoomPistonArea * kBoomLeverArm) / 1000.0);
+}
+
+StateFrames::StateFrames(const PlantProfile& profile, std::uint64_t seed) : profile_(profile), noise_(seed, 12) {}
+
+void StateFrames::guarded(std::vector<berm_can_frame>& out, GuardSender& guard, const berm_can_frame& frame) {
+  out.push_back(guard.guard_for(frame));
+  out.push_back(frame);
+}
+
+void StateFrames::every_cycle(std::vector<berm_can_frame>& out, const MachineSnapshot& now) {
+  berm_front_angle angle{};
+  berm_front_velocity velocity{};
+  for (std::size_t j = 0; j < 4; ++j) {
+    angle.angle_urad[j] = micro(now.joints.angle[j] + noise_.bounded(profile_.sensors.angle));
+    velocity.velocity_urad_s[j] = micro(now.joints.velocity[j] + noise_.bounded(profile_.sensors.velocity));
+  }
+  guarded(out, angle_guard_, berm_encode_front_angle(&angle));
+  guarded(out, velocity_guard_, berm_encode_front_velocity(&velocity));
+  berm_pressure pressure{};
+  for (std::int32_t& kpa : pressure.kpa) kpa = static_cast<std::int32_t>(kReturnPressure);
+  const double boom = boom_pressure_kpa(profile_.dynamics, profile_.shape, now.joints, now.payload_kg);
+  pressure.kpa[0] = static_cast<std::int32_t>(std::lround(boom * (1.0 + noise_.bounded(0.01))));
+  out.push_back(berm_encode_pressure(&pressure));
+}
+
+void StateFrames::every_50_ms(std::vector<berm_can_frame>& out, const MachineSnapshot& now) {
+  berm_machine_state machine{};
+  machine.pilot_unlocked = now.pilot_unlocked;
+  machine.lock_command = !now.pilot_unlocked;
+  machine.oil_temperature_c = 50;
+  machine.engine_on = true;
+  machine.alive_counter = alive_;
+  guarded(out, machine_guard_, berm_encode_machine_state(&machine));
+  const berm_estop estop{now.panel.emergency, true, alive_};
+  guarded(out, estop_guard_, berm_encode_estop(&estop));
+  const berm_operator panel{now.panel.run, now.panel.stop, now.panel.reset, now.panel.relearn, alive_};
+  guarded(out, operator_guard_, berm_encode_operator(&panel));
+  const berm_spotter spotter{now.truck_parked, now.truck_leaving, false, alive_};
+  guarded(out, spotter_guard_, berm_encode_spotter(&spotter));
+  ++alive_;
+}
+
+void StateFrames::every_100_ms(std::vector<berm_can_frame>& out, const MachineSnapshot& now) {
+  const double swing = std::remainder(now.joints.angle[0], 2.0 * std::numbers::pi);
+  const berm_vehicle_azimuth azimuth{micro(swing + noise_.bounded(profile_.sensors.angle)), 0};
+  out.push_back(berm_encode_vehicle_azimuth(&azimuth));
+  const double weighed = now.payload_kg * (1.0 + noise_.bounded(profile_.sensors.payload_relative)) + noise_.bounded(profile_.sensors.payload_offset);
+  const berm_payload payload{static_cast<std::uint16_t>(std::lround(std::clamp(weighed, 0.0, 60000.0))), !now.digging};
+  out.push_back(berm_encode_payload(&payload));
+}
+
+std::vector<berm_can_frame> StateFrames::frames(std::uint64_t cycle, const MachineSnapshot& now) {
+  std::vector<berm_can_frame> out;
+  every_cycle(out, now);
+  if (cycle % 2 == 1) {
+    const berm_roll_pitch level{micro(noise_.bounded(profile_.sensors.roll_pitch)), micro(noise_.bounded(profile_.sensors.roll_pitch))};
+    out.push_back(berm_encode_roll_pitch(&level));
+  }
+  if (cycle % 5 == 1) every_50_ms(out, now);
+  if (cycle % 10 == 1) every_100_ms(out, now);
+  return out;
+}
+
+}  // namespace berm::plant

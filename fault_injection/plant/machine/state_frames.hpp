@@ -1,0 +1,50 @@
+// What the machine, the operator's panel and the spotter send in one cycle, in the order of sending; guarded messages with their guards.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "can/berm_can.h"
+#include "plant/machine/guard_receiver.hpp"
+#include "plant/machine/plant_profile.hpp"
+#include "plant/machine/seeded_noise.hpp"
+#include "plant/world/world.hpp"
+
+namespace berm::plant {
+
+struct PanelInput {
+  bool run = false, stop = false, reset = false, relearn = false, emergency = false;
+};
+
+struct MachineSnapshot {                 // true values
+  JointState joints;
+  double payload_kg = 0.0;
+  bool digging = false;                  // soil resists a joint: the weighing is not valid
+  bool pilot_unlocked = false;
+  PanelInput panel;
+  bool truck_parked = false, truck_leaving = false;
+};
+
+// Pressure in the boom cylinders' bottom side that carries the implements and the payload, kPa.
+double boom_pressure_kpa(const DynamicsConfig& config, const ImplementShape& shape, const JointState& joints, double payload_kg);
+
+class StateFrames {
+ public:
+  StateFrames(const PlantProfile& profile, std::uint64_t seed);
+  // Frames of this cycle (10 ms each, from 1), without the simulation clock.
+  std::vector<berm_can_frame> frames(std::uint64_t cycle, const MachineSnapshot& now);
+
+ private:
+  void guarded(std::vector<berm_can_frame>& out, GuardSender& guard, const berm_can_frame& frame);
+  void every_cycle(std::vector<berm_can_frame>& out, const MachineSnapshot& now);
+  void every_50_ms(std::vector<berm_can_frame>& out, const MachineSnapshot& now);
+  void every_100_ms(std::vector<berm_can_frame>& out, const MachineSnapshot& now);
+
+  PlantProfile profile_;
+  SeededNoise noise_;
+  GuardSender angle_guard_, velocity_guard_, machine_guard_, estop_guard_, operator_guard_, spotter_guard_;
+  std::uint8_t alive_ = 0;
+};
+
+}  // namespace berm::plant

@@ -1,0 +1,137 @@
+#include "plant/machine/strict_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+namespace berm::plant {
+
+StrictTable::StrictTable(std::string file, std::string path, toml::value value)
+    : file_(std::move(file)), path_(std::move(path)), value_(std::move(value)) {
+  if (!value_.is_table()) throw ConfigError(fmt::format("{}: {}: must be a table", file_, path_));
+}
+
+StrictTable StrictTable::parse_file(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw ConfigError(fmt::format("{}: cannot be read", file));
+  try {
+    return StrictTable(file, "", toml::parse(stream, file));
+  } catch (const toml::exception& error) {
+    throw ConfigError(fmt::format("{}: line {}: not valid TOML", file, error.location().line()));
+  } catch (const std::runtime_error& error) {
+    if (dynamic_cast<const ConfigError*>(&error) != nullptr) throw;
+    throw ConfigError(fmt::format("{}: cannot be read as TOML", file));
+  }
+}
+
+void StrictTable::fail(const std::string& key, const std::string& reason) const {
+  throw ConfigError(fmt::format("{}: {}{}: {}", file_, path_, key, reason));
+}
+
+bool StrictTable::has(const std::string& key) const { return value_.contains(key); }
+
+const toml::value& StrictTable::at(const std::string& key) {
+  if (!value_.contains(key)) fail(key, "is missing");
+  seen_.insert(key);
+  return value_.at(key);
+}
+
+double StrictTable::checked(const std::string& key, const toml::value& value, double low, double high) const {
+  double x = 0.0;
+  if (value.is_floating()) {
+    x = value.as_floating();
+  } else if (value.is_integer()) {
+    x = static_cast<double>(value.as_integer());
+  } else {
+    fail(key, "must be a number");
+  }
+  if (!std::isfinite(x) || x < low || x > high) fail(key, fmt::format("{} is outside {} .. {}", x, low, high));
+  return x;
+}
+
+double StrictTable::number(const std::string& key, double low, double high) { return checked(key, at(key), low, high); }
+
+double StrictTable::number_or(const std::string& key, double low, double high, double fallback) {
+  return has(key) ? number(key, low, high) : fallback;
+}
+
+double StrictTable::degrees(const std::string& key, double low_deg, double high_deg) { return radians(number(key, low_deg, high_deg)); }
+
+std::int64_t StrictTable::integer(const std::string& key, std::int64_t low, std::int64_t high) {
+  const toml::value& value = at(key);
+  if (!value.is_integer()) fail(key, "must be a whole number");
+  const std::int64_t x = value.as_integer();
+  if (x < low || x > high) fail(key, fmt::format("{} is outside {} .. {}", x, low, high));
+  return x;
+}
+
+bool StrictTable::flag(const std::string& key) {
+  const toml::value& value = at(key);
+  if (!value.is_boolean()) fail(key, "must be true or false");
+  return value.as_boolean();
+}
+
+std::string StrictTable::text(const std::string& key) {
+  const toml::value& value = at(key);
+  if (!value.is_string()) fail(key, "must be a text");
+  const std::string s = value.as_string().str;
+  if (s.empty() || s.size() > 200) fail(key, "must have 1 to 200 characters");
+  return s;
+}
+
+std::string StrictTable::choice(const std::string& key, const std::vector<std::string>& allowed) {
+  std::string s = text(key);
+  if (std::find(allowed.begin(), allowed.end(), s) == allowed.end()) fail(key, fmt::format("'{}' is not one of {}", s, fmt::join(allowed, ", ")));
+  return s;
+}
+
+std::vector<double> StrictTable::numbers(const std::string& key, std::size_t count, double low, double high) {
+  const toml::value& value = at(key);
+  if (!value.is_array() || value.as_array().size() != count) fail(key, fmt::format("must be an array of {} numbers", count));
+  std::vector<double> out;
+  for (const toml::value& item : value.as_array()) out.push_back(checked(key, item, low, high));
+  return out;
+}
+
+std::vector<std::array<double, 2>> StrictTable::points(const std::string& key, std::size_t low_count, std::size_t high_count, double low, double high) {
+  const toml::value& value = at(key);
+  if (!value.is_array()) fail(key, "must be an array of points");
+  const auto& items = value.as_array();
+  if (items.size() < low_count || items.size() > high_count) fail(key, fmt::format("must have {} to {} points", low_count, high_count));
+  std::vector<std::array<double, 2>> out;
+  for (const toml::value& item : items) {
+    if (!item.is_array() || item.as_array().size() != 2) fail(key, "each point must be an array of 2 numbers");
+    out.push_back({checked(key, item.as_array()[0], low, high), checked(key, item.as_array()[1], low, high)});
+  }
+  return out;
+}
+
+StrictTable StrictTable::table(const std::string& key) {
+  const toml::value& value = at(key);
+  if (!value.is_table()) fail(key, "must be a table");
+  return StrictTable(file_, path_ + key + ".", value);
+}
+
+std::vector<StrictTable> StrictTable::tables(const std::string& key) {
+  std::vector<StrictTable> out;
+  if (!has(key)) return out;
+  const toml::value& value = at(key);
+  if (!value.is_array()) fail(key, "must be an array of tables");
+  std::size_t index = 0;
+  for (const toml::value& item : value.as_array()) {
+    const std::string name = fmt::format("{}[{}]", key, index++);
+    if (!item.is_table()) fail(name, "must be a table");
+    out.push_back(StrictTable(file_, path_ + name + ".", item));
+  }
+  return out;
+}
+
+void StrictTable::finish() const {
+  for (const auto& [key, value] : value_.as_table()) {
+    if (seen_.find(key) == seen_.end()) fail(key, "is not a known key");
+  }
+}
+
+}  // namespace berm::plant

@@ -1,0 +1,20 @@
+// Vertical gap between a prism over the swing plane and the ground it hangs over.
+#pragma once
+
+#include <vector>
+
+#include "plant/oracle/oracle.hpp"
+
+namespace berm::plant::oracle {
+
+struct Profile {                       // a part in the swing plane: (r, z) corners, and its half width
+  std::vector<Eigen::Vector2d> corner;
+  double half_width = 0;
+};
+
+// Least gap over columns outside every zone; 1e9 when there is none below the part.
+double gap_outside_zones(const Profile& part, double swing, const Ground& ground, const std::vector<Zone>& zones);
+// Least height of the part's corners over the floor of the zones they are in; 1e9 when none is.
+double gap_over_floor(const Profile& part, double swing, const std::vector<Zone>& zones);
+
+}  // namespace berm::plant::oracle

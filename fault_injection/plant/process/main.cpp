@@ -1,0 +1,86 @@
+// berm_plant: the simulated excavator and site, behind the machine's own CAN frames and the scanners' datagrams.
+#include <signal.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "plant/machine/kinematics.hpp"
+#include "plant/machine/strict_table.hpp"
+#include "plant/process/plant_run.hpp"
+
+namespace {
+
+using namespace berm::plant;
+
+constexpr int kBadInput = 2;
+constexpr double kStartClearance = 0.2;  // m of the bucket above the bench
+
+// The descriptor that becomes readable when the run is asked to end.
+int stop_descriptor() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGINT);
+  sigprocmask(SIG_BLOCK, &signals, nullptr);
+  signal(SIGPIPE, SIG_IGN);
+  return signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
+}
+
+void check_start(const std::string& file, const Scenario& scenario, const PlantProfile& profile) {
+  static constexpr std::array<const char*, 4> kKey{"swing_deg", "boom_deg", "stick_deg", "bucket_deg"};
+  for (std::size_t j = 0; j < 4; ++j) {
+    const JointConfig& joint = profile.dynamics.joint[j];
+    if (scenario.start.angle[j] < joint.low || scenario.start.angle[j] > joint.high)
+      throw ConfigError(file + ": start." + kKey[j] + ": is outside the joint's range");
+  }
+  if (bucket_underside(profile.shape, scenario.start) < kStartClearance) throw ConfigError(file + ": start: the bucket would be in the ground");
+}
+
+int run(int argc, char** argv) {
+  std::string scenario_file, profiles = BERM_PLANT_PROFILES;
+  RunOptions options;
+  bool lockstep = false;
+  CLI::App app{"The simulated excavator and its site. Writes trace.csv, truth.json, terrain_start.csv and terrain_end.csv to the folder --out; "
+               "prints events as JSON lines."};
+  app.add_option("--scenario", scenario_file, "scenario file (TOML)")->required();
+  app.add_option("--profiles", profiles, "folder of the machine profiles that scenarios name")->capture_default_str();
+  app.add_option("--seed", options.seed, "seed of everything random")->capture_default_str();
+  app.add_option("--trucks", options.trucks, "trucks to come, one after another")->check(CLI::Range(1, 1000))->capture_default_str();
+  app.add_option("--can", options.can_address, "can:INTERFACE or udp:GROUP:PORT")->required();
+  app.add_option("--scan-port", options.scan_port, "UDP port on loopback that takes the scan packets")->required()->check(CLI::Range(1, 65535));
+  app.add_option("--out", options.out, "folder for the results, made when missing")->required();
+  auto* step = app.add_flag("--lockstep", lockstep, "virtual time, in step with kernel and app (default)");
+  app.add_flag("--realtime", options.realtime, "wall-clock time")->excludes(step);
+  app.add_option("--tick-fd", options.tick_fd, "inherited SOCK_SEQPACKET descriptor with the app's ticks")->check(CLI::Range(0, 1 << 20));
+  app.add_option("--kernel-fd", options.kernel_fd, "inherited read end of the kernel's lifeline pipe")->check(CLI::Range(0, 1 << 20));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kBadInput;
+  }
+  options.stop_fd = stop_descriptor();
+  try {
+    const Scenario scenario = load_scenario(scenario_file, profiles);
+    const PlantProfile profile = load_plant_profile(scenario.machine_file);
+    check_start(scenario_file, scenario, profile);
+    PlantRun(scenario, profile, options).run();
+  } catch (const ConfigError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return kBadInput;
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "berm_plant: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,215 @@
+#include "plant/process/plant_run.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "plant/machine/kinematics.hpp"
+#include "plant/machine/strict_table.hpp"
+
+namespace berm::plant {
+
+namespace {
+
+constexpr double kStandstillSpeed = radians(0.5);
+constexpr int kStandstillCycles = 20;
+constexpr double kFarthestClearance = 100.0;  // m, in the trace
+constexpr double kAfterFinish = 1.0;  // s
+constexpr double kAfterLoss = 2.0;    // s at standstill without a peer
+
+const std::string& made_folder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw ConfigError(fmt::format("--out {}: {}", path, error.message()));
+  return path;
+}
+
+can::Transport& opened(can::Transport& bus, const std::string& address) {
+  const std::string refused = bus.open(address);
+  if (!refused.empty()) throw ConfigError("--can " + refused);
+  return bus;
+}
+
+const char* state_name(PeerState state) {
+  if (state == PeerState::gone) return "gone";
+  return state == PeerState::absent ? "absent" : "back";
+}
+
+bool lost(PeerState state) { return state == PeerState::gone || state == PeerState::absent; }
+
+// Sleeps until the next multiple of the cycle on the monotonic clock.
+void sleep_to(timespec& next) {
+  next.tv_nsec += 10'000'000;
+  if (next.tv_nsec >= 1'000'000'000) {
+    next.tv_nsec -= 1'000'000'000;
+    ++next.tv_sec;
+  }
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &next, nullptr) != 0) {
+  }
+}
+
+}  // namespace
+
+PlantRun::PlantRun(const Scenario& scenario, const PlantProfile& profile, const RunOptions& options)
+    : scenario_(scenario), profile_(profile), options_(options), scans_(options.scan_port),
+      world_(scenario.world, profile_.shape, options.seed, options.trucks), dynamics_(profile.dynamics, profile.shape, options.seed, scenario.start),
+      controller_(profile), frames_(profile, options.seed), servo_{PanServo(profile.shape.scanner[0]), PanServo(profile.shape.scanner[1])},
+      peers_(opened(bus_, options.can_address), options.kernel_fd, options.tick_fd, [this](const berm_can_frame& frame) { controller_.receive(frame, now_); }),
+      trace_(made_folder(options.out) + "/trace.csv", world_.movers()), kernel_seen_(peers_.kernel()), app_seen_(peers_.app()) {}
+
+void PlantRun::advance(double t) {
+  controller_.decide(now_, standing_cycles_ > 0);
+  const JointState before = dynamics_.state();
+  const PanState pan_before = pan_;
+  dynamics_.step(kCycle, controller_.drive(), controller_.command(), soil_, world_.payload_kg());
+  for (std::size_t i = 0; i < servo_.size(); ++i) {
+    const PanGoal goal = controller_.pan(i, now_, servo_[i].angle());
+    servo_[i].step(kCycle, goal.goal, goal.rate);
+    pan_.angle[i] = servo_[i].angle();
+    pan_.velocity[i] = servo_[i].velocity();
+  }
+  soil_ = world_.step(t, kCycle, dynamics_.state(), before);
+  std::vector<berm_scan_packet> packets;
+  world_.scan(t, kCycle, before, dynamics_.state(), pan_before, pan_, packets);
+  scans_.send(packets);
+  const auto& speed = dynamics_.state().velocity;
+  const bool still = std::all_of(speed.begin(), speed.end(), [](double v) { return std::abs(v) < kStandstillSpeed; });
+  standing_cycles_ = still ? standing_cycles_ + 1 : 0;
+}
+
+void PlantRun::send(double t) {
+  MachineSnapshot snapshot;
+  snapshot.joints = dynamics_.state();
+  snapshot.payload_kg = world_.payload_kg();
+  const auto& factor = soil_.resist_speed_factor;
+  snapshot.digging = std::any_of(factor.begin(), factor.end(), [](double f) { return f < 1.0; });
+  snapshot.pilot_unlocked = controller_.pilot_unlocked();
+  snapshot.panel = panel_at(scenario_, t);
+  snapshot.truck_parked = world_.truck_parked();
+  snapshot.truck_leaving = world_.truck_leaving();
+  const bool stop = snapshot.panel.stop || snapshot.panel.emergency;
+  if (stop && !panel_stop_) record_.fault(t, snapshot.panel.stop ? "operator stop" : "emergency stop");
+  panel_stop_ = stop;
+  std::vector<berm_can_frame> out = frames_.frames(cycle_, snapshot);
+  if (!options_.realtime) {
+    const berm_sim_clock clock{static_cast<std::uint32_t>(cycle_), scans_.sent()};
+    out.push_back(berm_encode_sim_clock(&clock));
+  }
+  for (const berm_can_frame& frame : out) bus_.send(frame);
+}
+
+void PlantRun::keep_step() {
+  if (options_.realtime) {
+    peers_.drain();
+  } else {
+    peers_.wait_for(cycle_, options_.stop_fd);
+  }
+}
+
+void PlantRun::observe_trucks(double t) {
+  if (controller_.take_horn() && world_.truck_parked()) world_.release_truck(t);
+  const bool parked = world_.truck_parked(), leaving = world_.truck_leaving();
+  const auto load = [&](const Truth& truth) {
+    const auto i = static_cast<std::size_t>(std::max(truck_ - 1, 0));
+    return i < truth.truck_load_kg.size() ? truth.truck_load_kg[i] : 0.0;
+  };
+  if (parked && !parked_) {
+    ++truck_;
+    events_.truck("truck_arrived", t, truck_, load(world_.truth()));
+  }
+  if (leaving && !leaving_) {
+    const Truth truth = world_.truth();
+    record_.truck_left(t, truth);
+    events_.truck("truck_left", t, truck_, load(truth));
+  }
+  parked_ = parked;
+  leaving_ = leaving;
+}
+
+void PlantRun::observe_peers(double t) {
+  const auto look = [&](const char* who, PeerState now, PeerState& seen) {
+    if (now == seen) return;
+    seen = now;
+    events_.peer(t, who, state_name(now));
+    if (lost(now)) record_.fault(t, fmt::format("{} {}", who, state_name(now)));
+  };
+  look("kernel", peers_.kernel(), kernel_seen_);
+  look("app", peers_.app(), app_seen_);
+}
+
+void PlantRun::observe(double t) {
+  observe_peers(t);
+  observe_trucks(t);
+  const OracleVerdict verdict = world_.judge(t, dynamics_.state());
+  if (record_.judge(t, verdict)) events_.contact(t, verdict.what);
+  record_.standstill(t, standing_cycles_ >= kStandstillCycles);
+  trace_.row(t, dynamics_.state(), controller_.heartbeat(), world_.payload_kg(), std::min(verdict.closest_m, kFarthestClearance),
+             world_.movers());
+  if (cycle_ % 100 == 0) events_.time(t);
+}
+
+bool PlantRun::stop_asked() const {
+  if (options_.stop_fd < 0) return false;
+  pollfd p{options_.stop_fd, POLLIN, 0};
+  return poll(&p, 1, 0) > 0;
+}
+
+std::string PlantRun::end_reason(double t) {
+  constexpr double kRounding = 1e-6;
+  if (stop_asked()) return "terminated";
+  if (peers_.app_finished() && finished_at_ < 0.0) finished_at_ = t;
+  if (finished_at_ >= 0.0 && t - finished_at_ + kRounding >= kAfterFinish) return "finished";
+  const bool alone = finished_at_ < 0.0 && (lost(peers_.kernel()) || lost(peers_.app())) && standing_cycles_ >= kStandstillCycles;
+  if (!alone) alone_since_ = -1.0;
+  if (alone && alone_since_ < 0.0) alone_since_ = t;
+  if (alone && t - alone_since_ + kRounding >= kAfterLoss) {
+    const bool kernel = lost(peers_.kernel());
+    return fmt::format("{} {}", kernel ? "kernel" : "app", state_name(kernel ? peers_.kernel() : peers_.app()));
+  }
+  if (t + kRounding >= scenario_.max_time_s) return "time limit";
+  return {};
+}
+
+void PlantRun::run() {
+  world_.write_terrain(options_.out + "/terrain_start.csv");
+  timespec next{};
+  clock_gettime(CLOCK_MONOTONIC, &next);
+  std::string reason;
+  double t = 0.0;
+  while (reason.empty()) {
+    if (options_.realtime) sleep_to(next);
+    ++cycle_;
+    t = static_cast<double>(cycle_) * kCycle;
+    if (options_.realtime) keep_step();
+    advance(t);
+    now_ = t;
+    send(t);
+    if (!options_.realtime) keep_step();
+    observe(t);
+    reason = end_reason(t);
+  }
+  write_end(t, reason);
+  events_.finished(t, reason);
+}
+
+void PlantRun::write_end(double t, const std::string& reason) {
+  RunRecord::End end;
+  end.scenario = scenario_.name;
+  end.reason = reason;
+  end.seed = options_.seed;
+  end.time_s = t;
+  end.target_kg = scenario_.world.trucks.front().target_kg;
+  end.refused_frames = controller_.refused_frames();
+  end.scan_packets = scans_.sent();
+  end.truth = world_.truth();
+  trace_.finish();
+  world_.write_terrain(options_.out + "/terrain_end.csv");
+  record_.write(options_.out + "/truth.json", end);
+}
+
+}  // namespace berm::plant

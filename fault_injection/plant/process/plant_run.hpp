@@ -1,0 +1,81 @@
+// One run of the plant: the loop over cycles of 10 ms that moves machine and world, sends frames and scans, keeps step with the other
+// processes, and writes what happened.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "can/can_transport.hpp"
+#include "plant/machine/joint_dynamics.hpp"
+#include "plant/machine/machine_controller.hpp"
+#include "plant/machine/pan_servo.hpp"
+#include "plant/machine/state_frames.hpp"
+#include "plant/process/event_lines.hpp"
+#include "plant/process/peers.hpp"
+#include "plant/process/run_record.hpp"
+#include "plant/process/scan_sender.hpp"
+#include "plant/process/scenario.hpp"
+#include "plant/process/trace_writer.hpp"
+
+namespace berm::plant {
+
+struct RunOptions {
+  std::uint64_t seed = 1;
+  int trucks = 1;
+  std::string can_address;
+  std::uint16_t scan_port = 0;
+  std::string out;          // folder, made when missing
+  bool realtime = false;
+  int tick_fd = -1, kernel_fd = -1;
+  int stop_fd = -1;         // readable: end the run
+};
+
+class PlantRun {
+ public:
+  static constexpr double kCycle = 0.01;
+
+  // Throws ConfigError for a CAN address or folder that cannot be used, std::runtime_error otherwise.
+  PlantRun(const Scenario& scenario, const PlantProfile& profile, const RunOptions& options);
+  // Runs to the end and writes the files; throws std::runtime_error.
+  void run();
+
+ private:
+  void advance(double t);
+  void send(double t);
+  void keep_step();
+  void observe(double t);
+  void observe_trucks(double t);
+  void observe_peers(double t);
+  bool stop_asked() const;
+  // Why the run ends after this cycle; empty when it goes on.
+  std::string end_reason(double t);
+  void write_end(double t, const std::string& reason);
+
+  Scenario scenario_;
+  PlantProfile profile_;
+  RunOptions options_;
+  can::Transport bus_;
+  ScanSender scans_;
+  World world_;
+  JointDynamics dynamics_;
+  MachineController controller_;
+  StateFrames frames_;
+  std::array<PanServo, 2> servo_;
+  Peers peers_;
+  TraceWriter trace_;
+  RunRecord record_;
+  EventLines events_;
+
+  std::uint64_t cycle_ = 0;
+  double now_ = 0.0;                  // time of the newest cycle
+  PanState pan_;
+  DigForces soil_;
+  bool parked_ = false, leaving_ = false;
+  int truck_ = 0;                     // the newest that arrived, from 1
+  int standing_cycles_ = 0;
+  PeerState kernel_seen_, app_seen_;
+  double finished_at_ = -1.0, alone_since_ = -1.0;
+  bool panel_stop_ = false;
+};
+
+}  // namespace berm::plant

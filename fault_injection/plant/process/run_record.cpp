@@ -1,0 +1,94 @@
+#include "plant/process/run_record.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+#include "plant/process/output_file.hpp"
+
+namespace berm::plant {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kNothing = 1e8;  // the oracle gives 1e9 where there is nothing to measure to
+
+// Microunits: enough for any reader, and the text does not depend on the last bit.
+double rounded(double x) { return std::round(x * 1e6) / 1e6; }
+
+Json maybe(const std::optional<double>& x) { return x ? Json(rounded(*x)) : Json(nullptr); }
+
+}  // namespace
+
+bool RunRecord::judge(double t, const OracleVerdict& verdict) {
+  if (verdict.ground_gap_m < kNothing && (!ground_gap_m_ || verdict.ground_gap_m < *ground_gap_m_)) ground_gap_m_ = verdict.ground_gap_m;
+  if (verdict.closest_m < kNothing && (!closest_m_ || verdict.closest_m < *closest_m_)) {
+    closest_m_ = verdict.closest_m;
+    closest_time_s_ = t;
+    closest_what_ = verdict.what;
+  }
+  const bool begins = verdict.contact && !in_contact_;
+  if (begins) contacts_.push_back({t, verdict.what});
+  in_contact_ = verdict.contact;
+  return begins;
+}
+
+void RunRecord::fault(double t, const std::string& what) {
+  if (fault_s_) return;
+  fault_s_ = t;
+  fault_what_ = what;
+}
+
+void RunRecord::standstill(double t, bool standing) {
+  if (fault_s_ && !standstill_s_ && standing) standstill_s_ = t;
+}
+
+void RunRecord::truck_left(double t, const Truth& truth) {
+  const std::size_t index = departures_.size();
+  const double load = index < truth.truck_load_kg.size() ? truth.truck_load_kg[index] : 0.0;
+  departures_.push_back({t, load, truth.load_centre_offset_m, truth.load_height_stddev_m});
+}
+
+void RunRecord::write(const std::string& path, const End& end) const {
+  Json list = Json::array();
+  for (const Contact& c : contacts_) list.push_back({{"time_s", rounded(c.time_s)}, {"what", c.what}});
+  Json loads = Json::array();
+  for (const double kg : end.truth.truck_load_kg) loads.push_back(rounded(kg));
+  Json trucks = Json::array();
+  for (const Departure& d : departures_) {
+    trucks.push_back({{"left_s", rounded(d.time_s)}, {"load_kg", rounded(d.load_kg)}, {"load_centre_offset_m", rounded(d.centre_offset_m)},
+                      {"load_height_stddev_m", rounded(d.height_stddev_m)}});
+  }
+  Json truth;
+  truth["schema"] = 1;
+  truth["scenario"] = end.scenario;
+  truth["seed"] = end.seed;
+  truth["simulated_seconds"] = rounded(end.time_s);
+  truth["end_reason"] = end.reason;
+  truth["contacts"] = contacts_.size();
+  truth["contact_list"] = list;
+  truth["closest_approach_m"] = maybe(closest_m_);
+  truth["closest_approach_time_s"] = closest_m_ ? Json(rounded(closest_time_s_)) : Json(nullptr);
+  truth["closest_approach_what"] = closest_what_;
+  truth["least_ground_gap_m"] = maybe(ground_gap_m_);
+  truth["target_kg"] = rounded(end.target_kg);
+  truth["truck_load_kg"] = loads;
+  truth["trucks_left"] = trucks;
+  truth["dug_kg"] = rounded(end.truth.dug_kg);
+  truth["spill_kg"] = rounded(end.truth.spilled_kg);
+  truth["spill_fraction"] = end.truth.dug_kg > 0.0 ? rounded(end.truth.spilled_kg / end.truth.dug_kg) : 0.0;
+  truth["payload_kg"] = rounded(end.truth.payload_kg);
+  truth["load_centre_offset_m"] = rounded(end.truth.load_centre_offset_m);
+  truth["load_height_stddev_m"] = rounded(end.truth.load_height_stddev_m);
+  truth["fault"] = fault_s_ ? Json(fault_what_) : Json(nullptr);
+  truth["fault_s"] = maybe(fault_s_);
+  truth["first_standstill_after_fault_s"] = maybe(standstill_s_);
+  truth["refused_frames"] = end.refused_frames;
+  truth["scan_packets"] = end.scan_packets;
+  OutputFile file(path);
+  file.write(truth.dump(2) + "\n");
+  file.finish();
+}
+
+}  // namespace berm::plant

@@ -1,0 +1,28 @@
+// Sends scan packets as datagrams to a port on loopback.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scan/scan_packet.h"
+
+namespace berm::plant {
+
+class ScanSender {
+ public:
+  // Throws std::runtime_error.
+  explicit ScanSender(std::uint16_t port);
+  ScanSender(const ScanSender&) = delete;
+  ScanSender& operator=(const ScanSender&) = delete;
+  ~ScanSender();
+
+  // Throws std::runtime_error when a packet is not valid. A datagram that cannot be delivered is lost, as on a real network, but counted.
+  void send(const std::vector<berm_scan_packet>& packets);
+  std::uint32_t sent() const { return sent_; }
+
+ private:
+  int fd_ = -1;
+  std::uint32_t sent_ = 0;
+};
+
+}  // namespace berm::plant

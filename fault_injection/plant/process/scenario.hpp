@@ -1,0 +1,33 @@
+// A scenario: the site, what moves on it, what the operator does, how the machine stands at the start. Format: scenarios/FORMAT.md.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plant/machine/state_frames.hpp"
+#include "plant/process/world_config.hpp"
+#include "plant/world/world.hpp"
+
+namespace berm::plant {
+
+enum class PanelAction { stop, reset, relearn, emergency, pause };  // pause: the run switch is off
+
+struct PanelEvent { PanelAction action; double at_s, for_s; };
+
+struct Scenario {
+  std::string name;
+  std::string machine_file;             // plant profile
+  double max_time_s = 0.0;
+  double run_from_s = 0.0;              // the operator's run switch is on from here
+  JointState start;
+  std::vector<PanelEvent> panel;
+  WorldConfig world;
+};
+
+// profiles: folder in which a machine named without a path is looked up. Throws ConfigError ("FILE: field: reason").
+Scenario load_scenario(const std::string& file, const std::string& profiles);
+
+// The panel's keys at time t.
+PanelInput panel_at(const Scenario& scenario, double t);
+
+}  // namespace berm::plant

@@ -1,0 +1,98 @@
+// What a scenario says of the world: plain values, checked by the scenario's loader. Base frame, metres, seconds, radians.
+// The file format is fault_injection/scenarios/FORMAT.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace berm::plant {
+
+// A ridge of bank soil over the segment from..to; its flanks fall off at slope.
+struct MoundConfig {
+  std::array<double, 2> from{}, to{};
+  double top = 0.0;
+  double slope = 0.0;
+};
+
+// A bench of height 0 with a crest in front and one at the left; beyond each crest a plane falls to the lower ground.
+struct TerrainConfig {
+  double x_low = -16.0, y_low = -16.0, x_high = 16.0, y_high = 16.0, cell = 0.1;
+  double crest_x = 6.0, toe_x = 7.5;      // front slope: bench for x < crest_x, lower ground for x > toe_x
+  double crest_y = 3.6, toe_y = 4.8;      // left slope
+  double lower_z = -2.2;
+  double roughness = 0.0;                 // standard deviation of the surface, seeded
+  std::vector<MoundConfig> mounds;
+};
+
+struct SoilConfig {
+  double density_bank = 1474.0;           // kg/m3
+  double swell = 1.10;                    // loose volume over bank volume
+  double repose = 0.63;                   // steepest slope at which loose soil rests
+  double bank_slope = 1.05;               // steepest slope at which cut bank stands
+  double resistance = 0.5;                // 0 none .. 1 a full bucket's cut nearly stops the joints
+  double stick_fraction = 0.0;            // share of the payload that stays in the bucket when dumped
+};
+
+// A truck by the inside of its bed when parked. Truck i of a run uses entry i modulo the list's size.
+struct TruckConfig {
+  double x = 0.0, y = 0.0, yaw = 0.0;     // centre of the bed; yaw of the bed's long axis, which points to the cab
+  double length = 0.0, width = 0.0, height = 0.0;  // inside; height from bed floor to wall top
+  double wall_top = 0.0;                  // z of the wall tops
+  double wall_thickness = 0.0;
+  double cab_length = 0.0, cab_gap = 0.0, cab_top = 0.0;  // box ahead of the bed, as wide as the bed outside; top z
+  double target_kg = 0.0;
+  double wait_s = 0.0;                    // from start, or from the departure of the truck before, until it stands
+  double approach_m = 0.0;                // it comes from, and leaves, this far along its yaw: arrives in reverse, leaves forward
+  double speed = 0.0;                     // m/s
+  double place_stddev = 0.0, yaw_stddev = 0.0;     // of where it comes to stand, seeded
+};
+
+struct WaypointConfig { double x = 0.0, y = 0.0, wait_s = 0.0; };
+
+// A person (upright cylinder) or vehicle (box, long axis along its motion) that walks straight from waypoint to waypoint on the ground.
+struct MoverConfig {
+  std::string name;
+  bool vehicle = false;
+  double height = 0.0;
+  double radius = 0.0;                    // person
+  double length = 0.0, width = 0.0;       // vehicle
+  double speed = 0.0;                     // m/s
+  double start_s = 0.0;                   // leaves the first waypoint at this time ...
+  std::optional<double> start_swing_above;  // ... and not before the swing angle first exceeds this at or after start_s
+  std::vector<WaypointConfig> waypoints;  // stands at the first until it starts, at the last for ever
+};
+
+struct BoxConfig {                        // a fixed obstacle
+  std::string name;
+  double x = 0.0, y = 0.0, z_low = 0.0, z_high = 0.0, length = 0.0, width = 0.0, yaw = 0.0;
+};
+
+struct DigZoneConfig {                    // ground in here may be touched and dug, down to the floor; what falls here is not spilled
+  double x_low = 3.9, y_low = -4.2, x_high = 10.5, y_high = 4.2, floor = -3.4;
+};
+
+struct ScannerConfig {
+  double sample_rate_hz = 12000.0;
+  int samples_per_revolution = 400;
+  double range_min = 0.3, range_max = 60.0;
+  double range_stddev = 0.0;
+  double outlier_probability = 0.0;       // a sample with a range drawn between range_min and the true range
+  double dropout_probability = 0.0;       // a sample without return
+  double dust_probability = 0.0;          // a sample with an additional, nearer echo
+  double window_percent = 100.0;
+};
+
+struct WorldConfig {
+  TerrainConfig terrain;
+  SoilConfig soil;
+  std::vector<TruckConfig> trucks;
+  std::vector<MoverConfig> movers;        // people and vehicles
+  std::vector<BoxConfig> boxes;
+  std::vector<DigZoneConfig> dig_zones{DigZoneConfig{}};
+  ScannerConfig scanner;
+};
+
+}  // namespace berm::plant

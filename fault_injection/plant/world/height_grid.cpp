@@ -1,0 +1,182 @@
+#include "plant/world/height_grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace berm::plant {
+namespace {
+
+// Patches along a block's side. Patch i lies between the centres of the cells i - 1 and i.
+constexpr int block_side = 8;
+constexpr double never = std::numeric_limits<double>::infinity();
+
+// Walks the squares of a given side that a ray crosses, in units of patches.
+class Walk {
+ public:
+  Walk(const Ray& r, double t, int side) : ray_(r), side_(side), t_(t) {
+    const double s = side;
+    const Vec3 p = r.at(t);
+    i_ = static_cast<int>(std::floor(p.x / s));
+    j_ = static_cast<int>(std::floor(p.y / s));
+    step_i_ = r.direction.x > 0 ? 1 : -1;
+    step_j_ = r.direction.y > 0 ? 1 : -1;
+  }
+  [[nodiscard]] int i() const { return i_; }
+  [[nodiscard]] int j() const { return j_; }
+  void clamp_start(int i_low, int i_high, int j_low, int j_high) {
+    i_ = std::clamp(i_, i_low, i_high);
+    j_ = std::clamp(j_, j_low, j_high);
+  }
+  // Where the ray leaves the present square.
+  [[nodiscard]] double exit() const { return std::max(t_, std::min(exit_i(), exit_j())); }
+  void advance() {
+    const double ei = exit_i(), ej = exit_j();
+    t_ = std::max(t_, std::min(ei, ej));
+    if (ei <= ej) i_ += step_i_;
+    else j_ += step_j_;
+  }
+
+ private:
+  [[nodiscard]] double exit_i() const {
+    if (ray_.direction.x == 0) return never;
+    return ((i_ + (step_i_ > 0 ? 1 : 0)) * static_cast<double>(side_) - ray_.origin.x) / ray_.direction.x;
+  }
+  [[nodiscard]] double exit_j() const {
+    if (ray_.direction.y == 0) return never;
+    return ((j_ + (step_j_ > 0 ? 1 : 0)) * static_cast<double>(side_) - ray_.origin.y) / ray_.direction.y;
+  }
+  const Ray& ray_;
+  int side_, i_, j_, step_i_, step_j_;
+  double t_;
+};
+
+// Narrows [low, high] to where origin + t * direction lies in [a, b]; false when nothing is left.
+bool clip(double origin, double direction, double a, double b, double& low, double& high) {
+  if (direction == 0) return origin >= a && origin <= b;
+  const double t1 = (a - origin) / direction, t2 = (b - origin) / direction;
+  low = std::max(low, std::min(t1, t2));
+  high = std::min(high, std::max(t1, t2));
+  return low <= high;
+}
+
+}  // namespace
+
+HeightGrid::HeightGrid(double x_low, double y_low, double cell_x, double cell_y, int count_x, int count_y, double height)
+    : x_low_(x_low), y_low_(y_low), cell_x_(cell_x), cell_y_(cell_y), count_x_(count_x), count_y_(count_y),
+      blocks_x_(count_x / block_side + 1), blocks_y_(count_y / block_side + 1),
+      height_(static_cast<size_t>(count_x) * static_cast<size_t>(count_y), height),
+      block_max_(static_cast<size_t>(blocks_x_) * static_cast<size_t>(blocks_y_), height), stale_(block_max_.size(), 0), highest_(height) {}
+
+int HeightGrid::index_x(double x) const { return std::clamp(static_cast<int>(std::floor((x - x_low_) / cell_x_)), 0, count_x_ - 1); }
+int HeightGrid::index_y(double y) const { return std::clamp(static_cast<int>(std::floor((y - y_low_) / cell_y_)), 0, count_y_ - 1); }
+
+bool HeightGrid::contains(double x, double y) const {
+  return x >= x_low_ && y >= y_low_ && x < x_low_ + count_x_ * cell_x_ && y < y_low_ + count_y_ * cell_y_;
+}
+
+void HeightGrid::set(int ix, int iy, double height) {
+  height_[static_cast<size_t>(iy) * static_cast<size_t>(count_x_) + static_cast<size_t>(ix)] = height;
+  // The cell is a corner of the patches ix and ix + 1, which may lie in two blocks.
+  for (int bj = iy / block_side; bj <= (iy + 1) / block_side; ++bj) {
+    for (int bi = ix / block_side; bi <= (ix + 1) / block_side; ++bi) {
+      const auto b = static_cast<size_t>(bj * blocks_x_ + bi);
+      if (!stale_[b]) {
+        stale_[b] = 1;
+        stale_list_.push_back(static_cast<int>(b));
+      }
+    }
+  }
+}
+
+void HeightGrid::refresh() {
+  if (stale_list_.empty()) return;
+  for (const int b : stale_list_) {
+    const int bi = b % blocks_x_, bj = b / blocks_x_;
+    double top = -never;
+    for (int iy = bj * block_side - 1; iy < (bj + 1) * block_side; ++iy) {
+      for (int ix = bi * block_side - 1; ix < (bi + 1) * block_side; ++ix) top = std::max(top, clamped(ix, iy));
+    }
+    block_max_[static_cast<size_t>(b)] = top;
+    stale_[static_cast<size_t>(b)] = 0;
+  }
+  stale_list_.clear();
+  highest_ = *std::max_element(block_max_.begin(), block_max_.end());
+}
+
+double HeightGrid::clamped(int ix, int iy) const { return at(std::clamp(ix, 0, count_x_ - 1), std::clamp(iy, 0, count_y_ - 1)); }
+
+double HeightGrid::surface(double x, double y) const {
+  const double u = std::clamp((x - x_low_) / cell_x_ + 0.5, 0.5, count_x_ + 0.5);
+  const double v = std::clamp((y - y_low_) / cell_y_ + 0.5, 0.5, count_y_ + 0.5);
+  const int i = static_cast<int>(u), j = static_cast<int>(v);
+  const double fu = u - i, fv = v - j;
+  const double h00 = clamped(i - 1, j - 1), h10 = clamped(i, j - 1), h01 = clamped(i - 1, j), h11 = clamped(i, j);
+  if (fu + fv <= 1) return h00 + (h10 - h00) * fu + (h01 - h00) * fv;
+  return h11 + (h01 - h11) * (1 - fu) + (h10 - h11) * (1 - fv);
+}
+
+std::optional<double> HeightGrid::cast_cell(int i, int j, const Ray& r, double t_in, double t_out) const {
+  const double h00 = clamped(i - 1, j - 1), h10 = clamped(i, j - 1), h01 = clamped(i - 1, j), h11 = clamped(i, j);
+  const double z_in = r.origin.z + t_in * r.direction.z, z_out = r.origin.z + t_out * r.direction.z;
+  if (std::min(z_in, z_out) > std::max({h00, h10, h01, h11})) return std::nullopt;
+  // Height over the surface at t, which is linear on either side of the patch's diagonal.
+  const auto over = [&](double t) {
+    const double fu = r.origin.x + t * r.direction.x - i, fv = r.origin.y + t * r.direction.y - j;
+    const double h = fu + fv <= 1 ? h00 + (h10 - h00) * fu + (h01 - h00) * fv : h11 + (h01 - h11) * (1 - fu) + (h10 - h11) * (1 - fv);
+    return r.origin.z + t * r.direction.z - h;
+  };
+  std::array<double, 3> stop = {t_in, t_out, t_out};
+  const double slope = r.direction.x + r.direction.y;
+  if (slope != 0) {
+    const double t = (i + j + 1 - r.origin.x - r.origin.y) / slope;
+    if (t > t_in && t < t_out) stop[1] = t;
+  }
+  double before = over(stop[0]);
+  if (before <= 0) return t_in;
+  for (size_t k = 1; k < 3; ++k) {
+    const double after = over(stop[k]);
+    if (after <= 0) return stop[k - 1] + (stop[k] - stop[k - 1]) * before / (before - after);
+    before = after;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> HeightGrid::cast_block(int bi, int bj, const Ray& r, double t_in, double t_out) const {
+  Walk walk(r, t_in, 1);
+  walk.clamp_start(bi * block_side, bi * block_side + block_side - 1, bj * block_side, bj * block_side + block_side - 1);
+  double t = t_in;
+  while (t < t_out && walk.i() / block_side == bi && walk.j() / block_side == bj && walk.i() >= 0 && walk.j() >= 0) {
+    const double leave = std::min(walk.exit(), t_out);
+    if (const auto hit = cast_cell(walk.i(), walk.j(), r, t, leave)) return hit;
+    t = leave;
+    walk.advance();
+  }
+  return std::nullopt;
+}
+
+std::optional<double> HeightGrid::cast(const Ray& ray, double range_max) const {
+  // In units of patches, so that the walk's squares have integer corners; the parameter stays the range.
+  const Ray r{{(ray.origin.x - x_low_) / cell_x_ + 0.5, (ray.origin.y - y_low_) / cell_y_ + 0.5, ray.origin.z},
+              {ray.direction.x / cell_x_, ray.direction.y / cell_y_, ray.direction.z}};
+  double t_in = 0, t_out = range_max;
+  if (!clip(r.origin.z, r.direction.z, -never, highest_ + 1e-9, t_in, t_out)) return std::nullopt;
+  if (!clip(r.origin.x, r.direction.x, 0.5, count_x_ + 0.5, t_in, t_out)) return std::nullopt;
+  if (!clip(r.origin.y, r.direction.y, 0.5, count_y_ + 0.5, t_in, t_out)) return std::nullopt;
+  Walk walk(r, t_in, block_side);
+  walk.clamp_start(0, blocks_x_ - 1, 0, blocks_y_ - 1);
+  double t = t_in;
+  while (t < t_out && walk.i() >= 0 && walk.j() >= 0 && walk.i() < blocks_x_ && walk.j() < blocks_y_) {
+    const double leave = std::min(walk.exit(), t_out);
+    const double lowest = std::min(r.origin.z + t * r.direction.z, r.origin.z + leave * r.direction.z);
+    if (lowest <= block_max_[static_cast<size_t>(walk.j() * blocks_x_ + walk.i())]) {
+      if (const auto hit = cast_block(walk.i(), walk.j(), r, t, leave)) return hit;
+    }
+    t = leave;
+    walk.advance();
+  }
+  return std::nullopt;
+}
+
+}  // namespace berm::plant

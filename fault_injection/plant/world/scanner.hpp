@@ -1,0 +1,45 @@
+// The two panning scanners: which samples fall into a step, where they look, what comes back, and the packets that carry it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "plant/machine/implement_shape.hpp"
+#include "plant/process/world_config.hpp"
+#include "plant/world/random.hpp"
+#include "plant/world/scene.hpp"
+#include "plant/world/world.hpp"
+#include "scan/scan_packet.h"
+
+namespace berm::plant {
+
+// One end of a step: what a sample's place in time interpolates between.
+struct ScanPose { double swing = 0, pan = 0; };
+
+class Scanner {
+ public:
+  Scanner(const ScannerConfig& config, const ScannerMount& mount, uint8_t number, uint64_t seed);
+  // The samples in (t - dt, t]. Sample n is taken at (n + 1) / rate, counted from the start in whole nanoseconds, so nothing drifts.
+  // Packets do not span scanlines or calls.
+  void step(double t, double dt, const ScanPose& before, const ScanPose& now, const Scene& scene, std::vector<berm_scan_packet>& out);
+
+  // Direction of a sample in the upper body's frame.
+  [[nodiscard]] Vec3 direction(int index, double pan) const;
+
+ private:
+  struct Sample { uint16_t echo[BERM_SCAN_ECHOES] = {0, 0, 0}; };
+  [[nodiscard]] int64_t time_ns(int64_t sample) const { return (sample + 1) * 1'000'000'000 / rate_; }
+  Sample measure(const Ray& base, const Ray& upper, const Scene& scene);
+  [[nodiscard]] uint16_t raw(double range) const;
+
+  ScannerConfig config_;
+  Vec3 head_;
+  uint8_t number_;
+  int64_t rate_;
+  int64_t next_ = 0;        // number of the next sample
+  uint32_t sequence_ = 0;
+  Random random_;
+  std::vector<double> cosine_, sine_;  // of the mirror's angle
+};
+
+}  // namespace berm::plant

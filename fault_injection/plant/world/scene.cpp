@@ -1,0 +1,116 @@
+#include "plant/world/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace berm::plant {
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+Vec3 point(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
+
+void nearer(std::optional<double> hit, double& range) {
+  if (hit && *hit < range) range = *hit;
+}
+
+}  // namespace
+
+void Scene::place_site(const Terrain& terrain, const std::vector<Truck>& trucks, const Movers& movers, const std::vector<BoxConfig>& boxes) {
+  terrain_ = &terrain;
+  truck_.clear();
+  for (const Truck& t : trucks) {
+    if (!t.present()) continue;
+    TruckSolid s;
+    s.frame = t.frame();
+    s.low = t.hull().low;
+    s.high = {t.hull().high.x, t.hull().high.y, std::max(t.hull().high.z, t.heap().grid().highest())};
+    for (const TruckPart& p : t.parts()) s.part.push_back({t.frame(), p.low, p.high});
+    s.heap = &t.heap();
+    truck_.push_back(std::move(s));
+  }
+  box_.clear();
+  for (const BoxConfig& b : boxes) {
+    box_.push_back({PlanarFrame(b.x, b.y, 0, b.yaw), {-b.length / 2, -b.width / 2, b.z_low}, {b.length / 2, b.width / 2, b.z_high}});
+  }
+  person_.clear();
+  for (size_t i = 0; i < movers.count(); ++i) {
+    const MoverConfig& c = movers.config(i);
+    const MoverPose& p = movers.pose(i);
+    if (c.vehicle) {
+      box_.push_back({PlanarFrame(p.x, p.y, p.z, p.yaw), {-c.length / 2, -c.width / 2, 0}, {c.length / 2, c.width / 2, c.height}});
+    } else {
+      person_.push_back({p.x, p.y, p.z, p.z + c.height, c.radius});
+    }
+  }
+}
+
+void Scene::place_machine(const ImplementShape& shape, const LinkFrames& links, double heap_volume) {
+  implement_.clear();
+  const auto add = [this](const std::vector<SwingPlanePoint>& outline, double half_width) {
+    implement_.emplace_back(outline, half_width);
+    const PrismSolid& s = implement_.back();
+    implement_low_ = {std::min(implement_low_.x, s.low().x), std::min(implement_low_.y, s.low().y), std::min(implement_low_.z, s.low().z)};
+    implement_high_ = {std::max(implement_high_.x, s.high().x), std::max(implement_high_.y, s.high().y), std::max(implement_high_.z, s.high().z)};
+  };
+  implement_low_ = {inf, inf, inf};
+  implement_high_ = {-inf, -inf, -inf};
+  for (const SolidPart& part : shape.parts) {
+    std::vector<SwingPlanePoint> outline;
+    for (const OutlinePoint& p : part.outline) outline.push_back(links.link[static_cast<size_t>(part.link)].out(p.x, p.z));
+    add(outline, part.half_width);
+  }
+  if (heap_volume > 1e-3 && shape.bucket_half_width > 0) {
+    // A triangular heap over the mouth, as high as its volume asks.
+    const double base = 0.85 * shape.bucket, height = heap_volume / (shape.bucket_half_width * base);
+    const LinkFrame& b = links.link[3];
+    add({b.out(0.10 * shape.bucket, -height), b.out(0.95 * shape.bucket, 0), b.out(0.10 * shape.bucket, 0)}, shape.bucket_half_width);
+  }
+  upper_body_.clear();
+  for (const AxisBox& b : shape.upper_body) upper_body_.push_back({PlanarFrame(), point(b.low), point(b.high)});
+  track_.clear();
+  for (const AxisBox& b : shape.tracks) track_.push_back({PlanarFrame(), point(b.low), point(b.high)});
+}
+
+double Scene::cast_truck(const TruckSolid& truck, const Ray& base, double range) const {
+  const Ray local = truck.frame.in(base);
+  if (!cast_box(local, truck.low, truck.high, range)) return range;
+  for (const BoxSolid& p : truck.part) nearer(cast_box(local, p.low, p.high, range), range);
+  nearer(truck.heap->grid().cast(local, range), range);
+  return range;
+}
+
+// The ground outside the map: the two levels, and the slopes between them taken as steps.
+double Scene::cast_beyond(const Ray& base, double range) const {
+  if (base.direction.z >= 0) return range;
+  const HeightGrid& g = terrain_->grid();
+  const double far_x = g.x_low() + g.count_x() * g.cell_x(), far_y = g.y_low() + g.count_y() * g.cell_y();
+  const double levels[] = {0.0, terrain_->as_built(far_x + 1000, far_y + 1000)};
+  for (const double level : levels) {
+    const double t = (level - base.origin.z) / base.direction.z;
+    if (t <= 0 || t >= range) continue;
+    const Vec3 p = base.at(t);
+    if (!g.contains(p.x, p.y) && level >= terrain_->as_built(p.x, p.y) - 1e-9) range = t;
+  }
+  return range;
+}
+
+std::optional<double> Scene::cast(const Ray& base, const Ray& upper, double range_max) const {
+  double range = range_max;
+  if (cast_box(upper, implement_low_, implement_high_, range)) {
+    for (const PrismSolid& s : implement_) nearer(s.cast(upper, range), range);
+  }
+  for (const BoxSolid& b : upper_body_) nearer(cast_box(upper, b.low, b.high, range), range);
+  for (const BoxSolid& b : track_) nearer(cast_box(base, b.low, b.high, range), range);
+  for (const TruckSolid& t : truck_) range = cast_truck(t, base, range);
+  for (const BoxSolid& b : box_) nearer(b.cast(base, range), range);
+  for (const CylinderSolid& p : person_) nearer(p.cast(base, range), range);
+  if (terrain_ != nullptr) {
+    nearer(terrain_->grid().cast(base, range), range);
+    range = cast_beyond(base, range);
+  }
+  return range < range_max ? std::optional<double>(range) : std::nullopt;
+}
+
+}  // namespace berm::plant

@@ -1,0 +1,47 @@
+// Everything a scanner can see at one moment, gathered once a step, and the first thing a ray meets.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "plant/machine/implement_shape.hpp"
+#include "plant/world/bed_heap.hpp"
+#include "plant/world/link_frames.hpp"
+#include "plant/world/movers.hpp"
+#include "plant/world/solids.hpp"
+#include "plant/world/terrain.hpp"
+#include "plant/world/truck.hpp"
+
+namespace berm::plant {
+
+class Scene {
+ public:
+  // Walls and cab of trucks, people, vehicles, fixed boxes.
+  void place_site(const Terrain& terrain, const std::vector<Truck>& trucks, const Movers& movers, const std::vector<BoxConfig>& boxes);
+  // The machine at one pose of boom, stick and bucket, with its load heaped over the mouth. Upper body's frame: the swing stays out of it.
+  void place_machine(const ImplementShape& shape, const LinkFrames& links, double heap_volume);
+
+  // Range of the first hit. Both rays are the same one: in the base frame and in the upper body's.
+  [[nodiscard]] std::optional<double> cast(const Ray& base, const Ray& upper, double range_max) const;
+
+ private:
+  // A truck's boxes and heap behind one bounding box.
+  struct TruckSolid {
+    PlanarFrame frame;
+    Vec3 low, high;
+    std::vector<BoxSolid> part;
+    const BedHeap* heap = nullptr;
+  };
+  [[nodiscard]] double cast_truck(const TruckSolid& truck, const Ray& base, double range) const;
+  [[nodiscard]] double cast_beyond(const Ray& base, double range) const;
+
+  const Terrain* terrain_ = nullptr;
+  std::vector<TruckSolid> truck_;
+  std::vector<BoxSolid> box_;
+  std::vector<CylinderSolid> person_;
+  std::vector<PrismSolid> implement_;
+  std::vector<BoxSolid> upper_body_, track_;
+  Vec3 implement_low_, implement_high_;
+};
+
+}  // namespace berm::plant

@@ -1,0 +1,222 @@
+#include "plant/world/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <limits>
+#include <stdexcept>
+
+#include "plant/machine/implement_shape.hpp"
+#include "plant/oracle/oracle.hpp"
+#include "plant/process/world_config.hpp"
+#include "plant/world/link_frames.hpp"
+#include "plant/world/landing.hpp"
+#include "plant/world/movers.hpp"
+#include "plant/world/random.hpp"
+#include "plant/world/scanner.hpp"
+#include "plant/world/scene.hpp"
+#include "plant/world/soil_cut.hpp"
+#include "plant/world/terrain.hpp"
+#include "plant/world/truck.hpp"
+
+namespace berm::plant {
+namespace {
+
+// Cells looked at in one step at most: what is still moving goes on in the next.
+constexpr int ground_budget = 2000, bed_budget = 1000;
+
+// Streams of their own for each use, so that a change to one leaves the others as they were.
+enum Stream : uint64_t { stream_terrain = 1, stream_trucks = 2, stream_left = 3, stream_right = 4 };
+uint64_t seed_of(uint64_t seed, Stream stream) {
+  uint64_t x = seed * 0x9E3779B97F4A7C15u + stream * 0xD1B54A32D192ED03u;  // splitmix64's finaliser
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
+  return x ^ (x >> 31);
+}
+
+std::vector<Truck> make_trucks(const WorldConfig& config, const Terrain& terrain, uint64_t seed, int count) {
+  Random random(seed);
+  std::vector<Truck> all;
+  if (config.trucks.empty()) return all;
+  for (int i = 0; i < count; ++i) {
+    const TruckConfig& c = config.trucks[static_cast<size_t>(i) % config.trucks.size()];
+    const double dx = c.place_stddev * random.normal(), dy = c.place_stddev * random.normal(), turn = c.yaw_stddev * random.normal();
+    all.emplace_back(c, config.soil, "truck_" + std::to_string(i + 1), terrain.as_built(c.x, c.y), dx, dy, turn);
+  }
+  return all;
+}
+
+}  // namespace
+
+struct World::State {
+  State(const WorldConfig& c, const ImplementShape& s, uint64_t seed, int trucks)
+      : config(c), shape(s), terrain(c.terrain, c.soil, seed_of(seed, stream_terrain)), truck(make_trucks(c, terrain, seed_of(seed, stream_trucks), trucks)),
+        movers(c.movers), load(s, c.soil), cut(s, c.soil), landing(terrain, truck, config.dig_zones), oracle(s),
+        scanner{Scanner(c.scanner, s.scanner[0], 0, seed_of(seed, stream_left)), Scanner(c.scanner, s.scanner[1], 1, seed_of(seed, stream_right))} {
+    if (!truck.empty()) truck[0].call(0);
+    move_trucks(0);
+    movers.step(0, 0, 0, terrain);
+  }
+
+  void move_trucks(double t) {
+    for (size_t i = 0; i < truck.size(); ++i) {
+      over.clear();
+      truck[i].step(t, bed_budget, over);
+      for (const Overflow& o : over) landing.overflow(truck[i], o, book);
+      if (truck[i].phase() == Truck::Phase::gone && current == i) {
+        ++current;
+        if (current < truck.size()) truck[current].call(truck[i].gone_at());
+      }
+    }
+  }
+
+  [[nodiscard]] double loose_density() const { return config.soil.density_bank / config.soil.swell; }
+  // The truck that is here or expected; the last one when all are gone.
+  [[nodiscard]] const Truck* shown() const { return truck.empty() ? nullptr : &truck[std::min(current, truck.size() - 1)]; }
+  [[nodiscard]] oracle::Site site() const;
+
+  WorldConfig config;
+  ImplementShape shape;
+  Terrain terrain;
+  std::vector<Truck> truck;
+  Movers movers;
+  BucketLoad load;
+  SoilCut cut;
+  Landing landing;
+  SoilBook book;
+  oracle::Oracle oracle;
+  std::array<Scanner, 2> scanner;
+  Scene scene;
+  size_t current = 0;
+  std::vector<Overflow> over;
+};
+
+World::World(const WorldConfig& config, const ImplementShape& shape, std::uint64_t seed, int trucks)
+    : state_(std::make_unique<State>(config, shape, seed, trucks)) {}
+World::~World() = default;
+
+DigForces World::step(double t, double dt, const JointState& now, const JointState& previous) {
+  State& w = *state_;
+  w.movers.step(t, dt, now.angle[0], w.terrain);
+  w.move_trucks(t);
+  const BucketPose before = w.cut.pose(link_frames(w.shape, previous)), here = w.cut.pose(link_frames(w.shape, now));
+  const double taken = w.cut.cut(before, here, dt, w.terrain, w.load, w.book);
+  w.cut.empty(here, dt, w.terrain, w.load, w.landing, w.book);
+  w.terrain.settle(ground_budget);
+  DigForces forces;
+  forces.resist_speed_factor.fill(w.cut.speed_factor(taken, dt));
+  return forces;
+}
+
+void World::scan(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
+                 std::vector<berm_scan_packet>& out) {
+  State& w = *state_;
+  w.scene.place_site(w.terrain, w.truck, w.movers, w.config.boxes);
+  w.scene.place_machine(w.shape, link_frames(w.shape, now), std::max(0.0, w.load.volume() - w.load.struck()));
+  for (size_t i = 0; i < w.scanner.size(); ++i) {
+    w.scanner[i].step(t, dt, {before.angle[0], pan_before.angle[i]}, {now.angle[0], pan_now.angle[i]}, w.scene, out);
+  }
+}
+
+oracle::Site World::State::site() const {
+  oracle::Site s;
+  for (const Truck& t : truck) {
+    if (!t.present()) continue;
+    const PlanarFrame& f = t.frame();
+    for (const TruckPart& p : t.parts()) {
+      s.blocks.push_back({t.name() + " " + p.name, f.x, f.y, f.z, t.yaw(), {p.low.x, p.low.y, p.low.z}, {p.high.x, p.high.y, p.high.z}});
+    }
+  }
+  for (const BoxConfig& b : config.boxes) {
+    s.blocks.push_back({b.name, b.x, b.y, 0, b.yaw, {-b.length / 2, -b.width / 2, b.z_low}, {b.length / 2, b.width / 2, b.z_high}});
+  }
+  for (size_t i = 0; i < movers.count(); ++i) {
+    const MoverConfig& c = movers.config(i);
+    const MoverPose& p = movers.pose(i);
+    if (c.vehicle) s.blocks.push_back({c.name, p.x, p.y, p.z, p.yaw, {-c.length / 2, -c.width / 2, 0}, {c.length / 2, c.width / 2, c.height}});
+    else s.people.push_back({c.name, p.x, p.y, p.z, c.radius, c.height});
+  }
+  for (const DigZoneConfig& z : config.dig_zones) s.zones.push_back({z.x_low, z.y_low, z.x_high, z.y_high, z.floor});
+  const HeightGrid& g = terrain.grid();
+  s.ground = {g.x_low(), g.y_low(), g.cell_x(), g.count_x(), g.count_y(), g.data()};
+  return s;
+}
+
+OracleVerdict World::judge(double, const JointState& joints) {
+  const oracle::Judgement j = state_->oracle.judge(joints.angle, state_->site());
+  return {j.contact, j.closest, j.ground_gap, j.what};
+}
+
+double World::payload_kg() const { return state_->load.volume() * state_->loose_density(); }
+
+Truth World::truth() const {
+  const State& w = *state_;
+  Truth out;
+  const double density = w.loose_density();
+  out.payload_kg = payload_kg();
+  for (const Truck& t : w.truck) out.truck_load_kg.push_back(t.load_kg());
+  out.spilled_kg = w.book.spilled * density;
+  out.dug_kg = w.book.dug * density;
+  if (const Truck* t = w.shown()) {
+    out.load_centre_offset_m = t->heap().centre_offset();
+    out.load_height_stddev_m = t->heap().height_stddev();
+  }
+  return out;
+}
+
+std::vector<MoverPose> World::movers() const {
+  const State& w = *state_;
+  std::vector<MoverPose> all;
+  for (const Truck& t : w.truck) all.push_back({t.name(), t.frame().x, t.frame().y, t.frame().z, t.yaw(), true});
+  for (size_t i = 0; i < w.movers.count(); ++i) all.push_back(w.movers.pose(i));
+  return all;
+}
+
+void World::release_truck(double t) {
+  if (state_->current < state_->truck.size()) state_->truck[state_->current].release(t);
+}
+
+bool World::truck_parked() const {
+  const Truck* t = state_->shown();
+  return t != nullptr && t->phase() == Truck::Phase::parked;
+}
+
+bool World::truck_leaving() const {
+  const Truck* t = state_->shown();
+  return t != nullptr && t->phase() == Truck::Phase::leaving;
+}
+
+bool World::all_trucks_done() const { return !state_->truck.empty() && state_->current == state_->truck.size(); }
+
+void World::write_terrain(const std::string& path) const {
+  const State& w = *state_;
+  const HeightGrid& g = w.terrain.grid();
+  const auto write = [&](const std::string& file, auto height) {
+    std::ofstream out(file);
+    out << std::setprecision(6) << g.x_low() << ',' << g.y_low() << ',' << g.cell_x() << ',' << g.count_x() << ',' << g.count_y() << '\n';
+    out << std::fixed << std::setprecision(4);
+    for (int iy = 0; iy < g.count_y(); ++iy) {
+      for (int ix = 0; ix < g.count_x(); ++ix) {
+        if (ix > 0) out << ',';
+        const double z = height(ix, iy);
+        if (std::isnan(z)) out << "nan";
+        else out << z;
+      }
+      out << '\n';
+    }
+    out.close();
+    if (!out) throw std::runtime_error(file + ": cannot write");
+  };
+  write(path, [&](int ix, int iy) { return g.at(ix, iy); });
+  write(path + ".truck", [&](int ix, int iy) {
+    for (const Truck& t : w.truck) {
+      if (!t.present()) continue;
+      const Vec3 p = t.frame().in(Vec3{g.centre_x(ix), g.centre_y(iy), 0});
+      if (t.over_bed(p)) return t.frame().z + t.heap().grid().surface(p.x, p.y);
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+  });
+}
+
+}  // namespace berm::plant

@@ -1,0 +1,68 @@
+// The world around the machine: ground and soil, trucks, people, what the scanners see of them, and the independent oracle.
+// SI units, radians, base frame (implement_shape.hpp). Everything is a function of the configuration, the seed and the calls made.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scan/scan_packet.h"
+
+namespace berm::plant {
+
+struct JointState { std::array<double, 4> angle{}; std::array<double, 4> velocity{}; };  // swing, boom, stick, bucket; rad, rad/s
+struct PanState { std::array<double, 2> angle{}; std::array<double, 2> velocity{}; };    // left, right; relative to the upper body
+
+struct ImplementShape;  // machine/implement_shape.hpp
+struct WorldConfig;     // process/world_config.hpp
+
+struct DigForces { std::array<double, 4> resist_speed_factor{1.0, 1.0, 1.0, 1.0}; };  // 0..1: what the soil leaves of each joint's speed
+
+struct Truth {
+  double payload_kg = 0.0;
+  std::vector<double> truck_load_kg;      // one for each truck of the run
+  double spilled_kg = 0.0;                // dug, and neither in a truck nor in the bucket nor back in the dig zone
+  double dug_kg = 0.0;
+  double load_centre_offset_m = 0.0, load_height_stddev_m = 0.0;  // of the current or last truck
+};
+
+struct OracleVerdict {
+  bool contact = false;                   // of this step: an implement touches what it must not
+  double closest_m = 0.0;                 // distance to the nearest person, vehicle, truck or box, 0 in contact; 1e9 when there is none
+  double ground_gap_m = 0.0;              // least vertical gap over ground outside the dig zones (and over the zones' floor); negative: below it
+  std::string what;                       // its name
+};
+
+struct MoverPose { std::string name; double x = 0.0, y = 0.0, z = 0.0, yaw = 0.0; bool vehicle = false; };
+
+class World {
+ public:
+  World(const WorldConfig& config, const ImplementShape& shape, std::uint64_t seed, int trucks);
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+  ~World();
+
+  // From t - dt to t: moves people and trucks, cuts, carries, dumps, settles.
+  DigForces step(double t, double dt, const JointState& now, const JointState& previous);
+  // Samples of both scanners in (t - dt, t], appended as packets. 12 kHz, 400 a turn; at most 120 a packet; packets do not span scanlines.
+  void scan(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
+            std::vector<berm_scan_packet>& out);
+  OracleVerdict judge(double t, const JointState& joints);  // independent oracle
+  double payload_kg() const;
+  Truth truth() const;
+  std::vector<MoverPose> movers() const;  // the same names in the same order at every call: trucks first
+  void release_truck(double t);           // the horn: the full truck drives off, the next one comes if there is one
+  bool truck_parked() const;
+  bool truck_leaving() const;
+  bool all_trucks_done() const;
+  // CSV grid: header line x0,y0,cell,nx,ny, then rows of heights; truck beds included as a second layer, file path + ".truck".
+  void write_terrain(const std::string& path) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace berm::plant

@@ -1,0 +1,46 @@
+#include "app/app_loop.hpp"
+
+#include <sys/socket.h>
+
+#include <cerrno>
+
+namespace berm::app {
+
+namespace {
+
+constexpr int wait_ms = 100;
+
+bool send_tick(int fd, const Tick& tick) {
+  if (fd < 0) return true;
+  for (;;) {
+    if (::send(fd, &tick, sizeof tick, MSG_NOSIGNAL) == static_cast<ssize_t>(sizeof tick)) return true;
+    if (errno != EINTR) return false;
+  }
+}
+
+}  // namespace
+
+LoopEnd run_loop(const MachineModel& machine, KernelLink& link, Sequencer& sequencer, int tick_fd, const volatile std::sig_atomic_t& stop) {
+  ScanIntake intake;
+  std::uint64_t handled = 0;
+  bool any = false;
+  std::uint32_t sequence = 0;
+  berm_state state;
+  while (!stop) {
+    const std::uint32_t seen = link.wake();
+    if (!link.read(state) || seen == 0 || (any && state.cycle == handled)) {
+      link.wait(seen, wait_ms);
+      if (link.wake() == seen && link.kernel_gone()) return LoopEnd::kernel_gone;
+      continue;
+    }
+    handled = state.cycle;
+    any = true;
+    intake.take(link.segment(), sequencer.terrain(), sequencer.bed());
+    const Answer answer = sequencer.step(observe(state));
+    link.write(make_request(machine, answer, ++sequence, state.time_us));
+    if (!send_tick(tick_fd, {state.cycle, sequencer.finished() ? tick_finished : 0u, 0u})) return LoopEnd::tick_peer_gone;
+  }
+  return LoopEnd::stopped;
+}
+
+}  // namespace berm::app

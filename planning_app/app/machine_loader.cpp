@@ -1,0 +1,49 @@
+#include "app/machine_loader.hpp"
+
+#include <algorithm>
+
+namespace berm::app {
+
+static_assert(config::kJoints == joints);
+
+MachineModel machine_model(const config::MachineFile& file) {
+  MachineModel m;
+  m.boom_pin_x = file.boom_pin_x;
+  m.boom_pin_z = file.boom_pin_z;
+  m.boom_length = file.boom;
+  m.stick_length = file.stick;
+  m.bucket_length = file.bucket;
+  m.own_body_radius = file.own_body_radius;
+  for (std::size_t j = 0; j < joints; ++j) {
+    const config::JointFile& from = file.joint[j];
+    m.joint[j] = {from.low, from.high, from.velocity_max, from.acceleration_max, from.creep_velocity, from.angle_error, from.velocity_error};
+  }
+  m.state_latency = file.state_latency;
+  m.command_latency = file.command_latency;
+  m.cycle = file.kernel.cycle;
+  m.braking.reach = file.braking.reach;
+  m.braking.angle = file.braking.angle;
+  for (const config::PartFile& part : file.part) m.parts.push_back({static_cast<std::size_t>(part.link), part.half_width, part.outline});
+  for (std::size_t i = 0; i < m.scanner.size(); ++i) {
+    const config::ScannerFile& from = file.scanner[i];
+    m.scanner[i] = {from.position[0], from.position[1], from.position[2], from.pan_low, from.pan_high, from.pan_rate_max};
+  }
+  m.margin = file.kernel.margin;
+  m.fresh = file.kernel.fresh;
+  m.dig_swing_limit = file.kernel.dig_swing_limit;
+  return m;
+}
+
+SiteModel site_model(const config::SiteFile& file) {
+  SiteModel s;
+  for (const config::DigZoneFile& z : file.dig_zone) s.dig_zones.push_back({z.x_low, z.y_low, z.x_high, z.y_high, z.floor});
+  const config::TruckPlaceFile& t = file.truck;
+  s.truck = {t.centre[0], t.centre[1], t.yaw, t.length, t.width, t.height, t.wall_top, t.target_kg};
+  s.dig_swing_left = std::max(file.dig.swing[0], file.dig.swing[1]);
+  s.dig_swing_right = std::min(file.dig.swing[0], file.dig.swing[1]);
+  s.dig_radius_start = std::max(file.dig.radius[0], file.dig.radius[1]);
+  s.dig_radius_end = std::min(file.dig.radius[0], file.dig.radius[1]);
+  return s;
+}
+
+}  // namespace berm::app

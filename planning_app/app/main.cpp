@@ -1,0 +1,74 @@
+// berm_app: the planning app. Trusted with nothing: it sees the kernel's state segment and writes motion requests.
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include "app/app_loop.hpp"
+#include "app/machine_loader.hpp"
+#include "app/sandbox.hpp"
+
+namespace {
+
+volatile std::sig_atomic_t stop_requested = 0;  // set by a signal handler, which has no other way to say it
+
+void on_signal(int) { stop_requested = 1; }
+
+struct Options {
+  std::string machine, site, socket;
+  int trucks = 1;
+  int tick_fd = -1;
+};
+
+int run(const Options& options) {
+  using namespace berm::app;
+  std::vector<int> keep;
+  if (options.tick_fd >= 0) keep.push_back(options.tick_fd);
+  close_all_but(keep);
+  const MachineModel machine = machine_model(berm::config::load_machine_file(options.machine));
+  const SiteModel site = site_model(berm::config::load_site_file(options.site));
+  const ProgressLog log(1);
+  Sequencer sequencer(machine, site, options.trucks, log);
+  KernelLink link(options.socket);
+  keep.push_back(link.socket_fd());
+  close_all_but(keep);
+  enter_sandbox(link.socket_fd(), options.tick_fd);
+  log.event("connected", {{"trucks", options.trucks}, {"machine", options.machine}, {"site", options.site}});
+  const LoopEnd end = run_loop(machine, link, sequencer, options.tick_fd, stop_requested);
+  const char* why = end == LoopEnd::stopped ? "signal" : end == LoopEnd::kernel_gone ? "kernel gone" : "tick peer gone";
+  log.event("exit", {{"why", why}, {"finished", sequencer.finished()}});
+  return end == LoopEnd::stopped || sequencer.finished() ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App cli{"The planning app: loads trucks by motion requests to the safety kernel. Progress as JSON lines on stdout."};
+  Options options;
+  cli.add_option("--machine", options.machine, "machine file (TOML)")->required()->check(CLI::ExistingFile);
+  cli.add_option("--site", options.site, "site file (TOML)")->required()->check(CLI::ExistingFile);
+  cli.add_option("--socket", options.socket, "the kernel's Unix socket")->required();
+  cli.add_option("--trucks", options.trucks, "trucks to load")->check(CLI::Range(1, 1000));
+  cli.add_option("--tick-fd", options.tick_fd, "inherited SOCK_SEQPACKET descriptor for the simulation's tick")->check(CLI::Range(3, 1 << 20));
+  try {
+    cli.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return cli.exit(e);
+  }
+  struct sigaction action {};
+  action.sa_handler = on_signal;  // no SA_RESTART: waiting calls return
+  sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGINT, &action, nullptr);
+  int code = 1;
+  try {
+    code = run(options);
+  } catch (const std::exception& e) {
+    const std::string line = fmt::format("berm_app: {}\n", e.what());
+    std::fputs(line.c_str(), stderr);
+  }
+  std::fflush(stderr);
+  std::_Exit(code);  // the sandbox leaves nothing for exit handlers to do
+}

@@ -1,0 +1,12 @@
+// Slows a request until the app's own preview of the reach box is clear of what the app has seen, so that the kernel need not stop it.
+#pragma once
+
+#include "planning/skyline.hpp"
+
+namespace berm::app {
+
+// angle: when the request begins to act. Slows the swing first, then the arm. Where even standing is not clear by the app's own, wider margins,
+// everything creeps and the kernel decides.
+Joints guarded(const MachineModel& machine, const Skyline& skyline, const Joints& angle, const Joints& command);
+
+}  // namespace berm::app

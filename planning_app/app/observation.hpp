@@ -1,0 +1,42 @@
+// The kernel's state of one cycle in the app's units, and what the app answers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "contract/berm_contract.h"
+#include "motion/machine_model.hpp"
+#include "perception/scan_scheduler.hpp"
+
+namespace berm::app {
+
+struct Observation {
+  std::uint64_t cycle = 0;
+  std::int64_t time_us = 0;
+  double time_s = 0.0;
+  Joints angle{}, velocity{};
+  std::array<double, 2> pan{};
+  double payload_kg = -1.0;     // negative: unknown
+  std::uint8_t kernel_state = BERM_STATE_INIT;
+  std::uint8_t stop_reason = BERM_STOP_NONE;
+  double blocked_bearing = 0.0; // of the blocking cell, for the ground's stop reasons
+  bool truck_parked = false;
+
+  bool running() const { return kernel_state == BERM_STATE_RUN; }
+};
+
+Observation observe(const berm_state& state);
+
+struct Answer {
+  Joints velocity{};
+  std::array<PanRequest, 2> pan{};
+  std::uint16_t phase = BERM_PHASE_WAIT;
+  bool horn = false;
+};
+
+// Fills all but guard; every value is cut to what the machine allows, so that the kernel never refuses a request for its range.
+berm_request make_request(const MachineModel& machine, const Answer& answer, std::uint32_t sequence, std::int64_t stamp_us);
+
+const char* stop_reason_name(std::uint8_t reason);
+
+}  // namespace berm::app

@@ -1,0 +1,68 @@
+#include "app/recovery.hpp"
+
+#include <cmath>
+
+namespace berm::app {
+
+namespace {
+
+constexpr double patience = 2.0;        // s before a retreat
+constexpr double rescan_after = 0.5;    // s
+constexpr double one_way = 4.0;         // s of creeping in one direction before the next is tried
+constexpr double creep_share = 0.9;
+constexpr double range_room = radians(8.0);
+
+bool by_ground(std::uint8_t reason) {
+  return reason == BERM_STOP_COLLISION_PREDICTED || reason == BERM_STOP_UNKNOWN_GROUND || reason == BERM_STOP_STALE_GROUND || reason == BERM_STOP_DIG_FLOOR ||
+         reason == BERM_STOP_JOINT_RANGE;
+}
+
+}  // namespace
+
+Joints Recovery::retreat(const Observation& o, double blocked_s) const {
+  Joints v{};
+  if (o.stop_reason == BERM_STOP_JOINT_RANGE) {
+    for (std::size_t j = 0; j < joints; ++j) {
+      const JointLimits& limits = machine_.joint[j];
+      if (o.angle[j] > limits.high - range_room) v[j] = -creep_share * limits.creep_velocity;
+      if (o.angle[j] < limits.low + range_room) v[j] = creep_share * limits.creep_velocity;
+    }
+    return v;
+  }
+  // Up first; then away from the blocking cell; then the bucket curled.
+  const int way = static_cast<int>(blocked_s / one_way) % 3;
+  if (way == 0) v[boom] = creep_share * machine_.joint[boom].creep_velocity;
+  if (way == 1) v[swing] = std::copysign(creep_share * machine_.joint[swing].creep_velocity, wrapped(o.angle[swing] - o.blocked_bearing));
+  if (way == 2) v[bucket] = -creep_share * machine_.joint[bucket].creep_velocity;
+  return v;
+}
+
+Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
+  Advice advice;
+  if (o.running()) {
+    if (stopped_) {
+      log.event("resumed", {{"time_s", o.time_s}, {"stopped_s", o.time_s - since_s_}});
+      advice.resumed = true;
+      advice.moved = moved_;
+    }
+    stopped_ = moved_ = rescanned_ = false;
+    return advice;
+  }
+  advice.in_charge = true;
+  if (!stopped_) {
+    stopped_ = true;
+    since_s_ = o.time_s;
+    if (o.kernel_state == BERM_STATE_STOPPING || o.kernel_state == BERM_STATE_STOPPED || o.kernel_state == BERM_STATE_FAULT)
+      log.event("stopped", {{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}});
+  }
+  if (!by_ground(o.stop_reason)) return advice;
+  const double blocked = o.time_s - since_s_;
+  if (blocked > rescan_after && !rescanned_) advice.rescan = rescanned_ = true;
+  if (blocked > patience) {
+    advice.velocity = retreat(o, blocked - patience);
+    moved_ = true;
+  }
+  return advice;
+}
+
+}  // namespace berm::app

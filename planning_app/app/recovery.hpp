@@ -1,0 +1,33 @@
+// What to do while the kernel does not permit motion: hold; and when it is the ground that stopped the machine and stays blocked, look again
+// with both scanners and retreat slowly, which the kernel permits when the slow motion's own box is clear.
+#pragma once
+
+#include "app/observation.hpp"
+#include "app/progress_log.hpp"
+
+namespace berm::app {
+
+class Recovery {
+public:
+  explicit Recovery(const MachineModel& machine) : machine_(machine) {}
+
+  struct Advice {
+    bool in_charge = false;   // velocity below is to be requested in place of the plan's
+    Joints velocity{};
+    bool rescan = false;      // just now: begin a full sweep
+    bool resumed = false;     // just now: the plan is in charge again
+    bool moved = false;       // with resumed: the implements were moved meanwhile
+  };
+  Advice step(const Observation& o, const ProgressLog& log);
+
+private:
+  Joints retreat(const Observation& o, double blocked_s) const;
+
+  MachineModel machine_;
+  bool stopped_ = false;
+  bool moved_ = false;
+  bool rescanned_ = false;
+  double since_s_ = 0.0;
+};
+
+}  // namespace berm::app

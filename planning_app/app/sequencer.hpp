@@ -1,0 +1,95 @@
+// The cycle sequencer: survey, wait for a truck, then dig, lift, swing, dump, swing back, until the truck is full; next truck, until all are.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/observation.hpp"
+#include "app/progress_log.hpp"
+#include "app/recovery.hpp"
+#include "app/weighing.hpp"
+#include "motion/dig_path.hpp"
+#include "planning/bed_map.hpp"
+#include "planning/dig_point.hpp"
+#include "planning/dump_point.hpp"
+#include "planning/pass_script.hpp"
+#include "planning/truck_fill.hpp"
+
+namespace berm::app {
+
+class Sequencer {
+public:
+  Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, const ProgressLog& log);
+
+  Sequencer(const Sequencer&) = delete;  // parts of it point into it
+  Sequencer& operator=(const Sequencer&) = delete;
+
+  // Once a cycle. The maps must hold the cycle's scan points already.
+  Answer step(const Observation& o);
+
+  bool finished() const { return stage_ == Stage::finished; }
+  TerrainMap& terrain() { return terrain_; }
+  BedMap& bed() { return bed_; }
+
+private:
+  enum class Stage { survey, wait_truck, approach, settle, dig, curl, pass, horn, wait_leave, finished };
+
+  void enter(Stage stage, const Observation& o);
+  void enter_phase(std::uint16_t phase, const Observation& o);
+  Joints plan(const Observation& o);          // the stage's motion of this cycle
+  Joints run_script(const Observation& o, std::uint32_t events);
+  Joints approach(const Observation& o);
+  Joints settle(const Observation& o);
+  Joints dig(const Observation& o);
+  Joints curl(const Observation& o);
+  Joints pass(const Observation& o);
+  void plan_next_dig();
+  DigNeeds needs_for(double kg) const;
+  void cut_passage(const Observation& o);
+  void learn_depth(bool stalled, bool heavy);
+  void begin_approach(const Observation& o, bool lower);
+  void begin_dig(const Observation& o);
+  void begin_curl(const Observation& o);
+  void begin_pass_search(const Observation& o, const Joints& lifted_from);
+  std::uint32_t pass_events(const Observation& o);
+  void end_pass(const Observation& o);
+  void look(const Observation& o);            // renews the skyline now and then
+  bool standing(const Observation& o) const;
+
+  MachineModel machine_;
+  SiteModel site_;
+  ProgressLog log_;
+  int trucks_;
+
+  TerrainMap terrain_;
+  BedMap bed_;
+  std::optional<Skyline> skyline_;
+  double skyline_s_ = 0.0;
+  ArmController arm_;
+  ScanScheduler scanners_;
+  Recovery recovery_;
+  DigFollower follower_;
+  Script script_;
+  double script_s_ = 0.0;
+  std::optional<PassSearch> search_;
+  PassTask task_;
+  PassPoses poses_;
+
+  Stage stage_ = Stage::survey;
+  double stage_s_ = 0.0;
+  std::uint16_t phase_ = BERM_PHASE_WAIT;
+  DigPlan dig_;
+  std::optional<SurfaceProfile> surface_;     // before the dig, along its bearing
+  double depth_bias_ = 0.0;
+  DumpPoint dump_;
+  int truck_ = 1;
+  int pass_ = 0;
+  TruckFill fill_;
+  double goal_kg_ = 0.0;
+  double pass_began_s_ = 0.0, truck_began_s_ = 0.0, open_since_s_ = -1.0;
+  bool emptied_ = false;
+  RecentWeight recent_;
+  MeanWeight before_, after_;
+};
+
+}  // namespace berm::app

@@ -1,0 +1,88 @@
+#include "motion/dig_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace berm::app {
+
+namespace {
+
+constexpr double sample_spacing = 0.04;            // m
+constexpr double joint_share = 0.55;               // of a joint's largest speed that the reference may ask for
+constexpr double error_full_stop = radians(7.0);   // the reference waits when the joints are this far behind
+
+constexpr double guard = radians(7.5);              // keeps a standing joint's stop travel inside its range
+
+std::optional<Joints> solve_near(const MachineModel& machine, const DigWaypoint& w) {
+  for (int step = 0; step <= 80; ++step)
+    for (const double sign : {1.0, -1.0}) {
+      const double attitude = w.attitude + sign * radians(step);
+      if (attitude > radians(-20.0) || attitude < radians(-200.0)) continue;
+      if (auto q = inverse_tip(machine, {w.r, w.z}, attitude, guard)) return q;
+    }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<DigPath> DigPath::solve(const MachineModel& machine, const std::vector<DigWaypoint>& waypoints) {
+  DigPath path;
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    const DigWaypoint& to = waypoints[i];
+    const DigWaypoint& from = i == 0 ? to : waypoints[i - 1];
+    const double way = std::hypot(to.r - from.r, to.z - from.z) + 0.5 * machine.bucket_length * std::fabs(to.attitude - from.attitude);
+    const int pieces = i == 0 ? 1 : std::max(1, static_cast<int>(std::ceil(way / sample_spacing)));
+    for (int k = 1; k <= pieces; ++k) {
+      const double t = static_cast<double>(k) / pieces;
+      const auto q = solve_near(machine, {from.r + t * (to.r - from.r), from.z + t * (to.z - from.z), from.attitude + t * (to.attitude - from.attitude)});
+      if (!q) return std::nullopt;
+      if (i > 0) path.length_ += way / pieces;
+      path.samples_.push_back({path.length_, *q});
+    }
+  }
+  if (path.samples_.size() < 2 || path.length_ <= 0.0) return std::nullopt;
+  return path;
+}
+
+std::size_t DigPath::segment(double s) const {
+  std::size_t i = 0;
+  while (i + 2 < samples_.size() && samples_[i + 1].s <= s) ++i;
+  return i;
+}
+
+Joints DigPath::at(double s) const {
+  const std::size_t i = segment(s);
+  const double t = std::clamp((s - samples_[i].s) / (samples_[i + 1].s - samples_[i].s), 0.0, 1.0);
+  Joints q{};
+  for (std::size_t j = 0; j < joints; ++j) q[j] = samples_[i].q[j] + t * (samples_[i + 1].q[j] - samples_[i].q[j]);
+  return q;
+}
+
+Joints DigPath::slope(double s) const {
+  const std::size_t i = segment(s);
+  Joints d{};
+  for (std::size_t j = 0; j < joints; ++j) d[j] = (samples_[i + 1].q[j] - samples_[i].q[j]) / (samples_[i + 1].s - samples_[i].s);
+  return d;
+}
+
+Joints DigFollower::step(const MachineModel& machine, ArmController& arm, double held_swing, double speed, const Joints& angle, const Joints& velocity) {
+  const Joints slope = path_->slope(s_);
+  for (const std::size_t j : {boom, stick, bucket})
+    if (slope[j] != 0.0) speed = std::min(speed, joint_share * machine.joint[j].velocity_max / std::fabs(slope[j]));
+  Joints reference = path_->at(s_);
+  const Joints then = arm.predicted(angle, velocity);
+  double behind = 0.0;
+  for (const std::size_t j : {boom, stick, bucket}) behind = std::max(behind, std::fabs(reference[j] - then[j]));
+  const double go = std::clamp(1.0 - behind / error_full_stop, 0.0, 1.0);
+  stalled_ = go < 0.15 ? stalled_ + machine.cycle : 0.0;
+  Joints reference_velocity{};
+  const double ends = finished() ? 0.0 : speed * go;
+  for (const std::size_t j : {boom, stick, bucket}) reference_velocity[j] = slope[j] * ends;
+  s_ = std::min(path_->length(), s_ + ends * machine.cycle);
+  reference[swing] = held_swing;
+  Joints command = arm.follow(reference, reference_velocity, angle, velocity);
+  command[swing] = 0.0;  // the swing stands while the bucket is in the soil
+  return command;
+}
+
+}  // namespace berm::app

@@ -1,0 +1,54 @@
+// The drag of one dig: a path of the bucket's tip and attitude in the swing plane, and the follower that turns it into velocity requests.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "motion/arm_controller.hpp"
+#include "motion/arm_kinematics.hpp"
+
+namespace berm::app {
+
+struct DigWaypoint {
+  double r = 0.0, z = 0.0;   // tip
+  double attitude = 0.0;     // absolute bucket angle
+};
+
+class DigPath {
+public:
+  // Waypoints are joined by straight lines, sampled at a few centimetres and solved by inverse kinematics. Where a joint's range forbids the
+  // attitude, the nearest attitude that is possible takes its place; nothing when the tip itself is out of reach.
+  static std::optional<DigPath> solve(const MachineModel& machine, const std::vector<DigWaypoint>& waypoints);
+
+  double length() const { return length_; }       // m, of the tip's way (a turn on the spot counts by its arc at the tip)
+  Joints at(double s) const;                      // swing entry 0
+  Joints slope(double s) const;                   // d joints / ds
+
+private:
+  struct Sample { double s = 0.0; Joints q{}; };
+  std::size_t segment(double s) const;
+
+  std::vector<Sample> samples_;
+  double length_ = 0.0;
+};
+
+// Follows a path. The reference waits for joints that soil holds back.
+class DigFollower {
+public:
+  void begin(DigPath path) { path_ = std::move(path); s_ = 0.0; stalled_ = 0.0; }
+  bool active() const { return path_.has_value(); }
+  void end() { path_.reset(); }
+  bool finished() const { return path_ && s_ >= path_->length(); }
+  double progress() const { return path_ ? s_ / path_->length() : 0.0; }
+  double stalled_s() const { return stalled_; }   // for how long the joints have not come after the reference
+
+  // Requests for this cycle; speed: of the tip along the path, m/s; held_swing: where the swing stays.
+  Joints step(const MachineModel& machine, ArmController& arm, double held_swing, double speed, const Joints& angle, const Joints& velocity);
+
+private:
+  std::optional<DigPath> path_;
+  double s_ = 0.0;
+  double stalled_ = 0.0;
+};
+
+}  // namespace berm::app

@@ -1,0 +1,59 @@
+#include "motion/joint_controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace berm::app {
+
+namespace {
+
+// Shares of what the machine file promises. The rest is for payload, shared pump flow and the kernel's own error bounds.
+constexpr double speed_share = 0.775;  // with latency and error bounds a swing stays in the braking table's last column but one
+constexpr double brake_share = 0.75;
+constexpr double landing_gain = 4.5;      // 1/s; the dead time is predicted away, noise and a slower joint than its model remain
+
+double table_deceleration(const BrakingTable& table, std::size_t joint, double reach_m, double velocity_max) {
+  std::size_t row = 0;
+  while (row + 1 < table.reach.size() && table.reach[row] < reach_m) ++row;
+  const double stop_angle = table.angle[joint][row].back();
+  return velocity_max * velocity_max / (2.0 * stop_angle);
+}
+
+}  // namespace
+
+ControllerLimits limits_of(const MachineModel& machine, std::size_t joint, double reach_m) {
+  const JointLimits& j = machine.joint[joint];
+  const double brake = std::min(table_deceleration(machine.braking, joint, reach_m, j.velocity_max), j.acceleration_max);
+  return {speed_share * j.velocity_max, j.acceleration_max, brake_share * brake, landing_gain};
+}
+
+double JointController::ramped(double wanted, const ControllerLimits& limits) {
+  const double up = limits.acceleration * step_;
+  // Slowing is never delayed beyond what the deceleration profile asks for; only growth of speed is ramped.
+  if (std::fabs(wanted) > std::fabs(last_) || wanted * last_ < 0.0) wanted = std::clamp(wanted, last_ - up, last_ + up);
+  return wanted;
+}
+
+double JointController::toward(double goal, double measured_angle, double measured_velocity, const ControllerLimits& limits) {
+  const JointModel::State then = model_.predict(measured_angle, measured_velocity);
+  const double left = goal - then.angle;
+  const double distance = std::fabs(left);
+  // Below the switching distance a proportional landing replaces the square root, whose slope has no bound at zero.
+  const double switching = limits.deceleration / (limits.landing_gain * limits.landing_gain);
+  const double profile = distance > switching ? std::sqrt(limits.deceleration * (2.0 * distance - switching)) : limits.landing_gain * distance;
+  const double speed = std::min(limits.velocity, profile);
+  return ramped(std::copysign(speed, left), limits);
+}
+
+double JointController::follow(double reference, double reference_velocity, double measured_angle, double measured_velocity, const ControllerLimits& limits) {
+  const JointModel::State then = model_.predict(measured_angle, measured_velocity);
+  const double wanted = reference_velocity + limits.landing_gain * (reference - then.angle);
+  return ramped(std::clamp(wanted, -limits.velocity, limits.velocity), limits);
+}
+
+void JointController::sent(double command) {
+  last_ = command;
+  model_.remember(command);
+}
+
+}  // namespace berm::app

@@ -1,0 +1,55 @@
+// What the app knows of the machine, in SI units and radians; filled from the machine file (app/machine_loader.hpp).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "motion/angles.hpp"
+
+namespace berm::app {
+
+struct JointLimits {
+  double low = 0.0, high = 0.0;     // permitted range
+  double velocity_max = 0.0;
+  double acceleration_max = 0.0;
+  double creep_velocity = 0.0;      // the kernel's recovery speed
+  double angle_error = 0.0;
+  double velocity_error = 0.0;
+};
+
+// A convex prism over a link: outline in the link's frame (x along the pin line, z to its left).
+struct Prism {
+  std::size_t link = 0;             // boom, stick or bucket
+  double half_width = 0.0;
+  std::vector<std::array<double, 2>> outline;
+};
+
+struct ScannerMount {
+  double x = 0.0, y = 0.0, z = 0.0; // upper body's frame
+  double pan_low = 0.0, pan_high = 0.0;
+  double pan_rate_max = 0.0;
+};
+
+// Worst-case stop angle: angle[joint][row of reach][column of speed k * velocity_max / (columns - 1)].
+struct BrakingTable {
+  std::vector<double> reach;        // upper ends of the rows, ascending, m
+  std::array<std::vector<std::vector<double>>, joints> angle;
+};
+
+struct MachineModel {
+  double boom_pin_x = 0.0, boom_pin_z = 0.0;
+  double boom_length = 0.0, stick_length = 0.0, bucket_length = 0.0;
+  double own_body_radius = 0.0;
+  std::array<JointLimits, joints> joint;
+  double state_latency = 0.0, command_latency = 0.0;
+  double cycle = 0.01;
+  BrakingTable braking;
+  std::vector<Prism> parts;
+  std::array<ScannerMount, 2> scanner;  // left, right
+  double margin = 0.0;                  // the kernel's, on every column
+  double fresh = 0.0;                   // the kernel's limit for the age of a cell
+  double dig_swing_limit = 0.0;
+};
+
+}  // namespace berm::app

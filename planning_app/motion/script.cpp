@@ -1,0 +1,80 @@
+#include "motion/script.hpp"
+
+#include <cmath>
+
+namespace berm::app {
+
+namespace {
+
+using Relation = Condition::Relation;
+
+bool other_side(const Condition& c, const Joints& angle) {
+  if (c.relation == Relation::falls_below) return angle[c.joint] >= c.threshold;
+  if (c.relation == Relation::rises_above) return angle[c.joint] <= c.threshold;
+  return true;  // the rest need no crossing
+}
+
+bool holds(const Condition& c, const Joints& angle, bool armed) {
+  const double a = angle[c.joint];
+  switch (c.relation) {
+    case Relation::above: return a > c.threshold;
+    case Relation::below: return a < c.threshold;
+    case Relation::falls_below: return armed && a < c.threshold;
+    case Relation::rises_above: return armed && a > c.threshold;
+    case Relation::near: return std::fabs(a - c.threshold) <= c.tolerance;
+  }
+  return false;
+}
+
+}  // namespace
+
+void JointScript::arm() {
+  const std::size_t next = static_cast<std::size_t>(active_ + 1);
+  armed_.assign(next < rules_.size() ? rules_[next].conditions.size() : 0, false);
+}
+
+void JointScript::start() {
+  active_ = rules_.empty() ? -1 : 0;
+  arm();
+}
+
+void JointScript::evaluate(const Joints& angle, std::uint32_t events) {
+  if (!running() || at_last()) return;
+  const Rule& next = rules_[static_cast<std::size_t>(active_ + 1)];
+  bool all = (events & next.events) == next.events;
+  for (std::size_t i = 0; i < next.conditions.size(); ++i) {
+    if (other_side(next.conditions[i], angle)) armed_[i] = true;
+    all = holds(next.conditions[i], angle, armed_[i]) && all;
+  }
+  if (!all) return;
+  ++active_;
+  arm();
+}
+
+void Script::start() {
+  for (JointScript& s : scripts_) s.start();
+}
+
+void Script::evaluate(const Joints& angle, std::uint32_t events) {
+  for (JointScript& s : scripts_) s.evaluate(angle, events);
+}
+
+Joints Script::goals() const {
+  Joints g{};
+  for (std::size_t j = 0; j < joints; ++j) g[j] = scripts_[j].goal();
+  return g;
+}
+
+Joints Script::paces() const {
+  Joints p{};
+  for (std::size_t j = 0; j < joints; ++j) p[j] = scripts_[j].pace();
+  return p;
+}
+
+bool Script::at_last() const {
+  for (const JointScript& s : scripts_)
+    if (!s.at_last()) return false;
+  return true;
+}
+
+}  // namespace berm::app

@@ -1,0 +1,85 @@
+// Parameterised scripts (stentz-1999, 4.4 and Figure 14). Each joint has its own script: a list of rules with conditions on joint angles and
+// events at the left and a joint goal at the right. From start on exactly one rule of each joint is active; rules advance in order only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "motion/angles.hpp"
+
+namespace berm::app {
+
+// What happened besides joint motion. Bits, so that several can hold at once.
+enum Event : std::uint32_t {
+  event_none = 0,
+  event_emptied = 1,  // the bucket has let its load go
+};
+
+struct Condition {
+  enum class Relation {
+    above,        // angle > threshold
+    below,        // angle < threshold
+    falls_below,  // angle < threshold after having been at or above it since the rule before became active
+    rises_above,  // the mirror of falls_below
+    near          // |angle - threshold| <= tolerance
+  };
+  Joint joint = swing;
+  Relation relation = Relation::above;
+  double threshold = 0.0;
+  double tolerance = 0.0;
+};
+
+struct Rule {
+  std::string name;
+  std::vector<Condition> conditions;    // all must hold
+  std::uint32_t events = event_none;    // all must have happened
+  double goal = 0.0;
+  double pace = 1.0;                    // share of the joint's speed limit: gentle where a fast stop would reach too far
+};
+
+// The script of one joint. The first rule becomes active at the start ("when digging finishes"); its conditions are not looked at.
+class JointScript {
+public:
+  JointScript() = default;
+  explicit JointScript(std::vector<Rule> rules) : rules_(std::move(rules)) {}
+
+  void start();
+  // One pass: activates the next rule when its left-hand side holds; at most one step a pass.
+  void evaluate(const Joints& angle, std::uint32_t events);
+
+  bool running() const { return active_ >= 0; }
+  int active() const { return active_; }  // -1 before the start
+  bool at_last() const { return active_ + 1 == static_cast<int>(rules_.size()); }
+  double pace() const { return rules_[static_cast<std::size_t>(active_)].pace; }
+  double goal() const { return rules_[static_cast<std::size_t>(active_)].goal; }
+  const std::vector<Rule>& rules() const { return rules_; }
+
+private:
+  void arm();
+
+  std::vector<Rule> rules_;
+  std::vector<bool> armed_;  // of the next rule's conditions: a crossing has been seen from its other side
+  int active_ = -1;
+};
+
+class Script {
+public:
+  Script() = default;
+  explicit Script(std::array<JointScript, joints> scripts) : scripts_(std::move(scripts)) {}
+
+  void start();
+  void evaluate(const Joints& angle, std::uint32_t events);  // at 10 Hz
+  bool running() const { return scripts_[swing].running(); }
+  Joints goals() const;
+  Joints paces() const;
+  const JointScript& of(Joint joint) const { return scripts_[joint]; }
+  // Every joint's last rule is active.
+  bool at_last() const;
+
+private:
+  std::array<JointScript, joints> scripts_;
+};
+
+}  // namespace berm::app

@@ -1,0 +1,85 @@
+#include "perception/scan_scheduler.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contract/berm_contract.h"
+
+namespace berm::app {
+
+namespace {
+
+constexpr std::size_t left = 0, right = 1;
+constexpr double at_end = radians(1.5);
+constexpr double narrowest = radians(4.0);
+constexpr double beyond_dig = radians(45.0);    // to the outer side of a bearing: overshoot of a stop, width of the bucket, parallax of the head
+constexpr double beyond_truck = radians(50.0);
+
+}  // namespace
+
+ScanScheduler::ScanScheduler(const MachineModel& machine) : machine_(machine) {}
+
+void ScanScheduler::begin_full_sweep() {
+  for (Head& h : head_) h.low_seen = h.high_seen = false;
+}
+
+bool ScanScheduler::full_sweep_done() const {
+  return std::all_of(head_.begin(), head_.end(), [](const Head& h) { return h.low_seen && h.high_seen; });
+}
+
+PanSector ScanScheduler::sector(std::size_t scanner, std::uint16_t phase, double dig, double truck, double swing_angle) const {
+  const ScannerMount& mount = machine_.scanner[scanner];
+  const PanSector whole{mount.pan_low, mount.pan_high};
+  const bool truck_left = truck >= dig;
+  const std::size_t ahead = truck_left ? left : right;  // the scanner on the truck's side leads on the way there
+  const double side = truck_left ? 1.0 : -1.0;
+  PanSector bearings;  // base frame
+  switch (phase) {
+    case BERM_PHASE_DIG:
+    case BERM_PHASE_LIFT:
+      if (scanner == ahead) bearings = {swing_angle, swing_angle + side * radians(120.0)};
+      else bearings = {dig + side * radians(20.0), dig - side * radians(70.0)};
+      break;
+    case BERM_PHASE_SWING_TO_TRUCK:
+      if (scanner == ahead) bearings = {swing_angle + side * radians(35.0), truck + side * beyond_truck};
+      else bearings = {swing_angle + side * radians(15.0), dig - side * radians(40.0)};
+      break;
+    case BERM_PHASE_DUMP:
+      if (scanner == ahead) bearings = {swing_angle - side * radians(20.0), truck + side * beyond_truck};
+      else bearings = {truck - side * radians(25.0), dig - side * beyond_dig};
+      break;
+    case BERM_PHASE_SWING_TO_DIG:
+      if (scanner == ahead) bearings = {swing_angle - side * radians(20.0), truck + side * radians(25.0)};
+      else bearings = {swing_angle - side * radians(25.0), dig - side * beyond_dig};
+      break;
+    default: return whole;
+  }
+  PanSector s{std::min(bearings.low, bearings.high) - swing_angle, std::max(bearings.low, bearings.high) - swing_angle};
+  s.low = std::clamp(s.low, whole.low, whole.high);
+  s.high = std::clamp(s.high, whole.low, whole.high);
+  if (s.high - s.low < narrowest) {
+    const double middle = std::clamp(0.5 * (s.low + s.high), whole.low + 0.5 * narrowest, whole.high - 0.5 * narrowest);
+    s = {middle - 0.5 * narrowest, middle + 0.5 * narrowest};
+  }
+  return s;
+}
+
+std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, double truck, double swing_angle, double swing_speed, const std::array<double, 2>& pan) {
+  std::array<PanRequest, 2> request;
+  for (std::size_t i = 0; i < head_.size(); ++i) {
+    const ScannerMount& mount = machine_.scanner[i];
+    Head& head = head_[i];
+    if (pan[i] < mount.pan_low + 2.0 * at_end) head.low_seen = true;
+    if (pan[i] > mount.pan_high - 2.0 * at_end) head.high_seen = true;
+    const bool whole = !(head.low_seen && head.high_seen);
+    const PanSector s = whole ? PanSector{mount.pan_low, mount.pan_high} : sector(i, phase, dig, truck, swing_angle);
+    if (pan[i] > s.high - at_end) head.up = false;
+    if (pan[i] < s.low + at_end) head.up = true;
+    const double direction = head.up ? 1.0 : -1.0;
+    const double rate = std::max(radians(1.0), azimuth_rate - direction * swing_speed);
+    request[i] = {head.up ? s.high : s.low, std::min(rate, mount.pan_rate_max)};
+  }
+  return request;
+}
+
+}  // namespace berm::app

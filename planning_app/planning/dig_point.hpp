@@ -1,0 +1,47 @@
+// Where and how deep to dig next: a forward model of the cut along each bearing, over the observed terrain.
+#pragma once
+
+#include <vector>
+
+#include "motion/dig_path.hpp"
+#include "planning/site_model.hpp"
+#include "planning/terrain_map.hpp"
+
+namespace berm::app {
+
+struct DigPlan {
+  double bearing = 0.0;             // swing angle
+  double depth = 0.0;               // greatest vertical depth under the surface, m
+  double volume = 0.0;              // bank volume the forward model expects, m3
+  double start_height = 0.0;        // surface where the tip enters, z
+  std::vector<DigWaypoint> drag;    // from above the entry to the end with the bucket curled
+};
+
+struct DigNeeds {
+  double volume = 1.1;              // bank m3 wanted
+  double bucket_width = 1.1;        // m
+  double deepest = 1.0;             // most vertical depth under the surface, m
+  double floor_guard = 0.75;        // the tip stays this far above the dig zone's floor
+  double bias = 0.0;                // added to the depth: what earlier digs lacked, m
+};
+
+// Bearings stand from left to right; the one after the last is preferred, then the one that yields the wanted volume with the least depth.
+// Always gives a plan; where nothing yields enough, the best there is.
+DigPlan choose_dig(const SiteModel& site, const TerrainMap& terrain, const DigNeeds& needs, double last_bearing);
+
+// The dig along one bearing.
+DigPlan plan_dig(const SiteModel& site, const TerrainMap& terrain, const DigNeeds& needs, double bearing);
+
+// The ground along a bearing, from the machine outward. A face hides itself from a scanner above its crest: what was never seen is taken to
+// fall from the last seen point at the slope at which cut bank stands, down to the next seen point, and never to lie above the bucket's passage.
+class SurfaceProfile {
+public:
+  SurfaceProfile(const TerrainMap& terrain, double bearing, double width);
+  double at(double r) const;
+
+private:
+  static constexpr double first = 4.0, last = 10.0, step = 0.1;  // m
+  std::vector<double> z_;
+};
+
+}  // namespace berm::app

@@ -1,0 +1,79 @@
+// The script of one loading pass and its parameters: right-hand sides by kinematics, left-hand sides by the joint models.
+#pragma once
+
+#include <optional>
+
+#include "motion/arm_controller.hpp"
+#include "motion/arm_kinematics.hpp"
+#include "motion/script.hpp"
+#include "planning/skyline.hpp"
+
+namespace berm::app {
+
+// What a pass has to do. Poses' swing entries are not used.
+struct PassTask {
+  Joints lifted_from{};        // measured when digging finished
+  double truck_bearing = 0.0;  // swing angle over the dump point
+  double dump_radius = 0.0;    // of the dump point from the swing axis
+  double next_bearing = 0.0;   // swing angle of the next dig
+  PlanePoint next_entry{};     // where the next drag begins (tip)
+  bool lower_at_end = true;    // false: stay high after the pass, the truck is full
+};
+
+// Right-hand sides.
+struct PassPoses { Joints carry{}, spill{}, dump{}, back{}, dig{}; };
+
+// Left-hand sides.
+struct PassThresholds {
+  double swing_start_boom = 0.0;   // boom angle above which the swing to the truck begins
+  double fold_boom = 0.0;          // ... above which the stick folds to the carrying pose
+  double extend_offset = 0.0;      // the stick moves to the spill point this far before the truck's bearing
+  double open_offset = 0.0;        // the bucket opens this far before it
+  double open_stick = 0.0;         // ... and with the stick beyond this
+  double pour_bucket = 0.0;        // bucket angle above which the load pours: the stick moves to the dump point
+  double lower_offset = 0.0;       // boom, stick and bucket move to the dig this far before its bearing
+};
+
+// Nothing when the dump point is out of reach.
+std::optional<PassPoses> pass_poses(const MachineModel& machine, const SiteModel& site, const PassTask& task);
+
+Script pass_script(const PassTask& task, const PassPoses& poses, const PassThresholds& thresholds);
+
+// From wherever the implements are to the start of a dig: raise and half curl, swing when high, lower when over the dig.
+struct ApproachTask {
+  Joints from{};
+  double bearing = 0.0;      // swing angle of the dig
+  PlanePoint entry{};        // where the drag begins
+  bool lower = true;         // false: stay high
+};
+std::optional<Script> approach_script(const MachineModel& machine, const SiteModel& site, const ApproachTask& task);
+
+// Finds the thresholds: starts from the soonest and simulates script, controllers and joint models against the skyline until the motion
+// stays clear. One candidate a step, so that a cycle is never late.
+class PassSearch {
+public:
+  PassSearch(const MachineModel& machine, const Skyline& skyline, const PassTask& task, const PassPoses& poses);
+
+  bool done() const { return stage_ == Stage::done; }
+  void step();
+  const PassThresholds& thresholds() const { return thresholds_; }
+  bool clear() const { return clear_; }            // of the whole pass, by the models; false: the last candidate stands, the guard will slow it
+  double seconds() const { return seconds_; }      // the models' time for the pass without the dig
+
+private:
+  enum class Stage { swing_out, swing_back, done };
+  struct Outcome { bool clear_out = true, clear_back = true, finished = false; double seconds = 0.0; };
+  Outcome simulate(const PassThresholds& thresholds) const;
+
+  MachineModel machine_;
+  Skyline skyline_;
+  PassTask task_;
+  PassPoses poses_;
+  PassThresholds thresholds_;
+  Stage stage_ = Stage::swing_out;
+  int candidate_ = 0;
+  bool clear_ = false;
+  double seconds_ = 0.0;
+};
+
+}  // namespace berm::app

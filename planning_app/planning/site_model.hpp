@@ -1,0 +1,25 @@
+// What the app knows of the site, metres and radians; filled from the site file (app/machine_loader.hpp). Base frame.
+#pragma once
+
+#include <vector>
+
+namespace berm::app {
+
+struct DigZone { double x_low = 0.0, y_low = 0.0, x_high = 0.0, y_high = 0.0, floor = 0.0; };
+
+struct TruckBed {                 // inside of the bed
+  double centre_x = 0.0, centre_y = 0.0;
+  double yaw = 0.0;               // of the long axis, from base x
+  double length = 0.0, width = 0.0, height = 0.0;
+  double wall_top = 0.0;          // z
+  double target_kg = 0.0;
+};
+
+struct SiteModel {
+  std::vector<DigZone> dig_zones;
+  TruckBed truck;
+  double dig_swing_left = 0.0, dig_swing_right = 0.0;  // bearings between which the app digs; left > right
+  double dig_radius_start = 0.0, dig_radius_end = 0.0; // of the tip, start > end
+};
+
+}  // namespace berm::app

@@ -1,0 +1,91 @@
+#include "planning/skyline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace berm::app {
+
+namespace {
+
+constexpr double unknown_height = 0.0;   // the bench the machine stands on
+constexpr double own_slack = 0.10;       // beyond the kernel's margin: the kernel's slices are wider than the implements
+constexpr double lateral_step = 0.2;     // of the search across the implements' width; at most a terrain cell
+constexpr double wall_thickness = 0.3;   // generous
+constexpr double nothing = -std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+BedPoint to_bed(const TruckBed& bed, double x, double y) {
+  const double dx = x - bed.centre_x, dy = y - bed.centre_y, c = std::cos(bed.yaw), s = std::sin(bed.yaw);
+  return {dx * c + dy * s, -dx * s + dy * c};
+}
+
+void from_bed(const TruckBed& bed, const BedPoint& p, double& x, double& y) {
+  const double c = std::cos(bed.yaw), s = std::sin(bed.yaw);
+  x = bed.centre_x + p.u * c - p.v * s;
+  y = bed.centre_y + p.u * s + p.v * c;
+}
+
+bool in_dig_zone(const SiteModel& site, double x, double y) {
+  // A cell's width inside: the kernel excepts whole cells only.
+  constexpr double inset = 0.3;
+  return std::any_of(site.dig_zones.begin(), site.dig_zones.end(), [&](const DigZone& z) {
+    return x > z.x_low + inset && x < z.x_high - inset && y > z.y_low + inset && y < z.y_high - inset;
+  });
+}
+
+std::size_t Skyline::slot(double bearing, int bin) {
+  const int b = static_cast<int>(std::lround(degrees(wrapped(bearing)) * bearings / 360.0));
+  return static_cast<std::size_t>(((b % bearings) + bearings) % bearings * LowerEdge::bins + bin);
+}
+
+Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const TerrainMap& terrain)
+    : machine_(&machine), all_(static_cast<std::size_t>(bearings * LowerEdge::bins), nothing), outside_dig_zone_(all_) {
+  floor_ = nothing;
+  for (const DigZone& z : site.dig_zones) floor_ = std::max(floor_, z.floor);
+  double half_width = 0.0;
+  for (const Prism& part : machine.parts) half_width = std::max(half_width, part.half_width);
+  half_width += 0.2;  // a cell of the terrain map
+  const TruckBed& bed = site.truck;
+  const auto top = [&](double x, double y) {
+    double z = terrain.height_or(x, y, unknown_height);
+    const BedPoint p = to_bed(bed, x, y);
+    if (std::fabs(p.u) < 0.5 * bed.length + wall_thickness && std::fabs(p.v) < 0.5 * bed.width + wall_thickness) z = std::max(z, bed.wall_top);
+    return z;
+  };
+  for (int b = 0; b < bearings; ++b) {
+    const double bearing = 2.0 * std::numbers::pi * b / bearings;
+    const double c = std::cos(bearing), s = std::sin(bearing);
+    for (int bin = 0; bin < LowerEdge::bins; ++bin) {
+      double highest = nothing, highest_outside = nothing;
+      for (int radial = -1; radial <= 1; ++radial)
+        for (double across = -half_width; across <= half_width + 1e-9; across += lateral_step) {
+          const double r = (bin + 0.5) * LowerEdge::bin_m + radial * LowerEdge::bin_m;
+          const double x = r * c - across * s, y = r * s + across * c;
+          const double z = top(x, y);
+          highest = std::max(highest, z);
+          if (!in_dig_zone(site, x, y)) highest_outside = std::max(highest_outside, z);
+        }
+      all_[static_cast<std::size_t>(b * LowerEdge::bins + bin)] = highest;
+      outside_dig_zone_[static_cast<std::size_t>(b * LowerEdge::bins + bin)] = highest_outside;
+    }
+  }
+}
+
+bool Skyline::clear(const ReachIntervals& box) const {
+  for (const std::size_t j : {boom, stick, bucket})
+    if (box.low[j] < machine_->joint[j].low || box.high[j] > machine_->joint[j].high) return false;
+  const LowerEdge edge(*machine_, box);
+  if (edge.nearest() < machine_->own_body_radius + 0.3) return false;
+  const bool contact_allowed = box.swing_speed < machine_->dig_swing_limit && edge.lowest() > floor_ + 0.1;
+  const std::vector<double>& top = contact_allowed ? outside_dig_zone_ : all_;
+  const double margin = machine_->margin + own_slack;
+  constexpr double step = 2.0 * std::numbers::pi / bearings;
+  for (double bearing = box.low[swing]; bearing < box.high[swing] + step; bearing += step)
+    for (int bin = 0; bin < LowerEdge::bins; ++bin)
+      if (edge.z(bin) < top[slot(bearing, bin)] + margin) return false;
+  return true;
+}
+
+}  // namespace berm::app

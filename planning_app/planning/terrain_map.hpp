@@ -1,0 +1,37 @@
+// The app's own height map: newest height in each 0.2 m cell, from the points the kernel took into its map.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace berm::app {
+
+class TerrainMap {
+public:
+  static constexpr double cell = 0.2;       // m
+  static constexpr double half_side = 15.0; // m; the map covers x and y within +-half_side
+
+  TerrainMap();
+
+  // Points outside the map are ignored.
+  void insert(double x, double y, double z, double time_s);
+  // Nothing where never observed or outside.
+  std::optional<double> height(double x, double y) const;
+  // The same with a height for cells never observed.
+  double height_or(double x, double y, double unknown) const;
+  // The bucket's edge passed at this height: the ground is no higher. Lowers what is known, and bounds what is hidden, until it is seen again.
+  void lower_to(double x, double y, double z);
+  // The lowest passage over a cell that was not seen since; nothing where none.
+  std::optional<double> bound(double x, double y) const;
+  double observed_at(double x, double y) const;  // s; -1 never
+  void forget(double x_low, double y_low, double x_high, double y_high);
+
+private:
+  static constexpr int side = static_cast<int>(2.0 * half_side / cell);
+  static std::optional<std::size_t> index(double x, double y);
+
+  std::vector<double> height_, time_, bound_;
+};
+
+}  // namespace berm::app

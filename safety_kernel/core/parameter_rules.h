@@ -1,0 +1,167 @@
+/* The rules of the parameter block: their ordinals, and each as a predicate. A limit stands in its predicate and in the code; the proof holds
+ * the two together. */
+#ifndef SK_PARAMETER_RULES_H
+#define SK_PARAMETER_RULES_H
+#include "sk_common.h"
+#include "config/parameter_block.h"
+SK_BEGIN
+
+/* The rules, in the order in which they are checked. The limits are the predicates below. */
+enum {
+  SK_RULE_NONE = 0,
+  SK_RULE_MAGIC = 1, SK_RULE_VERSION = 2, SK_RULE_SIZE = 3, SK_RULE_CELL = 4,
+  SK_RULE_BOOM_PIN_X = 5, SK_RULE_BOOM_PIN_Z = 6, SK_RULE_BOOM_LENGTH = 7, SK_RULE_STICK_LENGTH = 8, SK_RULE_BUCKET_LENGTH = 9,
+  SK_RULE_TOTAL_REACH = 10, SK_RULE_OWN_BODY_RADIUS = 11,
+  SK_RULE_JOINT_RANGE = 12, SK_RULE_VELOCITY_MAX = 13, SK_RULE_ACCELERATION_MAX = 14, SK_RULE_CREEP_VELOCITY = 15,
+  SK_RULE_ANGLE_ERROR = 16, SK_RULE_VELOCITY_ERROR = 17, SK_RULE_STATE_LATENCY = 18, SK_RULE_COMMAND_LATENCY = 19,
+  SK_RULE_BRAKE_REACH_ORDER = 20, SK_RULE_BRAKE_REACH_COVERS = 21,
+  SK_RULE_BRAKE_ANGLE_RANGE = 22, SK_RULE_BRAKE_ANGLE_SPEED = 23, SK_RULE_BRAKE_ANGLE_REACH = 24,
+  SK_RULE_BRAKE_TIME_RANGE = 25, SK_RULE_BRAKE_TIME_SPEED = 26, SK_RULE_BRAKE_TIME_REACH = 27,
+  SK_RULE_PART_COUNT = 28, SK_RULE_PART_LINK = 29, SK_RULE_PART_WIDTH = 30, SK_RULE_PART_VERTEX_COUNT = 31,
+  SK_RULE_PART_VERTEX_RANGE = 32, SK_RULE_PART_CONVEX = 33, SK_RULE_PART_EVERY_LINK = 34,
+  SK_RULE_SCANNER_POSITION = 35, SK_RULE_SCANNER_PAN = 36, SK_RULE_SCANNER_PAN_RATE = 37, SK_RULE_SCANNER_SILENT = 38,
+  SK_RULE_SPURIOUS_RANGE = 39, SK_RULE_RANGE_LIMITS = 40, SK_RULE_SELF_MARGIN = 41,
+  SK_RULE_MARGIN = 42, SK_RULE_FRESH = 43, SK_RULE_GENERATION = 44, SK_RULE_DIG_SWING_LIMIT = 45,
+  SK_RULE_DIG_ZONE_COUNT = 46, SK_RULE_DIG_ZONE_BOUNDS = 47, SK_RULE_DIG_ZONE_FLOOR = 48,
+  SK_RULE_REQUEST_AGE = 49, SK_RULE_REQUEST_HOLD = 50, SK_RULE_REQUEST_SILENT = 51,
+  SK_RULE_STATE_FRAME_AGE = 52, SK_RULE_MACHINE_STATE_AGE = 53, SK_RULE_OPERATOR_AGE = 54, SK_RULE_CYCLE = 55,
+  SK_RULE_STANDSTILL_SPEED = 56, SK_RULE_STANDSTILL_TIME = 57,
+  SK_RULES = 58
+};
+
+/*@ predicate sk_within(integer v, integer low, integer high) = low <= v <= high;
+  @
+  @ // head
+  @ predicate sk_rule_magic(berm_parameters *p) = p->magic == BERM_PARAMETERS_MAGIC;
+  @ predicate sk_rule_version(berm_parameters *p) = p->version == BERM_PARAMETERS_VERSION;
+  @ predicate sk_rule_size(berm_parameters *p) = p->size == sizeof(berm_parameters);
+  @ predicate sk_rule_cell(berm_parameters *p) = p->cell_mm == SK_CELL_MM;
+  @ predicate sk_head_ok(berm_parameters *p) = sk_rule_magic(p) && sk_rule_version(p) && sk_rule_size(p) && sk_rule_cell(p);
+  @
+  @ // kinematics
+  @ predicate sk_rule_boom_pin_x(berm_parameters *p) = sk_within(p->boom_pin_x_mm, -3000, 3000);
+  @ predicate sk_rule_boom_pin_z(berm_parameters *p) = sk_within(p->boom_pin_z_mm, 0, 5000);
+  @ predicate sk_rule_boom_length(berm_parameters *p) = sk_within(p->boom_length_mm, 1000, 12000);
+  @ predicate sk_rule_stick_length(berm_parameters *p) = sk_within(p->stick_length_mm, 500, 8000);
+  @ predicate sk_rule_bucket_length(berm_parameters *p) = sk_within(p->bucket_length_mm, 300, 4000);
+  @ logic integer sk_total_reach(berm_parameters *p) = p->boom_pin_x_mm + p->boom_length_mm + p->stick_length_mm + p->bucket_length_mm;
+  @ predicate sk_rule_total_reach(berm_parameters *p) = sk_total_reach(p) <= 15000;
+  @ predicate sk_rule_own_body_radius(berm_parameters *p) = sk_within(p->own_body_radius_mm, 500, 6000);
+  @ predicate sk_kinematics_ok(berm_parameters *p) =
+  @   sk_rule_boom_pin_x(p) && sk_rule_boom_pin_z(p) && sk_rule_boom_length(p) && sk_rule_stick_length(p) && sk_rule_bucket_length(p) &&
+  @   sk_rule_total_reach(p) && sk_rule_own_body_radius(p);
+  @
+  @ // joints
+  @ logic integer sk_joint_limit(integer j) = j == 0 ? 6283186 : 3141593;
+  @ predicate sk_rule_joint_range(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==>
+  @   -sk_joint_limit(j) <= p->joint_low_urad[j] < p->joint_high_urad[j] <= sk_joint_limit(j);
+  @ predicate sk_rule_velocity_max(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==> sk_within(p->velocity_max_urad_s[j], 1000, 4000000);
+  @ predicate sk_rule_acceleration_max(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==>
+  @   sk_within(p->acceleration_max_urad_s2[j], 1000, 50000000);
+  @ predicate sk_rule_creep_velocity(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==>
+  @   sk_within(p->creep_velocity_urad_s[j], 0, p->velocity_max_urad_s[j]);
+  @ predicate sk_rule_angle_error(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==> sk_within(p->angle_error_urad[j], 0, 100000);
+  @ predicate sk_rule_velocity_error(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==> sk_within(p->velocity_error_urad_s[j], 0, 200000);
+  @ predicate sk_rule_state_latency(berm_parameters *p) = sk_within(p->state_latency_us, 0, 500000);
+  @ predicate sk_rule_command_latency(berm_parameters *p) = sk_within(p->command_latency_us, 0, 1000000);
+  @ predicate sk_joints_ok(berm_parameters *p) =
+  @   sk_rule_joint_range(p) && sk_rule_velocity_max(p) && sk_rule_acceleration_max(p) && sk_rule_creep_velocity(p) &&
+  @   sk_rule_angle_error(p) && sk_rule_velocity_error(p) && sk_rule_state_latency(p) && sk_rule_command_latency(p);
+  @
+  @ // braking table; the columns reach velocity_max by their definition
+  @ predicate sk_rule_brake_reach_order(berm_parameters *p) =
+  @   0 < p->brake_reach_mm[0] < p->brake_reach_mm[1] && p->brake_reach_mm[1] < p->brake_reach_mm[2] < p->brake_reach_mm[3] &&
+  @   p->brake_reach_mm[3] <= SK_COORD_MAX_MM;
+  @ predicate sk_rule_brake_reach_covers(berm_parameters *p) = sk_total_reach(p) <= p->brake_reach_mm[BERM_BRAKE_REACHES - 1];
+  @ predicate sk_rule_brake_angle_range(berm_parameters *p) = \forall integer j, r, c;
+  @   0 <= j < SK_JOINTS && 0 <= r < BERM_BRAKE_REACHES && 0 <= c < BERM_BRAKE_SPEEDS ==> sk_within(p->brake_angle_urad[j][r][c], 0, 6283186);
+  @ predicate sk_rule_brake_angle_speed(berm_parameters *p) = \forall integer j, r, c;
+  @   0 <= j < SK_JOINTS && 0 <= r < BERM_BRAKE_REACHES && 1 <= c < BERM_BRAKE_SPEEDS ==>
+  @   p->brake_angle_urad[j][r][c - 1] <= p->brake_angle_urad[j][r][c];
+  @ predicate sk_rule_brake_angle_reach(berm_parameters *p) = \forall integer j, r, c;
+  @   0 <= j < SK_JOINTS && 1 <= r < BERM_BRAKE_REACHES && 0 <= c < BERM_BRAKE_SPEEDS ==>
+  @   p->brake_angle_urad[j][r - 1][c] <= p->brake_angle_urad[j][r][c];
+  @ predicate sk_rule_brake_time_range(berm_parameters *p) = \forall integer j, r, c;
+  @   0 <= j < SK_JOINTS && 0 <= r < BERM_BRAKE_REACHES && 0 <= c < BERM_BRAKE_SPEEDS ==> sk_within(p->brake_time_us[j][r][c], 0, 30000000);
+  @ predicate sk_rule_brake_time_speed(berm_parameters *p) = \forall integer j, r, c;
+  @   0 <= j < SK_JOINTS && 0 <= r < BERM_BRAKE_REACHES && 1 <= c < BERM_BRAKE_SPEEDS ==> p->brake_time_us[j][r][c - 1] <= p->brake_time_us[j][r][c];
+  @ predicate sk_rule_brake_time_reach(berm_parameters *p) = \forall integer j, r, c;
+  @   0 <= j < SK_JOINTS && 1 <= r < BERM_BRAKE_REACHES && 0 <= c < BERM_BRAKE_SPEEDS ==> p->brake_time_us[j][r - 1][c] <= p->brake_time_us[j][r][c];
+  @ predicate sk_braking_ok(berm_parameters *p) =
+  @   sk_rule_brake_reach_order(p) && sk_rule_brake_reach_covers(p) && sk_rule_brake_angle_range(p) && sk_rule_brake_angle_speed(p) &&
+  @   sk_rule_brake_angle_reach(p) && sk_rule_brake_time_range(p) && sk_rule_brake_time_speed(p) && sk_rule_brake_time_reach(p);
+  @
+  @ // parts: each edge of an outline has every other vertex strictly on its left
+  @ logic integer sk_cross(integer ax, integer az, integer bx, integer bz, integer cx, integer cz) = (bx - ax) * (cz - az) - (bz - az) * (cx - ax);
+  @ logic integer sk_next(integer k, integer n) = k + 1 == n ? 0 : k + 1;
+  @ predicate sk_left_of(berm_part *q, integer a, integer b, integer c) =
+  @   sk_cross(q->vertex_mm[a][0], q->vertex_mm[a][1], q->vertex_mm[b][0], q->vertex_mm[b][1], q->vertex_mm[c][0], q->vertex_mm[c][1]) > 0;
+  @ predicate sk_edge_ok(berm_part *q, integer a, integer b) = \forall integer k; 0 <= k < q->vertices && k != a && k != b ==> sk_left_of(q, a, b, k);
+  @ predicate sk_part_link_ok(berm_part *q) = 1 <= q->link <= 3;
+  @ predicate sk_part_width_ok(berm_part *q) = sk_within(q->half_width_mm, 1, 3000);
+  @ predicate sk_part_vertex_count_ok(berm_part *q) = 3 <= q->vertices <= BERM_PART_VERTICES;
+  @ predicate sk_vertex_ok(berm_part *q, integer k) = sk_within(q->vertex_mm[k][0], -15000, 15000) && sk_within(q->vertex_mm[k][1], -15000, 15000);
+  @ predicate sk_part_vertices_ok(berm_part *q) = \forall integer k; 0 <= k < q->vertices ==> sk_vertex_ok(q, k);
+  @ predicate sk_part_convex(berm_part *q) = \forall integer a; 0 <= a < q->vertices ==> sk_edge_ok(q, a, sk_next(a, q->vertices));
+  @ predicate sk_rule_part_count(berm_parameters *p) = 1 <= p->parts <= BERM_PARTS;
+  @ predicate sk_rule_part_link(berm_parameters *p) = \forall integer i; 0 <= i < p->parts ==> sk_part_link_ok(&p->part[i]);
+  @ predicate sk_rule_part_width(berm_parameters *p) = \forall integer i; 0 <= i < p->parts ==> sk_part_width_ok(&p->part[i]);
+  @ predicate sk_rule_part_vertex_count(berm_parameters *p) = \forall integer i; 0 <= i < p->parts ==> sk_part_vertex_count_ok(&p->part[i]);
+  @ predicate sk_rule_part_vertex_range(berm_parameters *p) = \forall integer i; 0 <= i < p->parts ==> sk_part_vertices_ok(&p->part[i]);
+  @ predicate sk_rule_part_convex(berm_parameters *p) = \forall integer i; 0 <= i < p->parts ==> sk_part_convex(&p->part[i]);
+  @ predicate sk_link_covered(berm_parameters *p, integer link) = \exists integer i; 0 <= i < p->parts && p->part[i].link == link;
+  @ predicate sk_rule_part_every_link(berm_parameters *p) = sk_link_covered(p, 1) && sk_link_covered(p, 2) && sk_link_covered(p, 3);
+  @ predicate sk_parts_ok(berm_parameters *p) =
+  @   sk_rule_part_count(p) && sk_rule_part_link(p) && sk_rule_part_width(p) && sk_rule_part_vertex_count(p) && sk_rule_part_vertex_range(p) &&
+  @   sk_rule_part_convex(p) && sk_rule_part_every_link(p);
+  @
+  @ // sensors
+  @ predicate sk_mount_position_ok(berm_scanner_mount *m) = sk_within(m->x_mm, -5000, 5000) && sk_within(m->y_mm, -5000, 5000) && sk_within(m->z_mm, 0, 8000);
+  @ predicate sk_mount_pan_ok(berm_scanner_mount *m) = -3141593 <= m->pan_low_urad < m->pan_high_urad <= 3141593;
+  @ predicate sk_rule_scanner_position(berm_parameters *p) = sk_mount_position_ok(&p->scanner[0]) && sk_mount_position_ok(&p->scanner[1]);
+  @ predicate sk_rule_scanner_pan(berm_parameters *p) = sk_mount_pan_ok(&p->scanner[0]) && sk_mount_pan_ok(&p->scanner[1]);
+  @ predicate sk_rule_scanner_pan_rate(berm_parameters *p) =
+  @   sk_within(p->scanner[0].pan_rate_max_urad_s, 1, 10000000) && sk_within(p->scanner[1].pan_rate_max_urad_s, 1, 10000000);
+  @ predicate sk_rule_scanner_silent(berm_parameters *p) = sk_within(p->scanner_silent_us, 1000, 5000000);
+  @ predicate sk_rule_spurious_range(berm_parameters *p) = sk_within(p->spurious_range_mm, 1, 100000);
+  @ predicate sk_rule_range_limits(berm_parameters *p) = 0 <= p->range_min_mm < p->range_max_mm <= 262140;
+  @ predicate sk_rule_self_margin(berm_parameters *p) = sk_within(p->self_margin_mm, 0, 2000);
+  @ predicate sk_sensors_ok(berm_parameters *p) =
+  @   sk_rule_scanner_position(p) && sk_rule_scanner_pan(p) && sk_rule_scanner_pan_rate(p) && sk_rule_scanner_silent(p) &&
+  @   sk_rule_spurious_range(p) && sk_rule_range_limits(p) && sk_rule_self_margin(p);
+  @
+  @ // map and clearance
+  @ predicate sk_zone_bounds_ok(berm_dig_zone *z) = -15000 <= z->x_low_mm < z->x_high_mm <= 15000 && -15000 <= z->y_low_mm < z->y_high_mm <= 15000;
+  @ predicate sk_rule_margin(berm_parameters *p) = sk_within(p->margin_mm, 0, 3000);
+  @ predicate sk_rule_fresh(berm_parameters *p) = sk_within(p->fresh_us, 1, 600000000);
+  @ predicate sk_rule_generation(berm_parameters *p) = sk_within(p->generation_us, 1, p->fresh_us);
+  @ predicate sk_rule_dig_swing_limit(berm_parameters *p) = sk_within(p->dig_swing_limit_urad_s, 0, p->velocity_max_urad_s[0]);
+  @ predicate sk_rule_dig_zone_count(berm_parameters *p) = sk_within(p->dig_zones, 0, BERM_DIG_ZONES);
+  @ predicate sk_rule_dig_zone_bounds(berm_parameters *p) = \forall integer i; 0 <= i < p->dig_zones ==> sk_zone_bounds_ok(&p->dig_zone[i]);
+  @ predicate sk_rule_dig_zone_floor(berm_parameters *p) = \forall integer i; 0 <= i < p->dig_zones ==>
+  @   sk_within(p->dig_zone[i].floor_mm, -SK_HEIGHT_MAX_MM, SK_HEIGHT_MAX_MM);
+  @ predicate sk_map_rules_ok(berm_parameters *p) =
+  @   sk_rule_margin(p) && sk_rule_fresh(p) && sk_rule_generation(p) && sk_rule_dig_swing_limit(p) && sk_rule_dig_zone_count(p) &&
+  @   sk_rule_dig_zone_bounds(p) && sk_rule_dig_zone_floor(p);
+  @
+  @ // times; hold within 50 ms and latched stop within 500 ms are promised, so nobody may configure more
+  @ predicate sk_rule_request_age(berm_parameters *p) = sk_within(p->request_age_us, 1, 500000);
+  @ predicate sk_rule_request_hold(berm_parameters *p) = sk_within(p->request_hold_us, 1, 50000);
+  @ predicate sk_rule_request_silent(berm_parameters *p) = sk_within(p->request_silent_us, p->request_hold_us, 500000);
+  @ predicate sk_rule_state_frame_age(berm_parameters *p) = sk_within(p->state_frame_age_us, 1, 500000);
+  @ predicate sk_rule_machine_state_age(berm_parameters *p) = sk_within(p->machine_state_age_us, 1, 1000000);
+  @ predicate sk_rule_operator_age(berm_parameters *p) = sk_within(p->operator_age_us, 1, 1000000);
+  @ predicate sk_rule_cycle(berm_parameters *p) = sk_within(p->cycle_us, 1000, 100000);
+  @ predicate sk_rule_standstill_speed(berm_parameters *p) = sk_within(p->standstill_urad_s, 1, 100000);
+  @ predicate sk_rule_standstill_time(berm_parameters *p) = sk_within(p->standstill_us, 1, 2000000);
+  @ predicate sk_times_ok(berm_parameters *p) =
+  @   sk_rule_request_age(p) && sk_rule_request_hold(p) && sk_rule_request_silent(p) && sk_rule_state_frame_age(p) && sk_rule_machine_state_age(p) &&
+  @   sk_rule_operator_age(p) && sk_rule_cycle(p) && sk_rule_standstill_speed(p) && sk_rule_standstill_time(p);
+  @
+  @ predicate sk_parameters_ok(berm_parameters *p) =
+  @   sk_head_ok(p) && sk_kinematics_ok(p) && sk_joints_ok(p) && sk_braking_ok(p) && sk_parts_ok(p) && sk_sensors_ok(p) && sk_map_rules_ok(p) &&
+  @   sk_times_ok(p);
+  @*/
+
+SK_END
+#endif

@@ -1,0 +1,165 @@
+#include "io/cycle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace berm::kernel {
+
+Cycle::Cycle(const berm_parameters& parameters, bool map_only)
+    : parameters_(parameters),
+      map_only_(map_only),
+      frames_(parameters),
+      scans_(parameters),
+      self_(parameters),
+      commands_(parameters.command_latency_us + parameters.state_latency_us + parameters.cycle_us),
+      motion_(parameters),
+      rim_(parameters) {
+  sk_map_clear(&map_);
+  sk_stop_init(&stop_);
+}
+
+void Cycle::step(const CycleInputs& in, CycleOutputs& out) {
+  out.frames.count = 0;
+  out.blocks.count = 0;
+  const std::uint32_t points_before = scans_.points();
+  map_points_ = 0;
+  take_frames(in);
+  take_scans(in, out.blocks);
+  map_points_ += scans_.points() - points_before;
+  take_points(in);
+  if (!map_only_) {
+    rim_.stamp(map_, in.now_us, parameters_.generation_us);
+    take_request(in);
+    judge_motion(in.now_us);
+    step_stop_logic(in);
+    order(in, out.frames);
+  }
+  report_state(in, out.state);
+  report_decision(in, out.decision);
+}
+
+void Cycle::take_frames(const CycleInputs& in) {
+  const std::int64_t angle_before_us = frames_.angle_us();
+  for (int i = 0; i < in.frame_count; ++i) frames_.take(in.frame[i], in.now_us);
+  if (frames_.angle_us() != angle_before_us) joints_.push(in.now_us, frames_.picture().angle.angle_urad);
+}
+
+void Cycle::take_scans(const CycleInputs& in, ScanBlocks& blocks) {
+  // Without joint angles nothing can be placed in the base frame.
+  if (map_only_ || joints_.size() == 0) return;
+  for (int i = 0; i < in.packet_count; ++i)
+    if (!scans_.take(in.packet[i], joints_, in.now_us, map_, blocks)) ++scans_rejected_;
+  scans_.flush(joints_, in.now_us, map_, blocks);
+}
+
+void Cycle::take_points(const CycleInputs& in) {
+  if (in.point_count == 0 || (!map_only_ && joints_.size() == 0)) return;
+  const JointAngles angles = joints_.at(in.now_us).angles;
+  const ImplementPose pose = self_.pose(angles);
+  const Eigen::AngleAxisd to_upper(-angles.swing, Eigen::Vector3d::UnitZ());
+  for (int i = 0; i < in.point_count; ++i) {
+    const sk_point& p = in.point[i];
+    if (std::abs(p.x_mm) > SK_COORD_MAX_MM || std::abs(p.y_mm) > SK_COORD_MAX_MM) continue;
+    if (!map_only_ && self_.is_own(to_upper * (Eigen::Vector3d(p.x_mm, p.y_mm, p.z_mm) * 1e-3), pose)) continue;
+    const bool inside = sk_map_insert(&map_, sk_map_index(p.y_mm), sk_map_index(p.x_mm), p.z_mm, in.now_us, parameters_.generation_us);
+    if (inside) ++map_points_;
+  }
+}
+
+void Cycle::take_request(const CycleInputs& in) {
+  if (in.app_connections != app_connections_) {
+    app_connections_ = in.app_connections;
+    request_state_.primed = false;  // another app counts from where it likes
+  }
+  request_result_ = BERM_REQUEST_NONE;
+  if (in.app_connected) request_result_ = sk_request_check(&request_state_, in.request, &parameters_, in.now_us, &request_);
+  if (request_result_ == BERM_REQUEST_ACCEPTED) {
+    app_.heard = true;
+    app_.last_accept_us = in.now_us;
+  }
+  const bool usable = app_.heard && !app_.holds(in.now_us, parameters_.request_hold_us);
+  motion_wanted_ = false;
+  for (int j = 0; j < SK_JOINTS; ++j) {
+    requested_urad_s_[j] = usable ? request_.joint_velocity_urad_s[j] : 0;
+    motion_wanted_ = motion_wanted_ || requested_urad_s_[j] != 0;
+  }
+}
+
+void Cycle::judge_motion(std::int64_t now_us) {
+  const bool fresh = frames_.state_heard() && frames_.joints_fresh(now_us);
+  const MachinePicture& picture = frames_.picture();
+  standstill_ = standstill_watch_.check(picture.velocity.velocity_urad_s, fresh, parameters_, now_us);
+  if (!fresh) {
+    verdict_ = MotionVerdict{};
+    verdict_.permission = Permission::kHeld;
+    verdict_.reason = BERM_STOP_STATE_FRAME;
+    return;
+  }
+  MotionQuery query{};
+  query.now_us = now_us;
+  std::copy(picture.angle.angle_urad, picture.angle.angle_urad + SK_JOINTS, query.angle_urad);
+  std::copy(picture.velocity.velocity_urad_s, picture.velocity.velocity_urad_s + SK_JOINTS, query.velocity_urad_s);
+  std::copy(requested_urad_s_, requested_urad_s_ + SK_JOINTS, query.requested_urad_s);
+  commands_.range(now_us, query.under_way_low_urad_s, query.under_way_high_urad_s);
+  motion_.check(query, map_, verdict_);
+}
+
+std::uint8_t Cycle::judge_hold(std::int64_t now_us) const {
+  // While latched nothing moves and only the operator can change that: a blocked box must not stand in the way of the reset.
+  if (stop_.latched) return BERM_STOP_NONE;
+  if (app_.holds(now_us, parameters_.request_hold_us)) return BERM_STOP_REQUEST_HOLD;
+  if (verdict_.permission == Permission::kHeld) return verdict_.reason;
+  // Creep recovery counts as running only while it is used.
+  const bool at_rest = !motion_wanted_ && !standstill_watch_.moving();
+  return verdict_.permission == Permission::kCreep && at_rest ? verdict_.reason : static_cast<std::uint8_t>(BERM_STOP_NONE);
+}
+
+void Cycle::step_stop_logic(const CycleInputs& in) {
+  const berm_operator& panel = frames_.picture().panel;
+  const bool panel_fresh = frames_.operator_fresh(in.now_us);
+  sk_stop_input stop_in{};
+  stop_in.now_us = in.now_us;
+  supervise(frames_, scans_.health(), app_, in.clock_fault, parameters_, stop_in);
+  hold_reason_ = judge_hold(in.now_us);
+  stop_in.hold_reason = hold_reason_;
+  stop_in.inputs_ready = inputs_ready(frames_, scans_.health(), parameters_, in.now_us);
+  stop_in.standstill = standstill_;
+  stop_in.operator_run = panel_fresh && panel.run && app_.heard;
+  stop_in.operator_reset = panel_fresh && panel.reset;
+  const sk_stop_state before = stop_;
+  sk_stop_step(&stop_, &stop_in, &permit_);
+  count_stop(before);
+}
+
+void Cycle::count_stop(const sk_stop_state& before) {
+  const std::uint8_t reason = stop_.reason;
+  if (reason == BERM_STOP_NONE || reason >= BERM_STOP_REASONS) return;
+  const bool latched_anew = stop_.latched && (!before.latched || before.reason != reason);
+  // A hold of a machine that stands and is asked for nothing stops nothing.
+  const bool left_run = before.code == SK_STATE_RUN && stop_.code != SK_STATE_RUN && (motion_wanted_ || standstill_watch_.moving());
+  if (latched_anew || left_run) ++stop_count_[reason];
+}
+
+void Cycle::order(const CycleInputs& in, FrameList& frames) {
+  MachineOrders orders{};
+  const bool may_move = permit_.motion_enabled && verdict_.permission != Permission::kHeld;
+  for (int j = 0; j < SK_JOINTS; ++j) {
+    sent_urad_s_[j] = may_move ? verdict_.command_urad_s[j] : 0;
+    orders.velocity_urad_s[j] = sent_urad_s_[j];
+  }
+  commands_.push(in.now_us, sent_urad_s_);
+  for (int s = 0; s < BERM_SCANNERS; ++s) {
+    orders.pan[s].scanner = static_cast<std::uint8_t>(s);
+    orders.pan[s].goal_urad = app_.heard ? request_.pan_goal_urad[s] : scans_.pan_urad(s);
+    orders.pan[s].rate_urad_s = app_.heard ? request_.pan_rate_urad_s[s] : 0;
+  }
+  orders.horn = app_.heard && (request_.flags & BERM_REQUEST_FLAG_HORN) != 0 && !app_.holds(in.now_us, parameters_.request_silent_us);
+  orders.heartbeat.enable = permit_.heartbeat_enable;
+  orders.heartbeat.stop_category = stop_.category;
+  orders.heartbeat.kernel_state = contract_state(stop_.code);
+  orders.heartbeat.stop_reason = stop_.reason;
+  orders.heartbeat.cycle = static_cast<std::uint16_t>(in.cycle & 0xFFFFU);
+  output_.make(orders, frames);
+}
+
+}  // namespace berm::kernel

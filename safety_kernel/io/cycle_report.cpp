@@ -1,0 +1,94 @@
+// What a cycle shows to app and recorders.
+#include <algorithm>
+
+#include "io/cycle.hpp"
+
+namespace berm::kernel {
+
+std::uint8_t contract_state(std::uint16_t code) {
+  switch (code) {
+    case SK_STATE_INIT: return BERM_STATE_INIT;
+    case SK_STATE_STANDBY: return BERM_STATE_STANDBY;
+    case SK_STATE_RUN: return BERM_STATE_RUN;
+    case SK_STATE_STOPPING: return BERM_STATE_STOPPING;
+    case SK_STATE_STOPPED: return BERM_STATE_STOPPED;
+    default: return BERM_STATE_FAULT;
+  }
+}
+
+std::uint8_t Cycle::published_reason() const {
+  if (stop_.reason != BERM_STOP_NONE || stop_.code != SK_STATE_STANDBY) return stop_.reason;
+  // In STANDBY nothing is stopped, but the app should know why RUN does not begin.
+  return app_.heard ? hold_reason_ : static_cast<std::uint8_t>(BERM_STOP_NONE);
+}
+
+std::uint32_t Cycle::panel_flags(std::int64_t now_us) const {
+  const MachinePicture& picture = frames_.picture();
+  std::uint32_t flags = 0;
+  if (frames_.operator_fresh(now_us) && picture.panel.run) flags |= BERM_PANEL_OPERATOR_RUN;
+  if (frames_.spotter_fresh(now_us) && picture.spotter.truck_parked) flags |= BERM_PANEL_TRUCK_PARKED;
+  if (frames_.spotter_fresh(now_us) && picture.spotter.truck_leaving) flags |= BERM_PANEL_TRUCK_LEAVING;
+  return flags;
+}
+
+void Cycle::report_state(const CycleInputs& in, berm_state& state) const {
+  const MachinePicture& picture = frames_.picture();
+  state = berm_state{};
+  state.cycle = in.cycle;
+  state.time_us = in.now_us;
+  for (int j = 0; j < BERM_JOINTS; ++j) {
+    state.joint_angle_urad[j] = picture.angle.angle_urad[j];
+    state.joint_velocity_urad_s[j] = picture.velocity.velocity_urad_s[j];
+    state.commanded_urad_s[j] = sent_urad_s_[j];
+    state.reach_low_urad[j] = verdict_.box.low_urad[j];
+    state.reach_high_urad[j] = verdict_.box.high_urad[j];
+  }
+  for (int s = 0; s < BERM_SCANNERS; ++s) state.pan_angle_urad[s] = scans_.pan_urad(s);
+  state.payload_kg = picture.payload_kg;
+  state.boom_pressure_kpa = picture.boom_pressure_kpa;
+  state.request_sequence = request_.sequence;
+  state.request_result = static_cast<std::uint8_t>(request_result_);
+  state.kernel_state = contract_state(stop_.code);
+  state.stop_reason = published_reason();
+  state.stop_category = stop_.category;
+  if (verdict_.has_cell) {
+    state.blocked_x_mm = verdict_.blocked_x_mm;
+    state.blocked_y_mm = verdict_.blocked_y_mm;
+    state.blocked_height_mm = verdict_.blocked_height_mm;
+    state.blocked_link = verdict_.blocked_link;
+  }
+  std::copy(stop_count_, stop_count_ + BERM_STOP_REASONS, state.stop_count);
+  state.cycle_cpu_us = in.cycle_cpu_us;
+  state.panel = panel_flags(in.now_us);
+}
+
+void Cycle::report_decision(const CycleInputs& in, berm_decision& decision) const {
+  const MachinePicture& picture = frames_.picture();
+  decision = berm_decision{};
+  decision.cycle = in.cycle;
+  decision.time_us = in.now_us;
+  for (int j = 0; j < BERM_JOINTS; ++j) {
+    decision.joint_angle_urad[j] = picture.angle.angle_urad[j];
+    decision.joint_velocity_urad_s[j] = picture.velocity.velocity_urad_s[j];
+    decision.requested_urad_s[j] = requested_urad_s_[j];
+    decision.commanded_urad_s[j] = sent_urad_s_[j];
+    decision.reach_low_urad[j] = verdict_.box.low_urad[j];
+    decision.reach_high_urad[j] = verdict_.box.high_urad[j];
+  }
+  decision.request_sequence = request_.sequence;
+  decision.request_result = static_cast<std::uint8_t>(request_result_);
+  decision.kernel_state = contract_state(stop_.code);
+  decision.stop_reason = published_reason();
+  decision.stop_category = stop_.category;
+  decision.phase = request_.phase;
+  decision.slices = static_cast<std::uint16_t>(verdict_.slices);
+  decision.cells = static_cast<std::uint32_t>(verdict_.cells);
+  if (verdict_.has_cell) {
+    decision.blocked_x_mm = verdict_.blocked_x_mm;
+    decision.blocked_y_mm = verdict_.blocked_y_mm;
+    decision.blocked_height_mm = verdict_.blocked_height_mm;
+  }
+  decision.scan_points = map_points_;
+}
+
+}  // namespace berm::kernel

@@ -1,0 +1,122 @@
+#include "io/frame_intake.hpp"
+
+namespace berm::kernel {
+
+namespace {
+
+constexpr std::uint32_t kGuardedId[] = {BERM_CAN_FRONT_ANGLE, BERM_CAN_FRONT_ANGULAR_VELOCITY, BERM_CAN_MACHINE_STATE,
+                                        BERM_CAN_ESTOP_STATUS, BERM_CAN_OPERATOR, BERM_CAN_SPOTTER};
+// What the reach box accepts (core/reach_box.h); the fields of the frames reach further.
+constexpr std::int32_t kAngleMaxUrad = 10000000;
+constexpr std::int32_t kVelocityMaxUradS = 5000000;
+
+bool within(const std::int32_t (&value)[4], std::int32_t limit) {
+  for (const std::int32_t v : value)
+    if (v < -limit || v > limit) return false;
+  return true;
+}
+
+bool is_guard(std::uint32_t id) {
+  return id == BERM_CAN_GUARD_MACHINE || id == BERM_CAN_GUARD_OPERATOR || id == BERM_CAN_GUARD_SPOTTER;
+}
+
+}  // namespace
+
+FrameIntake::FrameIntake(const berm_parameters& parameters) : parameters_(parameters) {
+  static_assert(sizeof kGuardedId / sizeof kGuardedId[0] == kMessages, "one id a message");
+  for (int m = 0; m < kMessages; ++m) sk_guard_init(&guard_[m], kGuardedId[m]);
+}
+
+void FrameIntake::take(const berm_can_frame& frame, std::int64_t now_us) {
+  if (is_guard(frame.id)) {
+    take_guard(frame, now_us);
+    return;
+  }
+  for (int m = 0; m < kMessages; ++m) {
+    if (frame.id != kGuardedId[m]) continue;
+    if (!take_guarded(m, frame, now_us)) ++rejected_;
+    return;
+  }
+  if (!take_plain(frame)) ++rejected_;
+}
+
+void FrameIntake::take_guard(const berm_can_frame& frame, std::int64_t now_us) {
+  for (int m = 0; m < kMessages; ++m) {
+    if (frame.length < 1 || berm_can_guard_id(kGuardedId[m]) != frame.id || BERM_CAN_DATA_ID(kGuardedId[m]) != frame.data[0]) continue;
+    sk_guard_arm(&guard_[m], frame.data, frame.length, now_us);
+    if (!guard_[m].armed) ++rejected_;
+    return;
+  }
+  ++rejected_;
+}
+
+bool FrameIntake::take_guarded(int message, const berm_can_frame& frame, std::int64_t now_us) {
+  // On a copy: a message whose content is refused must not count as heard.
+  sk_guard_state guard = guard_[message];
+  const std::int32_t result = sk_guard_accept(&guard, frame.data, frame.length, now_us);
+  guard_[message].armed = false;
+  if (result != SK_FRAME_OK || !decode(message, frame)) return false;
+  guard_[message] = guard;
+  return true;
+}
+
+bool FrameIntake::decode(int message, const berm_can_frame& frame) {
+  switch (message) {
+    case kAngle: {
+      berm_front_angle angle{};
+      if (!berm_decode_front_angle(&frame, &angle) || !within(angle.angle_urad, kAngleMaxUrad)) return false;
+      picture_.angle = angle;
+      return true;
+    }
+    case kVelocity: {
+      berm_front_velocity velocity{};
+      if (!berm_decode_front_velocity(&frame, &velocity) || !within(velocity.velocity_urad_s, kVelocityMaxUradS)) return false;
+      picture_.velocity = velocity;
+      return true;
+    }
+    case kMachineState: return berm_decode_machine_state(&frame, &picture_.state);
+    case kEstop: return berm_decode_estop(&frame, &picture_.estop);
+    case kOperator: return berm_decode_operator(&frame, &picture_.panel);
+    case kSpotter: return berm_decode_spotter(&frame, &picture_.spotter);
+    default: return false;
+  }
+}
+
+bool FrameIntake::take_plain(const berm_can_frame& frame) {
+  if (frame.id == BERM_CAN_PAYLOAD) {
+    berm_payload payload{};
+    if (!berm_decode_payload(&frame, &payload)) return false;
+    picture_.payload_kg = payload.valid ? payload.kg : -1;
+  } else if (frame.id == BERM_CAN_PRESSURE_1) {
+    berm_pressure pressure{};
+    if (!berm_decode_pressure(&frame, &pressure)) return false;
+    picture_.boom_pressure_kpa = pressure.kpa[0];
+  } else if (frame.id == BERM_CAN_ROLL_PITCH || frame.id == BERM_CAN_VEHICLE_AZIMUTH) {
+    return frame.length == 8;
+  }
+  return true;
+}
+
+bool FrameIntake::state_heard() const { return heard(kAngle) && heard(kVelocity) && heard(kMachineState) && heard(kEstop); }
+
+bool FrameIntake::joints_fresh(std::int64_t now_us) const {
+  return sk_guard_fresh(&guard_[kAngle], now_us, parameters_.state_frame_age_us) && sk_guard_fresh(&guard_[kVelocity], now_us, parameters_.state_frame_age_us);
+}
+
+bool FrameIntake::machine_fresh(std::int64_t now_us) const {
+  return sk_guard_fresh(&guard_[kMachineState], now_us, parameters_.machine_state_age_us) &&
+         sk_guard_fresh(&guard_[kEstop], now_us, parameters_.machine_state_age_us);
+}
+
+bool FrameIntake::operator_fresh(std::int64_t now_us) const { return sk_guard_fresh(&guard_[kOperator], now_us, parameters_.operator_age_us); }
+
+bool FrameIntake::spotter_fresh(std::int64_t now_us) const { return sk_guard_fresh(&guard_[kSpotter], now_us, parameters_.operator_age_us); }
+
+bool FrameIntake::spotter_lost(std::int64_t now_us) const { return heard(kSpotter) && !spotter_fresh(now_us); }
+
+bool machine_healthy(const MachinePicture& picture) {
+  const berm_machine_state& s = picture.state;
+  return !s.system_error && s.can_errors == 0 && !s.lock_receiver_error && !s.estop_receiver_error && !s.switch_error && picture.estop.receiver_ok;
+}
+
+}  // namespace berm::kernel

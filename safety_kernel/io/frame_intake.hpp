@@ -1,0 +1,66 @@
+// Frames from the bus: which are used, and the newest picture of machine, operator and spotter they give.
+//
+// A guarded message counts only behind its guard frame (core/frame_guard.h). Identifiers that are not Berm's are foreign traffic and
+// pass unnoticed; Berm's own identifiers with a wrong length, guard or value are refused and counted.
+#pragma once
+
+#include <cstdint>
+
+#include "can/berm_can.h"
+#include "config/parameter_block.h"
+#include "core/frame_guard.h"
+
+namespace berm::kernel {
+
+struct MachinePicture {
+  berm_front_angle angle{};
+  berm_front_velocity velocity{};
+  berm_machine_state state{};
+  berm_estop estop{};
+  berm_operator panel{};
+  berm_spotter spotter{};
+  std::int32_t payload_kg = -1;        // not trusted
+  std::int32_t boom_pressure_kpa = 0;  // not trusted
+};
+
+class FrameIntake {
+ public:
+  explicit FrameIntake(const berm_parameters& parameters);
+
+  void take(const berm_can_frame& frame, std::int64_t now_us);
+
+  const MachinePicture& picture() const { return picture_; }
+  std::uint64_t rejected() const { return rejected_; }
+  // True once a usable angle frame came in this cycle or before; when it came.
+  std::int64_t angle_us() const { return guard_[kAngle].last_us; }
+
+  // Each message of the group was accepted at least once since start.
+  bool state_heard() const;     // angle, velocity, machine state, e-stop status
+  bool operator_heard() const { return guard_[kOperator].last_us >= 0; }
+  // Newest accepted frames are young enough for the limits of the parameters.
+  bool joints_fresh(std::int64_t now_us) const;    // angle and velocity
+  bool machine_fresh(std::int64_t now_us) const;   // machine state and e-stop status
+  bool operator_fresh(std::int64_t now_us) const;
+  bool spotter_fresh(std::int64_t now_us) const;
+  // The spotter is optional: silent from the start is no matter, falling silent is.
+  bool spotter_lost(std::int64_t now_us) const;
+
+ private:
+  enum Message { kAngle, kVelocity, kMachineState, kEstop, kOperator, kSpotter, kMessages };
+
+  void take_guard(const berm_can_frame& frame, std::int64_t now_us);
+  bool take_guarded(int message, const berm_can_frame& frame, std::int64_t now_us);
+  bool take_plain(const berm_can_frame& frame);
+  bool decode(int message, const berm_can_frame& frame);
+  bool heard(int message) const { return guard_[message].last_us >= 0; }
+
+  const berm_parameters& parameters_;
+  sk_guard_state guard_[kMessages];
+  MachinePicture picture_;
+  std::uint64_t rejected_ = 0;
+};
+
+// No error of the machine's own is reported.
+bool machine_healthy(const MachinePicture& picture);
+
+}  // namespace berm::kernel

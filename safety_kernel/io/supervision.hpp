@@ -1,0 +1,39 @@
+// Faults and latching stops of one cycle: what the stop logic is told beyond the motion check.
+#pragma once
+
+#include <cstdint>
+
+#include "config/parameter_block.h"
+#include "core/stop_logic.h"
+#include "io/frame_intake.hpp"
+#include "io/scan_health.hpp"
+
+namespace berm::kernel {
+
+// How long ago the app last said something usable.
+struct AppPulse {
+  bool heard = false;             // since start
+  std::int64_t last_accept_us = 0;
+  bool holds(std::int64_t now_us, std::int32_t hold_us) const { return heard && now_us - last_accept_us >= hold_us; }
+};
+
+// Standstill: measured speeds under the limit for long enough. Without fresh frames: the braking table's time for the last known speeds has
+// passed, with all latencies, under zero commands.
+class StandstillWatch {
+ public:
+  bool check(const std::int32_t (&velocity_urad_s)[4], bool fresh, const berm_parameters& parameters, std::int64_t now_us);
+  bool moving() const { return moving_; }  // in the newest check
+
+ private:
+  bool moving_ = true;
+  std::int64_t moved_us_ = -1;
+  std::int64_t stands_us_ = -1;  // at the latest, from the last fresh frames
+};
+
+// Everything the motion needs was heard and is alive.
+bool inputs_ready(const FrameIntake& frames, const ScanHealth& scans, const berm_parameters& parameters, std::int64_t now_us);
+
+// Fills fault_reason, fault_category_0, latch_reason, latch_category_0.
+void supervise(const FrameIntake& frames, const ScanHealth& scans, const AppPulse& app, bool clock_fault, const berm_parameters& parameters, sk_stop_input& in);
+
+}  // namespace berm::kernel

@@ -1,0 +1,88 @@
+#include "io/vlp16.hpp"
+
+#include <cmath>
+
+namespace berm::kernel {
+
+namespace {
+
+constexpr int kBlocks = 12;
+constexpr std::size_t kBlockBytes = 100;
+constexpr std::size_t kModeOffset = 1204;
+constexpr std::uint8_t kModeStrongest = 0x37, kModeLast = 0x38, kModeDual = 0x39;
+constexpr std::uint8_t kProductVlp16 = 0x22;
+constexpr std::int32_t kRangeLsbMm = 2;
+constexpr std::uint32_t kTurnCdeg = 36000;
+constexpr std::uint32_t kGapMaxCdeg = 200;  // between blocks; 0.1 to 0.4 degrees at 300 to 1200 rpm. A sector skipped by the sensor is wider
+constexpr std::uint32_t kGapDefaultCdeg = 20;
+// Firing times in nanoseconds: a sequence fires its 16 lasers one by one; a block holds two sequences.
+constexpr std::uint32_t kSequenceNs = 55296, kLaserNs = 2304;
+constexpr double kPi = 3.14159265358979323846;
+
+// Elevation rank of each laser in firing order: -15, 1, -13, 3, -11, 5, -9, 7, -7, 9, -5, 11, -3, 13, -1, 15 degrees.
+constexpr std::uint8_t kChannelOfLaser[kVlp16Channels] = {0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15};
+
+std::uint32_t u16(const std::uint8_t* p) { return static_cast<std::uint32_t>(p[0]) | (static_cast<std::uint32_t>(p[1]) << 8); }
+
+Vlp16Result check(const std::uint8_t* bytes, std::size_t size) {
+  if (size != kVlp16PacketBytes) return Vlp16Result::kSize;
+  const std::uint8_t mode = bytes[kModeOffset];
+  if (mode != kModeStrongest && mode != kModeLast && mode != kModeDual) return Vlp16Result::kMode;
+  if (bytes[kModeOffset + 1] != kProductVlp16) return Vlp16Result::kProduct;
+  for (int block = 0; block < kBlocks; ++block) {
+    const std::uint8_t* p = bytes + kBlockBytes * static_cast<std::size_t>(block);
+    if (p[0] != 0xFF || p[1] != 0xEE) return Vlp16Result::kFlag;
+    if (u16(p + 2) >= kTurnCdeg) return Vlp16Result::kAzimuth;
+    // the two blocks of a dual pair are one firing
+    if (mode == kModeDual && block % 2 == 1 && u16(p + 2) != u16(p + 2 - kBlockBytes)) return Vlp16Result::kAzimuth;
+  }
+  return Vlp16Result::kOk;
+}
+
+// Turn between the firing of block and that of the next, in 0.01 degrees; at the packet's end that of the pair before.
+std::uint32_t gap_cdeg(const std::uint8_t* bytes, int block, int step) {
+  const int from = block + step < kBlocks ? block : block - step;
+  const std::uint32_t here = u16(bytes + kBlockBytes * static_cast<std::size_t>(from) + 2);
+  const std::uint32_t next = u16(bytes + kBlockBytes * static_cast<std::size_t>(from + step) + 2);
+  const std::uint32_t gap = (next + kTurnCdeg - here) % kTurnCdeg;
+  return gap <= kGapMaxCdeg ? gap : kGapDefaultCdeg;
+}
+
+}  // namespace
+
+Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packet& packet) {
+  const Vlp16Result result = check(bytes, size);
+  if (result != Vlp16Result::kOk) return result;
+  // A pair holds the last return in its even block and the strongest in its odd one, and a lone return may stand in either: the last
+  // return is the farther of the two.
+  const int step = bytes[kModeOffset] == kModeDual ? 2 : 1;
+  packet.count = 0;
+  for (int block = 0; block < kBlocks; block += step) {
+    const std::uint8_t* p = bytes + kBlockBytes * static_cast<std::size_t>(block);
+    const std::uint32_t azimuth_mdeg = u16(p + 2) * 10U;
+    const std::uint32_t gap = gap_cdeg(bytes, block, step);
+    for (int shot = 0; shot < 2 * kVlp16Channels; ++shot) {
+      const std::uint8_t* record = p + 4 + 3 * shot;
+      if (step == 2 && u16(record + kBlockBytes) > u16(record)) record += kBlockBytes;
+      const std::int32_t range_mm = static_cast<std::int32_t>(u16(record)) * kRangeLsbMm;
+      if (range_mm < kVlp16RangeMinMm) continue;
+      const int laser = shot % kVlp16Channels;
+      const std::uint32_t fired_ns = kSequenceNs * static_cast<std::uint32_t>(shot / kVlp16Channels) + kLaserNs * static_cast<std::uint32_t>(laser);
+      const std::uint32_t turned_mdeg = gap * 10U * fired_ns / (2U * kSequenceNs);
+      packet.point[packet.count] = {kChannelOfLaser[laser], record[2], (azimuth_mdeg + turned_mdeg) % (kTurnCdeg * 10U), range_mm};
+      ++packet.count;
+    }
+  }
+  return Vlp16Result::kOk;
+}
+
+void vlp16_project(const Vlp16Mount& mount, const Vlp16Return& point, std::int32_t (&point_mm)[3]) {
+  const double elevation = (2.0 * point.channel - 15.0) * kPi / 180.0;
+  const double heading = mount.yaw_rad - static_cast<double>(point.azimuth_mdeg) * 1e-3 * kPi / 180.0;
+  const double level = point.range_mm * std::cos(elevation);
+  point_mm[0] = static_cast<std::int32_t>(std::lround(mount.x_m * 1e3 + level * std::cos(heading)));
+  point_mm[1] = static_cast<std::int32_t>(std::lround(mount.y_m * 1e3 + level * std::sin(heading)));
+  point_mm[2] = static_cast<std::int32_t>(std::ceil(mount.z_m * 1e3 + point.range_mm * std::sin(elevation)));
+}
+
+}  // namespace berm::kernel

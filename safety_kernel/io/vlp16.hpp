@@ -1,0 +1,42 @@
+// Native data packets of the Velodyne VLP-16: 1206 bytes, single (strongest or last) and dual return.
+//
+// Sensor frame: x forward (azimuth 0), y left, z up; azimuth grows clockwise seen from above. No allocation, total: any bytes may come.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace berm::kernel {
+
+constexpr std::size_t kVlp16PacketBytes = 1206;
+constexpr int kVlp16Channels = 16;
+constexpr int kVlp16MaxPoints = 12 * 2 * kVlp16Channels;  // of one packet, single return
+constexpr std::int32_t kVlp16RangeMinMm = 400;            // nearer returns are the sensor's own housing and mount
+
+enum class Vlp16Result { kOk, kSize, kMode, kProduct, kFlag, kAzimuth };
+
+// One last return.
+struct Vlp16Return {
+  std::uint8_t channel;        // 0..15 by rising elevation: -15 + 2 * channel degrees
+  std::uint8_t reflectivity;
+  std::uint32_t azimuth_mdeg;  // 0..359999, interpolated to the channel's firing
+  std::int32_t range_mm;
+};
+
+struct Vlp16Packet {
+  int count;
+  Vlp16Return point[kVlp16MaxPoints];
+};
+
+// The sensor's pose, rigid to the base frame: place in metres, yaw about z (positive left).
+struct Vlp16Mount {
+  double x_m = 0.0, y_m = 0.0, z_m = 1.8, yaw_rad = 0.0;
+};
+
+// All last returns of at least kVlp16RangeMinMm, in firing order. On any result but kOk packet is unchanged.
+Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packet& packet);
+
+// Base-frame point in millimetres, rounded up in z so that the map's height bounds it.
+void vlp16_project(const Vlp16Mount& mount, const Vlp16Return& point, std::int32_t (&point_mm)[3]);
+
+}  // namespace berm::kernel

@@ -1,0 +1,84 @@
+// The sequencer loads trucks on the miniature bench, and touches nothing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "app/sequencer.hpp"
+#include "app_bench/bench_machine.hpp"
+#include "motion/arm_kinematics.hpp"
+#include "perception/scan_intake.hpp"
+
+namespace {
+
+using namespace berm;
+using namespace berm::app;
+
+struct Loading {
+  Loading(int trucks, const Joints& start) : machine(app_bench::zx200()), plant(machine, start, 7), log(std::getenv("BERM_TEST_VERBOSE") ? 1 : -1), sequencer(machine, app_bench::bench(), trucks, log) {}
+
+  void step() {
+    const Observation o = observe(plant.state());
+    intake.take(plant.segment(), sequencer.terrain(), sequencer.bed());
+    const Answer answer = sequencer.step(o);
+    last = answer;
+    plant.step(make_request(machine, answer, ++sequence, o.time_us));
+    seconds += machine.cycle;
+  }
+
+  MachineModel machine;
+  app_bench::BenchMachine plant;
+  ProgressLog log;
+  Sequencer sequencer;
+  ScanIntake intake;
+  Answer last;
+  std::uint32_t sequence = 0;
+  double seconds = 0.0;
+};
+
+Joints start_pose() { return {0.0, radians(38.0), radians(-100.0), radians(-100.0)}; }
+
+void expect_no_contact(const Loading& run) {
+  const app_bench::Findings& f = run.plant.findings();
+  EXPECT_EQ(f.wall_contacts, 0) << "lowest over the truck: " << f.lowest_over_truck;
+  EXPECT_EQ(f.ground_contacts, 0);
+  EXPECT_EQ(f.floor_contacts, 0);
+  EXPECT_EQ(f.range_contacts, 0);
+}
+
+TEST(Sequencer, NothingMovesBeforeBothScannersHaveSweptTheirRange) {
+  Loading run(1, start_pose());
+  double left_low = 1e9, left_high = -1e9, right_low = 1e9, right_high = -1e9;
+  while (run.seconds < 30.0) {
+    run.step();
+    const berm_state& s = run.plant.state();
+    const bool moves = std::any_of(run.last.velocity.begin(), run.last.velocity.end(), [](double v) { return v != 0.0; });
+    if (moves) break;
+    left_low = std::min(left_low, s.pan_angle_urad[0] * 1e-6);
+    left_high = std::max(left_high, s.pan_angle_urad[0] * 1e-6);
+    right_low = std::min(right_low, s.pan_angle_urad[1] * 1e-6);
+    right_high = std::max(right_high, s.pan_angle_urad[1] * 1e-6);
+  }
+  ASSERT_LT(run.seconds, 30.0) << "it never moved";
+  EXPECT_LT(left_low, radians(-16.0));
+  EXPECT_GT(left_high, radians(126.0));
+  EXPECT_LT(right_low, radians(-126.0));
+  EXPECT_GT(right_high, radians(16.0));
+}
+
+TEST(Sequencer, LoadsOneTruck) {
+  Loading run(1, start_pose());
+  while (!run.sequencer.finished() && run.seconds < 600.0) run.step();
+  ASSERT_TRUE(run.sequencer.finished()) << "not loaded after " << run.seconds << " s: " << run.plant.site().bed_mass() << " kg";
+  expect_no_contact(run);
+  const double target = app_bench::bench().truck.target_kg;
+  EXPECT_GE(run.plant.site().bed_mass(), 0.96 * target);
+  EXPECT_LE(run.plant.site().bed_mass(), 1.04 * target);
+  EXPECT_LT(run.plant.site().spilled_mass(), 0.02 * target);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(run.plant.site().third(i), target / 3.0, 0.35 * target / 3.0) << "third " << i;
+  EXPECT_EQ(run.plant.findings().unseen_cells, 0);
+  EXPECT_LT(run.plant.findings().most_azimuth_rate, radians(50.0));
+  EXPECT_LT(run.seconds, 12.0 * 25.0 + 30.0);
+}
+
+}  // namespace

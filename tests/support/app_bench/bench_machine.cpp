@@ -1,0 +1,206 @@
+#include "app_bench/bench_machine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "app/machine_loader.hpp"
+#include "motion/arm_kinematics.hpp"
+
+namespace berm::app_bench {
+
+using namespace berm::app;
+
+namespace {
+
+constexpr double kernel_cell = 0.3, kernel_half_side = 15.6;
+constexpr int kernel_side = 104;
+constexpr double bank_density = 1474.0;
+constexpr double most_payload = 1800.0;
+
+int kernel_index(double v) { return static_cast<int>(std::floor((v + kernel_half_side) / kernel_cell)); }
+
+}  // namespace
+
+MachineModel zx200() { return machine_model(config::load_machine_file(BERM_CONFIG_DIR "/machines/zx200.toml")); }
+SiteModel bench() { return site_model(config::load_site_file(BERM_CONFIG_DIR "/sites/bench.toml")); }
+
+BenchMachine::BenchMachine(const MachineModel& machine, const Joints& start, std::uint64_t seed)
+    : machine_(machine), segment_(std::make_unique<berm_state_segment>()), random_(seed), angle_(start), seen_(static_cast<std::size_t>(kernel_side * kernel_side), -1e9) {
+  std::memset(static_cast<void*>(segment_.get()), 0, sizeof *segment_);
+  segment_->magic = BERM_CONTRACT_MAGIC;
+  segment_->version = BERM_CONTRACT_VERSION;
+  segment_->size = sizeof(berm_state_segment);
+  publish();
+}
+
+void BenchMachine::step(const berm_request& request) {
+  ++cycle_;
+  move(request);
+  work_soil();
+  scan(request);
+  check();
+  publish();
+}
+
+void BenchMachine::move(const berm_request& request) {
+  const std::size_t delay = static_cast<std::size_t>(std::lround(machine_.command_latency / machine_.cycle));
+  for (std::size_t j = 0; j < joints; ++j) {
+    const JointLimits& limits = machine_.joint[j];
+    double command = request.joint_velocity_urad_s[j] * 1e-6;
+    if (!kernel_runs && std::fabs(command) > limits.creep_velocity) command = 0.0;
+    under_way_[j].push_back(command);
+    double acting = 0.0;
+    if (under_way_[j].size() > delay) {
+      acting = under_way_[j].front();
+      under_way_[j].pop_front();
+    }
+    // A loaded bucket makes the machine 15 % slower to answer than its file promises at best.
+    const double change = limits.acceleration_max * (payload_ > 500.0 ? 0.85 : 1.0) * machine_.cycle;
+    const double before = velocity_[j];
+    velocity_[j] += std::clamp(acting - velocity_[j], -change, change);
+    angle_[j] += 0.5 * (before + velocity_[j]) * machine_.cycle;
+    if (angle_[j] < limits.low || angle_[j] > limits.high) ++findings_.range_contacts;
+  }
+}
+
+void BenchMachine::work_soil() {
+  const ArmPoints arm = forward(machine_, angle_);
+  const Point tip = in_base(arm.tip, angle_[swing]);
+  if (!site_.on_truck(tip.x, tip.y) && arm.bucket_attitude > radians(-178.0)) {
+    const double taken = site_.cut(tip.x, tip.y, angle_[swing], 0.55, tip.z) * bank_density;
+    payload_ = std::min(most_payload, payload_ + taken);
+  }
+  if (arm.bucket_attitude > radians(-140.0) && arm.tip.z > 0.2 && payload_ > 0.0) {
+    const double share = std::clamp((arm.bucket_attitude - radians(-140.0)) / radians(50.0), 0.0, 1.0);
+    const double out = std::min(payload_, (200.0 + 2500.0 * share) * machine_.cycle);
+    payload_ -= out;
+    site_.dump(tip.x, tip.y, out);
+  }
+}
+
+BenchMachine::Outline BenchMachine::implements(const Joints& q) const {
+  Outline outline;
+  const ArmPoints arm = forward(machine_, q);
+  for (const Prism& part : machine_.parts) {
+    if (part.link == boom) continue;
+    const PlanePoint base = part.link == stick ? arm.stick_pin : arm.bucket_pin;
+    const double a = part.link == stick ? arm.stick_attitude : arm.bucket_attitude;
+    for (std::size_t i = 0; i < part.outline.size(); ++i) {
+      const auto& from = part.outline[i];
+      const auto& to = part.outline[(i + 1) % part.outline.size()];
+      for (int k = 0; k < 4; ++k) {
+        const double t = 0.25 * k, x = from[0] + t * (to[0] - from[0]), z = from[1] + t * (to[1] - from[1]);
+        for (const double side : {-1.0, 0.0, 1.0})
+          outline.points.push_back({base.r + x * std::cos(a) - z * std::sin(a), base.z + x * std::sin(a) + z * std::cos(a), side * part.half_width});
+      }
+    }
+  }
+  return outline;
+}
+
+void BenchMachine::scan(const berm_request& request) {
+  constexpr int samples = 120, revolution = 400;
+  constexpr double march = 0.1, farthest = 14.0;
+  const double time_s = static_cast<double>(cycle_) * machine_.cycle;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const ScannerMount& mount = machine_.scanner[i];
+    const double goal = request.pan_goal_urad[i] * 1e-6, rate = request.pan_rate_urad_s[i] * 1e-6;
+    pan_before_[i] = pan_[i];
+    pan_[i] += std::clamp(goal - pan_[i], -rate * machine_.cycle, rate * machine_.cycle);
+    findings_.most_azimuth_rate = std::max(findings_.most_azimuth_rate, std::fabs((pan_[i] - pan_before_[i]) / machine_.cycle + velocity_[swing]));
+    const std::uint32_t n = segment_->scan_head;
+    berm_scan_block& block = segment_->scan[n % BERM_SCAN_RING];
+    block.sequence = 2 * n + 1;
+    block.scanner = static_cast<std::uint8_t>(i);
+    block.count = samples;
+    block.time_us = static_cast<std::int64_t>(cycle_) * 10000;
+    const double c = std::cos(angle_[swing]), s = std::sin(angle_[swing]);
+    const double x0 = mount.x * c - mount.y * s, y0 = mount.x * s + mount.y * c;
+    for (int k = 0; k < samples; ++k) {
+      const double e = 2.0 * std::numbers::pi * ((mirror_[i] + static_cast<std::uint32_t>(k)) % revolution) / revolution;
+      block.used[k] = 0;
+      if (std::sin(e) > -0.05) continue;
+      const double azimuth = angle_[swing] + pan_before_[i] + (pan_[i] - pan_before_[i]) * k / samples;
+      const double dx = std::cos(e) * std::cos(azimuth), dy = std::cos(e) * std::sin(azimuth), dz = std::sin(e);
+      for (double range = 0.5; range < farthest; range += march) {
+        const double x = x0 + range * dx, y = y0 + range * dy, z = mount.z + range * dz;
+        const double h = site_.height(x, y);
+        // Every cell that the ray passes in free space or meets counts as seen, as after the kernel's interpolation.
+        if (z > h) continue;
+        block.used[k] = 1;
+        block.point_mm[k][0] = static_cast<std::int32_t>(std::lround(x * 1e3));
+        block.point_mm[k][1] = static_cast<std::int32_t>(std::lround(y * 1e3));
+        block.point_mm[k][2] = static_cast<std::int32_t>(std::lround(h * 1e3));
+        break;
+      }
+    }
+    // The kernel interpolates along the scanline: every cell between the head and its farthest return.
+    for (const double back : {0.0, std::numbers::pi})
+      for (double range = 0.5; range < farthest; range += 0.15) {
+        const double azimuth = angle_[swing] + pan_[i] + back;
+        const int ix = kernel_index(x0 + range * std::cos(azimuth)), iy = kernel_index(y0 + range * std::sin(azimuth));
+        if (ix >= 0 && iy >= 0 && ix < kernel_side && iy < kernel_side) seen_[static_cast<std::size_t>(iy * kernel_side + ix)] = time_s;
+      }
+    mirror_[i] = (mirror_[i] + samples) % revolution;
+    block.sequence = 2 * n + 2;
+    segment_->scan_head = n + 1;
+  }
+}
+
+void BenchMachine::check() {
+  const double time_s = static_cast<double>(cycle_) * machine_.cycle;
+  const double c = std::cos(angle_[swing]), s = std::sin(angle_[swing]);
+  bool wall = false, ground = false, floor = false;
+  for (const auto& [r, z, across] : implements(angle_).points) {
+    const double x = r * c - across * s, y = r * s + across * c;
+    const double h = site_.height(x, y);
+    if (site_.on_truck(x, y)) {
+      const double top = std::max(h, BenchSite::wall_top);
+      findings_.lowest_over_truck = std::min(findings_.lowest_over_truck, z - top);
+      wall = wall || z < top + machine_.margin;
+      continue;
+    }
+    const bool dig_zone = x > 3.9 && x < 10.5 && y > -4.2 && y < 4.2;
+    if (dig_zone && std::fabs(velocity_[swing]) < machine_.dig_swing_limit) floor = floor || z < -3.4;
+    else ground = ground || z < h + machine_.margin;
+  }
+  findings_.wall_contacts += wall;
+  findings_.ground_contacts += ground;
+  findings_.floor_contacts += floor;
+  // Where the bucket will be within a second or two at this swing speed, and through the stop that may follow.
+  if (std::fabs(velocity_[swing]) > machine_.dig_swing_limit) {
+    const ArmPoints arm = forward(machine_, angle_);
+    const double decel = 0.6 * machine_.joint[swing].acceleration_max;
+    const double ahead = velocity_[swing] * velocity_[swing] / (2.0 * decel) + 0.15 * std::fabs(velocity_[swing]);
+    for (double a = 0.0; a <= ahead; a += radians(2.0)) {
+      const double bearing = angle_[swing] + std::copysign(a, velocity_[swing]);
+      for (double r = std::max(3.3, std::min(arm.tip.r, arm.bucket_pin.r)); r < std::max(arm.tip.r, arm.bucket_pin.r) + 0.4; r += kernel_cell) {
+        const int ix = kernel_index(r * std::cos(bearing)), iy = kernel_index(r * std::sin(bearing));
+        if (time_s - seen_[static_cast<std::size_t>(iy * kernel_side + ix)] > machine_.fresh) ++findings_.unseen_cells;
+      }
+    }
+  }
+}
+
+void BenchMachine::publish() {
+  berm_state& state = segment_->state;
+  ++segment_->state_guard;
+  state.cycle = cycle_;
+  state.time_us = static_cast<std::int64_t>(cycle_) * 10000;
+  std::uniform_real_distribution<double> noise(-1.0, 1.0);
+  for (std::size_t j = 0; j < joints; ++j) {
+    state.joint_angle_urad[j] = static_cast<std::int32_t>(std::lround((angle_[j] + radians(0.02) * noise(random_)) * 1e6));
+    state.joint_velocity_urad_s[j] = static_cast<std::int32_t>(std::lround((velocity_[j] + radians(0.05) * noise(random_)) * 1e6));
+  }
+  for (std::size_t i = 0; i < 2; ++i) state.pan_angle_urad[i] = static_cast<std::int32_t>(std::lround(pan_[i] * 1e6));
+  state.payload_kg = static_cast<std::int32_t>(std::lround(payload_ * (1.0 + 0.03 * noise(random_))));
+  state.kernel_state = kernel_runs ? BERM_STATE_RUN : BERM_STATE_STOPPED;
+  state.stop_reason = kernel_runs ? std::uint8_t{BERM_STOP_NONE} : stop_reason;
+  state.panel = BERM_PANEL_OPERATOR_RUN | (truck_parked ? BERM_PANEL_TRUCK_PARKED : 0u);
+  ++segment_->state_guard;
+  ++segment_->wake;
+}
+
+}  // namespace berm::app_bench

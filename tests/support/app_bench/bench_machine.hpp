@@ -1,0 +1,74 @@
+// A tiny excavator and kernel for the app's tests, behind a state segment in the contract's layout: first-order joints with dead time, a
+// bucket that cuts and pours, two panning scanners, and a kernel that permits what its own simple checks permit. Nothing of kernel or plant.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "app_bench/bench_site.hpp"
+#include "contract/berm_contract.h"
+#include "motion/machine_model.hpp"
+#include "planning/site_model.hpp"
+
+namespace berm::app_bench {
+
+// The ZX200 and the bench from their files in interface_spec/config.
+app::MachineModel zx200();
+app::SiteModel bench();
+
+struct Findings {
+  int wall_contacts = 0;      // cycles in which an implement was under the truck's top plus the kernel's margin, over the truck
+  int ground_contacts = 0;    // ... under the ground plus margin outside the dig zone, or inside it while swinging fast
+  int floor_contacts = 0;     // under the dig zone's floor
+  int range_contacts = 0;     // a joint outside its range
+  int unseen_cells = 0;       // cell-cycles under the coming second of the actual motion never seen or older than the kernel's limit
+  double lowest_over_truck = 1e9;  // of any implement over the truck, above its top
+  double most_azimuth_rate = 0.0;  // rad/s of a scanline
+};
+
+class BenchMachine {
+public:
+  BenchMachine(const app::MachineModel& machine, const app::Joints& start, std::uint64_t seed);
+
+  // One cycle: obeys the request, moves, scans, publishes into the segment.
+  void step(const berm_request& request);
+
+  const berm_state_segment& segment() const { return *segment_; }
+  const berm_state& state() const { return segment_->state; }
+  berm_state_segment& mutable_segment() { return *segment_; }
+  BenchSite& site() { return site_; }
+  const Findings& findings() const { return findings_; }
+  double payload_kg() const { return payload_; }
+  const app::Joints& angle() const { return angle_; }
+
+  bool truck_parked = true;
+  bool kernel_runs = true;        // false: STOPPED, for collision_reason, nothing moves but at creep speeds
+  std::uint8_t stop_reason = BERM_STOP_COLLISION_PREDICTED;
+
+private:
+  struct Outline { std::vector<std::array<double, 3>> points; };  // r, z, lateral
+  Outline implements(const app::Joints& q) const;
+  void move(const berm_request& request);
+  void work_soil();
+  void scan(const berm_request& request);
+  void check();
+  void publish();
+
+  app::MachineModel machine_;
+  BenchSite site_;
+  std::unique_ptr<berm_state_segment> segment_;
+  std::mt19937_64 random_;
+  app::Joints angle_, velocity_{};
+  std::array<std::deque<double>, 4> under_way_;
+  std::array<double, 2> pan_{}, pan_before_{};
+  double payload_ = 0.0;
+  std::uint64_t cycle_ = 0;
+  std::array<std::uint32_t, 2> mirror_{};
+  std::vector<double> seen_;  // s, by 0.3 m cell
+  Findings findings_;
+};
+
+}  // namespace berm::app_bench

@@ -1,0 +1,71 @@
+#include "app_bench/bench_site.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace berm::app_bench {
+
+namespace {
+
+constexpr double lower_z = -2.2;
+constexpr double bed_x = -0.70, bed_y = 6.75, bed_half_length = 2.44, bed_half_width = 1.22, bed_floor = -0.92, wall = 0.10;
+constexpr double cab_x_low = 2.1, cab_x_high = 4.0, cab_top = 0.75;
+constexpr double loose_density = 1340.0;
+
+double fall(double v, double crest, double toe) { return std::clamp((v - crest) / (toe - crest), 0.0, 1.0) * lower_z; }
+
+}  // namespace
+
+int BenchSite::index(double v) { return std::clamp(static_cast<int>(std::floor((v + half_side) / cell)), 0, side - 1); }
+
+BenchSite::BenchSite() : ground_(static_cast<std::size_t>(side * side)) {
+  for (int iy = 0; iy < side; ++iy)
+    for (int ix = 0; ix < side; ++ix) {
+      const double x = (ix + 0.5) * cell - half_side, y = (iy + 0.5) * cell - half_side;
+      ground_[static_cast<std::size_t>(iy * side + ix)] = std::min(fall(x, 6.0, 7.5), fall(y, 3.6, 4.8));
+    }
+}
+
+bool BenchSite::in_bed(double x, double y) const { return std::fabs(x - bed_x) < bed_half_length && std::fabs(y - bed_y) < bed_half_width; }
+
+bool BenchSite::on_truck(double x, double y) const {
+  const bool across = std::fabs(y - bed_y) < bed_half_width + wall;
+  return across && ((std::fabs(x - bed_x) < bed_half_length + wall) || (x > cab_x_low && x < cab_x_high));
+}
+
+double BenchSite::height(double x, double y) const {
+  if (in_bed(x, y)) {
+    const int i = std::clamp(static_cast<int>((x - bed_x + bed_half_length) / (2.0 * bed_half_length / 3.0)), 0, 2);
+    return bed_floor + third_[i] / loose_density / (2.0 * bed_half_width * 2.0 * bed_half_length / 3.0);
+  }
+  if (on_truck(x, y)) return x > cab_x_low ? cab_top : wall_top;
+  return ground_[static_cast<std::size_t>(index(y) * side + index(x))];
+}
+
+double BenchSite::cut(double x, double y, double bearing, double half_width, double z) {
+  double volume = 0.0;
+  for (double across = -half_width; across <= half_width; across += 0.5 * cell) {
+    double& h = ground_[static_cast<std::size_t>(index(y + across * std::cos(bearing)) * side + index(x - across * std::sin(bearing)))];
+    if (h > z) {
+      volume += (h - z) * cell * cell;
+      h = z;
+    }
+  }
+  return volume;
+}
+
+void BenchSite::dump(double x, double y, double mass_kg) {
+  if (!in_bed(x, y)) {
+    spilled_mass_ += mass_kg;
+    return;
+  }
+  bed_mass_ += mass_kg;
+  third_[std::clamp(static_cast<int>((x - bed_x + bed_half_length) / (2.0 * bed_half_length / 3.0)), 0, 2)] += mass_kg;
+}
+
+void BenchSite::new_truck() {
+  bed_mass_ = 0.0;
+  std::fill(std::begin(third_), std::end(third_), 0.0);
+}
+
+}  // namespace berm::app_bench

@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include "app_bench/bench_machine.hpp"
+#include "motion/arm_kinematics.hpp"
+#include "motion/reach_preview.hpp"
+
+namespace {
+
+using namespace berm::app;
+
+const Joints carry{0.0, radians(38.3), radians(-100.7), radians(-115.6)};
+
+TEST(BucketUnderside, IsTheShellsLowestPointWhenCurledAndTheTeethWhenHanging) {
+  const MachineModel m = berm::app_bench::zx200();
+  const ArmPoints arm = forward(m, carry);
+  EXPECT_NEAR(bucket_underside(m, carry), arm.bucket_pin.z - 0.85, 0.06);  // mouth up: the shell's outline is 0.85 m deep
+  const Joints hanging{0.0, radians(30.0), radians(-80.0), radians(-40.0)};
+  EXPECT_NEAR(bucket_underside(m, hanging), forward(m, hanging).tip.z, 0.08);
+}
+
+TEST(BucketUnderside, ClearsTheTruckInTheCarryingPose) {
+  const MachineModel m = berm::app_bench::zx200();
+  EXPECT_GT(bucket_underside(m, carry), 0.30 + 0.30 + 0.5);  // wall, the kernel's margin, the spread of a stop
+  EXPECT_LT(reach_of(m, carry), 6.5);                        // second row of the braking table
+}
+
+TEST(StopTravel, GrowsWithSpeedAndReachAndCoversTheTable) {
+  const MachineModel m = berm::app_bench::zx200();
+  double before = 0.0;
+  for (double speed = 0.0; speed <= radians(50.0); speed += radians(1.0)) {
+    const double travel = stop_travel(m, swing, 6.5, speed);
+    EXPECT_GE(travel, before);
+    before = travel;
+  }
+  // Full speed at 6.5 m: 51.13 degrees by the table, and the way during 0.13 s of latency.
+  EXPECT_GE(before, radians(51.13 + 50.0 * 0.13));
+  EXPECT_LE(before, radians(51.13 + 50.0 * 0.13 + 1.0));
+  EXPECT_GT(stop_travel(m, swing, 9.0, radians(30.0)), stop_travel(m, swing, 6.0, radians(30.0)));
+}
+
+TEST(Preview, LiesAroundThePoseAndAheadOfTheMotion) {
+  const MachineModel m = berm::app_bench::zx200();
+  const ReachIntervals rest = preview(m, carry, {});
+  const ReachIntervals moving = preview(m, carry, {radians(30.0), 0.0, 0.0, 0.0});
+  for (std::size_t j = 0; j < joints; ++j) {
+    EXPECT_LT(rest.low[j], carry[j]);
+    EXPECT_GT(rest.high[j], carry[j]);
+  }
+  EXPECT_GT(moving.high[swing] - carry[swing], radians(30.0));
+  EXPECT_LT(carry[swing] - moving.low[swing], radians(1.0));
+  EXPECT_LT(rest.swing_speed, m.dig_swing_limit);
+  EXPECT_GT(moving.swing_speed, m.dig_swing_limit);
+}
+
+TEST(LowerEdge, OverIntervalsIsNeverAboveThatOfAPoseInside) {
+  const MachineModel m = berm::app_bench::zx200();
+  const ReachIntervals box = preview(m, carry, {0.0, radians(-15.0), radians(20.0), radians(20.0)});
+  const LowerEdge whole(m, box);
+  for (const double t : {0.0, 0.3, 0.5, 0.8, 1.0}) {
+    Joints inside = carry;
+    for (const std::size_t j : {boom, stick, bucket}) inside[j] = box.low[j] + t * (box.high[j] - box.low[j]);
+    EXPECT_LE(whole.lowest(), lower_edge(m, inside).lowest() + 0.02);
+    EXPECT_GE(whole.reach(), lower_edge(m, inside).reach() - 0.02);
+  }
+}
+
+TEST(WithinRange, SlowsBeforeTheEndOfTheRange) {
+  const MachineModel m = berm::app_bench::zx200();
+  const double top = m.joint[boom].high;
+  const double fast = radians(20.0);
+  EXPECT_EQ(within_range(m, boom, 7.0, top - radians(30.0), fast), fast);
+  const double near = within_range(m, boom, 7.0, top - radians(6.0), fast);
+  EXPECT_GT(near, 0.0);
+  EXPECT_LT(near, fast);
+  EXPECT_EQ(within_range(m, boom, 7.0, top - radians(0.1), fast), 0.0);
+  EXPECT_EQ(within_range(m, boom, 7.0, top - radians(0.1), -fast), -fast);  // away from the end at any speed
+}
+
+}  // namespace

@@ -1,0 +1,85 @@
+// The script engine on Figure 14 of stentz-1999, with the figure's own parameters.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "motion/script.hpp"
+
+namespace {
+
+using namespace berm::app;
+using Relation = Condition::Relation;
+
+Condition when(Joint joint, Relation relation, double deg, double tolerance_deg = 0.0) { return {joint, relation, radians(deg), radians(tolerance_deg)}; }
+
+// Literally the figure, but for one word: the boom's "If theta1 < 60" is read as "falls below", or it would hold at once at the dig.
+Script figure_14() {
+  const auto goal = [](double deg) { return radians(deg); };
+  return Script({
+      JointScript({{"when digging finishes, wait", {}, event_none, goal(5)},
+                   {"swing to truck", {when(boom, Relation::above, 14)}, event_none, goal(101)},
+                   {"swing to dig", {when(bucket, Relation::above, 10)}, event_none, goal(0)},
+                   {"stop and execute dig", {when(swing, Relation::near, 0, 0.5)}, event_none, goal(0)}}),
+      JointScript({{"when digging finishes, raise", {}, event_none, goal(18)}, {"lower to dig", {when(swing, Relation::falls_below, 60)}, event_none, goal(6)}}),
+      JointScript({{"when digging finishes, wait", {}, event_none, goal(-100)},
+                   {"move to spill point", {when(swing, Relation::above, 31)}, event_none, goal(-76)},
+                   {"move to dump point", {when(bucket, Relation::above, -30)}, event_none, goal(-92)},
+                   {"move to dig", {when(swing, Relation::below, 65)}, event_none, goal(-75)}}),
+      JointScript({{"when digging finishes, curl", {}, event_none, goal(-90)},
+                   {"open", {when(swing, Relation::above, 60), when(stick, Relation::above, -89)}, event_none, goal(30)},
+                   {"move to dig", {when(swing, Relation::below, 60)}, event_none, goal(7)}}),
+  });
+}
+
+struct Step { double swing, boom, stick, bucket; std::array<double, 4> goals; };
+
+TEST(Script, PlaysFigure14) {
+  Script script = figure_14();
+  EXPECT_FALSE(script.running());
+  script.start();
+  const std::vector<Step> play{
+      {5, -5, -100, -60, {5, 18, -100, -90}},    // digging finished: raise and curl, the rest waits
+      {5, 10, -100, -90, {5, 18, -100, -90}},    // not high enough to swing
+      {5, 14.5, -100, -90, {101, 18, -100, -90}},
+      {25, 18, -100, -90, {101, 18, -100, -90}},
+      {32, 18, -100, -90, {101, 18, -76, -90}},  // stick to the spill point
+      {62, 18, -95, -90, {101, 18, -76, -90}},   // over the truck but the stick is not out
+      {70, 18, -88, -90, {101, 18, -76, 30}},    // opens
+      {95, 18, -76, -29, {101, 18, -92, 30}},    // pouring: stick to the dump point
+      {101, 18, -90, 11, {0, 18, -92, 30}},      // open: back to the dig
+      {64, 18, -92, 30, {0, 18, -75, 30}},
+      {59, 18, -80, 30, {0, 6, -75, 7}},         // lower, bucket to dig
+      {0.2, 6, -75, 7, {0, 6, -75, 7}},
+  };
+  for (const Step& step : play) {
+    script.evaluate({radians(step.swing), radians(step.boom), radians(step.stick), radians(step.bucket)}, event_none);
+    const Joints goals = script.goals();
+    for (std::size_t j = 0; j < joints; ++j) EXPECT_NEAR(degrees(goals[j]), step.goals[j], 1e-9) << "joint " << j << " at swing " << step.swing;
+  }
+  EXPECT_TRUE(script.at_last());
+}
+
+TEST(Script, ACrossingMustBeSeenFromItsOtherSide) {
+  JointScript s({{"first", {}, event_none, 0.0}, {"second", {when(swing, Relation::falls_below, 60)}, event_none, 1.0}});
+  s.start();
+  s.evaluate({radians(5), 0, 0, 0}, event_none);
+  EXPECT_EQ(s.active(), 0);
+  s.evaluate({radians(70), 0, 0, 0}, event_none);
+  EXPECT_EQ(s.active(), 0);
+  s.evaluate({radians(59), 0, 0, 0}, event_none);
+  EXPECT_EQ(s.active(), 1);
+}
+
+TEST(Script, AnEventIsNeededAndNoRuleIsSkipped) {
+  JointScript s({{"a", {}, event_none, 0.0}, {"b", {}, event_emptied, 1.0}, {"c", {}, event_none, 2.0}});
+  s.start();
+  s.evaluate({}, event_none);
+  EXPECT_EQ(s.active(), 0);
+  s.evaluate({}, event_emptied);
+  EXPECT_EQ(s.active(), 1);  // one step a pass, though c's side holds too
+  s.evaluate({}, event_none);
+  EXPECT_EQ(s.active(), 2);
+  EXPECT_TRUE(s.at_last());
+}
+
+}  // namespace

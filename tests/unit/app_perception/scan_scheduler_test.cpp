@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "app_bench/bench_machine.hpp"
+#include "perception/scan_scheduler.hpp"
+
+namespace {
+
+using namespace berm::app;
+
+struct Pans {
+  explicit Pans(const MachineModel& m) : machine(m), scheduler(m) {}
+  void step(std::uint16_t phase, double swing_angle, double swing_speed) {
+    const auto request = scheduler.step(phase, 0.0, radians(96.0), swing_angle, swing_speed, pan);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_GE(request[i].goal, machine.scanner[i].pan_low);
+      EXPECT_LE(request[i].goal, machine.scanner[i].pan_high);
+      EXPECT_GE(request[i].rate, 0.0);
+      EXPECT_LE(request[i].rate, machine.scanner[i].pan_rate_max);
+      const double move = std::clamp(request[i].goal - pan[i], -request[i].rate * 0.01, request[i].rate * 0.01);
+      fastest = std::max(fastest, std::fabs(move / 0.01 + swing_speed));
+      pan[i] += move;
+      low[i] = std::min(low[i], pan[i] + swing_angle);
+      high[i] = std::max(high[i], pan[i] + swing_angle);
+    }
+  }
+  MachineModel machine;
+  ScanScheduler scheduler;
+  std::array<double, 2> pan{}, low{1e9, 1e9}, high{-1e9, -1e9};
+  double fastest = 0.0;
+};
+
+TEST(ScanScheduler, SweepsBothWholeRangesOnceWithinTenSeconds) {
+  Pans pans(berm::app_bench::zx200());
+  pans.scheduler.begin_full_sweep();
+  double seconds = 0.0;
+  while (!pans.scheduler.full_sweep_done() && seconds < 20.0) {
+    pans.step(BERM_PHASE_DIG, 0.0, 0.0);
+    seconds += 0.01;
+  }
+  EXPECT_LT(seconds, 10.0);
+  EXPECT_LT(pans.low[0], radians(-16.0));
+  EXPECT_GT(pans.high[0], radians(126.0));
+  EXPECT_LT(pans.low[1], radians(-126.0));
+  EXPECT_GT(pans.high[1], radians(16.0));
+}
+
+TEST(ScanScheduler, DuringTheDigTheComingSectorIsSeenEverySixSeconds) {
+  Pans pans(berm::app_bench::zx200());
+  for (int k = 0; k < 2000; ++k) pans.step(BERM_PHASE_DIG, 0.0, 0.0);
+  std::vector<double> seen(121, 0.0);
+  double t = 0.0, worst = 0.0;
+  for (int k = 0; k < 3000; ++k) {
+    pans.step(BERM_PHASE_DIG, 0.0, 0.0);
+    t += 0.01;
+    seen[static_cast<std::size_t>(std::clamp(std::lround(degrees(pans.pan[0])), 0L, 120L))] = t;
+    if (t > 7.0)
+      for (int a = 3; a <= 117; ++a) worst = std::max(worst, t - seen[static_cast<std::size_t>(a)]);
+  }
+  EXPECT_LT(worst, 7.0);
+}
+
+TEST(ScanScheduler, NoScanlineTurnsTooFastWhateverTheSwing) {
+  for (const double speed : {-38.0, -20.0, 0.0, 20.0, 38.0})
+    for (std::uint16_t phase = 0; phase < BERM_PHASE_COUNT; ++phase) {
+      Pans pans(berm::app_bench::zx200());
+      double swing_angle = speed > 0.0 ? 0.0 : radians(96.0);
+      for (int k = 0; k < 250; ++k) {
+        pans.step(phase, swing_angle, radians(speed));
+        swing_angle += radians(speed) * 0.01;
+      }
+      EXPECT_LE(pans.fastest, radians(40.0)) << "phase " << phase << " swing speed " << speed;
+    }
+}
+
+TEST(ScanScheduler, TheLeadingScannerStaysAheadOfTheSwing) {
+  Pans pans(berm::app_bench::zx200());
+  for (int k = 0; k < 2000; ++k) pans.step(BERM_PHASE_DIG, 0.0, 0.0);
+  double swing_angle = 0.0, least = 1e9;
+  for (int k = 0; k < 250; ++k) {
+    pans.step(BERM_PHASE_SWING_TO_TRUCK, swing_angle, radians(36.0));
+    swing_angle += radians(0.36);
+    if (k > 150) least = std::min(least, pans.pan[0]);
+  }
+  EXPECT_GT(least, radians(20.0));
+}
+
+}  // namespace

@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app_bench/bench_machine.hpp"
+#include "planning/dig_point.hpp"
+
+namespace {
+
+using namespace berm::app;
+
+// The bench as a scanner over the cab sees it: the face beyond the crest stays hidden.
+TerrainMap seen_bench(double crest = 6.0) {
+  TerrainMap map;
+  for (double x = 3.0; x < 12.0; x += 0.1)
+    for (double y = -5.0; y < 5.0; y += 0.1) {
+      if (x > crest && x < 9.1) continue;
+      map.insert(x, y, x <= crest ? 0.0 : -2.2, 1.0);
+    }
+  return map;
+}
+
+TEST(SurfaceProfile, AHiddenFaceFallsFromTheCrestToTheNextSeenGround) {
+  const TerrainMap map = seen_bench();
+  const SurfaceProfile surface(map, 0.0, 1.1);
+  EXPECT_NEAR(surface.at(5.5), 0.0, 1e-9);
+  EXPECT_LT(surface.at(6.5), -0.4);
+  EXPECT_GT(surface.at(6.5), -0.9);
+  EXPECT_NEAR(surface.at(8.5), -2.2, 1e-9);
+  for (double r = 6.0; r < 9.0; r += 0.1) EXPECT_LE(surface.at(r + 0.1), surface.at(r) + 1e-9);
+}
+
+TEST(SurfaceProfile, NeverAboveTheBucketsPassage) {
+  TerrainMap map = seen_bench();
+  for (double y = -0.6; y < 0.6; y += 0.1) map.lower_to(6.5, y, -1.8);
+  EXPECT_NEAR(SurfaceProfile(map, 0.0, 1.1).at(6.5), -1.8, 0.15);
+}
+
+TEST(DigPoint, CutsTheWantedVolumeAndStaysAboveTheFloor) {
+  const SiteModel site = berm::app_bench::bench();
+  const DigNeeds needs{1.1, 1.1, 1.0, 0.75, 0.0};
+  const DigPlan plan = choose_dig(site, seen_bench(), needs, radians(-90.0));
+  EXPECT_NEAR(plan.volume, 1.1, 0.02);
+  EXPECT_GT(plan.depth, 0.3);
+  EXPECT_LT(plan.depth, 1.0);
+  for (const DigWaypoint& w : plan.drag) {
+    EXPECT_GE(w.z, site.dig_zones[0].floor + needs.floor_guard - 1e-9);
+    EXPECT_LE(w.r, site.dig_radius_start + 1e-9);
+    EXPECT_GE(w.r, site.dig_radius_end - 0.11);
+  }
+  EXPECT_TRUE(DigPath::solve(berm::app_bench::zx200(), plan.drag));
+}
+
+TEST(DigPoint, BearingsStayInsideTheSiteAndDoNotRepeatWhereOthersAreAsGood) {
+  const SiteModel site = berm::app_bench::bench();
+  const TerrainMap map = seen_bench();
+  double last = radians(-90.0);
+  for (int i = 0; i < 6; ++i) {
+    const DigPlan plan = choose_dig(site, map, {1.1, 1.1, 1.0, 0.75, 0.0}, last);
+    EXPECT_LE(plan.bearing, site.dig_swing_left + 1e-9);
+    EXPECT_GE(plan.bearing, site.dig_swing_right - 1e-9);
+    EXPECT_GT(std::fabs(plan.bearing - last), radians(8.0));
+    last = plan.bearing;
+  }
+}
+
+TEST(DigPoint, LeavesWhatIsDugOut) {
+  const SiteModel site = berm::app_bench::bench();
+  TerrainMap map = seen_bench();
+  for (double r = 5.0; r < 8.0; r += 0.1)
+    for (double across = -0.9; across < 0.9; across += 0.1)
+      map.insert(r * std::cos(site.dig_swing_left) - across * std::sin(site.dig_swing_left), r * std::sin(site.dig_swing_left) + across * std::cos(site.dig_swing_left), -2.6, 50.0);
+  const DigPlan plan = choose_dig(site, map, {1.1, 1.1, 1.0, 0.75, 0.0}, radians(-90.0));
+  EXPECT_LT(plan.bearing, site.dig_swing_left - radians(5.0));
+}
+
+}  // namespace

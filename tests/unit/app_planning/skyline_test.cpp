@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app_bench/bench_machine.hpp"
+#include "motion/arm_kinematics.hpp"
+#include "planning/pass_script.hpp"
+#include "planning/skyline.hpp"
+
+namespace {
+
+using namespace berm::app;
+
+TEST(Skyline, TheTrucksWallsStandEvenUnseen) {
+  const MachineModel m = berm::app_bench::zx200();
+  const SiteModel site = berm::app_bench::bench();
+  const Skyline sky(m, site, TerrainMap());
+  EXPECT_GE(sky.height(radians(96.0), static_cast<int>(6.75 / LowerEdge::bin_m)), site.truck.wall_top);
+}
+
+TEST(Skyline, HighIsClearLowIsNot) {
+  const MachineModel m = berm::app_bench::zx200();
+  const SiteModel site = berm::app_bench::bench();
+  const Skyline sky(m, site, TerrainMap());
+  auto high = inverse_pin(m, {6.0, 3.2}, radians(-178.0), radians(7.0));
+  auto low = inverse_pin(m, {6.0, 1.2}, radians(-178.0), radians(7.0));
+  ASSERT_TRUE(high && low);
+  (*high)[swing] = (*low)[swing] = radians(90.0);
+  EXPECT_TRUE(sky.clear(*high, {}));
+  EXPECT_FALSE(sky.clear(*low, {}));
+}
+
+TEST(Skyline, ContactInTheDigZoneOnlyWhileTheSwingIsSlowAndAboveTheFloor) {
+  const MachineModel m = berm::app_bench::zx200();
+  const SiteModel site = berm::app_bench::bench();
+  const Skyline sky(m, site, TerrainMap());
+  const auto digging = inverse_tip(m, {6.6, -1.2}, radians(-110.0), radians(7.0));
+  ASSERT_TRUE(digging);
+  EXPECT_TRUE(sky.clear(*digging, {}));
+  EXPECT_FALSE(sky.clear(*digging, {radians(8.0), 0.0, 0.0, 0.0}));
+  const auto deep = inverse_tip(m, {6.6, -3.3}, radians(-110.0), radians(7.0));
+  ASSERT_TRUE(deep);
+  EXPECT_FALSE(sky.clear(*deep, {}));
+  Joints aside = *digging;
+  aside[swing] = radians(60.0);
+  EXPECT_FALSE(sky.clear(aside, {}));
+}
+
+TEST(Skyline, LooksAsFarAheadAsTheSwingNeedsToStop) {
+  const MachineModel m = berm::app_bench::zx200();
+  const SiteModel site = berm::app_bench::bench();
+  TerrainMap terrain;
+  for (double r = 5.0; r < 7.0; r += 0.1)
+    for (double across = -0.4; across < 0.4; across += 0.1) terrain.insert(r * std::cos(radians(-40)) + across * 0.64, r * std::sin(radians(-40)) + across * 0.77, 4.0, 1.0);
+  const Skyline sky(m, site, terrain);
+  const auto carry = inverse_pin(m, {6.0, 3.2}, radians(-178.0), radians(7.0));
+  ASSERT_TRUE(carry);
+  EXPECT_TRUE(sky.clear(*carry, {}));
+  EXPECT_TRUE(sky.clear(*carry, {radians(-15.0), 0, 0, 0}));
+  EXPECT_FALSE(sky.clear(*carry, {radians(-38.0), 0, 0, 0}));
+  EXPECT_TRUE(sky.clear(*carry, {radians(38.0), 0, 0, 0}));
+}
+
+TEST(PassPoses, HoldTheLoadLevelAndOpenOverTheBed) {
+  const MachineModel m = berm::app_bench::zx200();
+  const SiteModel site = berm::app_bench::bench();
+  for (const double radius : {6.6, 6.8, 7.0, 7.15}) {
+    PassTask task;
+    task.dump_radius = radius;
+    task.next_entry = {7.4, -1.6};
+    const auto poses = pass_poses(m, site, task);
+    ASSERT_TRUE(poses) << radius;
+    EXPECT_NEAR(forward(m, poses->carry).bucket_attitude, radians(-178.0), radians(3.0));
+    EXPECT_LT(forward(m, poses->spill).bucket_attitude, radians(-155.0));
+    EXPECT_NEAR(forward(m, poses->dump).bucket_attitude, radians(-70.0), radians(3.0));
+    EXPECT_NEAR(forward(m, poses->dump).tip.r, radius + 0.10 + 1.562 * std::cos(radians(-70.0)), 0.06);
+    for (const Joints* pose : {&poses->carry, &poses->spill, &poses->dump, &poses->back}) EXPECT_GT(bucket_underside(m, *pose), site.truck.wall_top + 1.1);
+  }
+}
+
+TEST(PassSearch, FindsASwingThatStartsBeforeTheBoomIsUpAndStaysClear) {
+  const MachineModel m = berm::app_bench::zx200();
+  const SiteModel site = berm::app_bench::bench();
+  TerrainMap terrain;
+  for (double x = -12.0; x < 12.0; x += 0.1)
+    for (double y = -12.0; y < 12.0; y += 0.1) terrain.insert(x, y, x < 6.0 && y < 3.6 ? 0.0 : -2.2, 1.0);
+  const Skyline sky(m, site, terrain);
+  PassTask task;
+  task.lifted_from = *inverse_tip(m, {5.6, 0.4}, radians(-170.0), radians(7.0));
+  task.truck_bearing = radians(96.0);
+  task.dump_radius = 6.8;
+  task.next_bearing = 0.0;
+  task.next_entry = {7.4, -1.6};
+  const auto poses = pass_poses(m, site, task);
+  ASSERT_TRUE(poses);
+  PassSearch search(m, sky, task, *poses);
+  int steps = 0;
+  while (!search.done() && ++steps < 100) search.step();
+  ASSERT_TRUE(search.done());
+  EXPECT_TRUE(search.clear());
+  EXPECT_LT(search.thresholds().swing_start_boom, poses->carry[boom] - radians(4.0));
+  EXPECT_LT(search.seconds(), 18.0);
+}
+
+}  // namespace

@@ -1,0 +1,134 @@
+#include "edited_file.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace berm::config::test {
+
+std::string machine_path() { return BERM_CONFIG_FILES "/machines/zx200.toml"; }
+std::string site_path() { return BERM_CONFIG_FILES "/sites/bench.toml"; }
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path + ": cannot be read");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  if (at == std::string::npos) throw std::runtime_error("nothing to replace: " + from);
+  return text.replace(at, from.size(), to);
+}
+
+Scratch::Scratch() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "berm-config-XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no scratch folder");
+  folder_ = pattern;
+}
+
+Scratch::~Scratch() {
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_, ignored);
+}
+
+std::string Scratch::write(const std::string& name, const std::string& text) const {
+  std::ofstream(path(name), std::ios::binary) << text;
+  return path(name);
+}
+
+std::vector<std::string> Scratch::names() const {
+  std::vector<std::string> out;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) out.push_back(entry.path().filename().string());
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+const std::vector<BadEdit>& bad_machine_edits() {
+  static const std::vector<BadEdit> edits = {
+      {"syntax", "schema = 1", "schema = = 1", "line 3", "not valid TOML"},
+      {"key twice", "schema = 1", "schema = 1\nschema = 1", "line", "not valid TOML"},
+      {"other schema", "schema = 1", "schema = 2", "schema", "2 is outside 1 .. 1"},
+      {"schema as text", "schema = 1", "schema = \"1\"", "schema", "whole number"},
+      {"no name", "name = \"zx200\"", "", "name", "is missing"},
+      {"empty name", "name = \"zx200\"", "name = \"\"", "name", "1 to 200"},
+      {"name as number", "name = \"zx200\"", "name = 4", "name", "text"},
+      {"unknown key", "boom = 5.648", "boom = 5.648\ncolour = 3", "kinematics.colour", "not a known key"},
+      {"unknown key at the top", "name = \"zx200\"", "name = \"zx200\"\nrange_deg = 3", "range_deg", "not a known key"},
+      {"unknown table", "[latency]", "[delay]\nstate = 1\n[latency]", "delay", "not a known key"},
+      {"missing key", "boom = 5.648", "", "kinematics.boom", "is missing"},
+      {"missing table", "[latency]", "[kernel.latency]", "latency", "is missing"},
+      {"table as number", "[kinematics]", "kinematics = 3\n[other]", "kinematics", "table"},
+      {"text for a number", "boom = 5.648", "boom = \"5.648\"", "kinematics.boom", "number"},
+      {"truth value for a number", "boom = 5.648", "boom = true", "kinematics.boom", "number"},
+      {"not a number", "boom = 5.648", "boom = nan", "kinematics.boom", "outside 1 .. 12"},
+      {"infinite", "boom = 5.648", "boom = inf", "kinematics.boom", "outside 1 .. 12"},
+      {"negative length", "boom = 5.648", "boom = -5.648", "kinematics.boom", "outside 1 .. 12"},
+      {"too long", "boom = 5.648", "boom = 11.9", "kinematics.bucket", "together"},
+      {"range the wrong way", "range_deg = [-55.0, 70.0]", "range_deg = [70.0, -55.0]", "joint.boom.range_deg", "not below"},
+      {"range of three", "range_deg = [-55.0, 70.0]", "range_deg = [-55.0, 0.0, 70.0]", "joint.boom.range_deg", "2 numbers"},
+      {"boom over the top", "range_deg = [-55.0, 70.0]", "range_deg = [-55.0, 190.0]", "joint.boom.range_deg", "outside -180 .. 180"},
+      {"joint missing", "[joint.boom]", "[joint.arm]", "joint.boom", "is missing"},
+      {"speed zero", "velocity_max_deg_s = 50.0", "velocity_max_deg_s = 0.0", "joint.swing.velocity_max_deg_s", "outside 1 .. 180"},
+      {"creep too fast", "creep_deg_s = 5.0", "creep_deg_s = 16.0", "joint.stick.creep_deg_s", "outside"},
+      {"creep above full speed", "velocity_max_deg_s = 50.0", "velocity_max_deg_s = 2.0", "joint.swing.creep_deg_s", "above"},
+      {"negative latency", "command = 0.10", "command = -0.10", "latency.command", "outside 0 .. 1"},
+      {"no provenance", "provenance =", "source =", "braking.provenance", "is missing"},
+      {"reach falls", "reach_m = [5.5, 6.5, 7.5, 10.5]", "reach_m = [5.5, 7.5, 6.5, 10.5]", "braking.reach_m", "rise"},
+      {"reach of three", "reach_m = [5.5, 6.5, 7.5, 10.5]", "reach_m = [5.5, 6.5, 10.5]", "braking.reach_m", "4 numbers"},
+      {"reach too short", "reach_m = [5.5, 6.5, 7.5, 10.5]", "reach_m = [5.5, 6.5, 7.5, 10.3]", "braking.reach_m", "implements reach"},
+      {"braking falls with speed", "[0, 0.8, 3.18,", "[0, 3.2, 3.18,", "braking.swing.angle_deg", "row 1, column 3: falls with growing speed"},
+      {"braking falls with reach", "[0, 1.05, 4.18,", "[0, 0.7, 4.18,", "braking.swing.angle_deg", "row 2, column 2: falls with growing reach"},
+      {"braking time falls", "[0, 0.223, 0.445,", "[0, 0.223, 0.2,", "braking.swing.time_s", "falls with growing speed"},
+      {"braking row too short", "[0, 0.8, 3.18,", "[0, 3.18,", "braking.swing.angle_deg", "8 numbers"},
+      {"negative braking", "[0, 0.8, 3.18,", "[-1, 0.8, 3.18,", "braking.swing.angle_deg", "outside"},
+      {"no such link", "link = \"stick\"", "link = \"arm\"", "part[2].link", "'arm' is not one of boom, stick, bucket"},
+      {"link not covered", "link = \"stick\"", "link = \"boom\"", "part", "none covers the stick"},
+      {"part without width", "half_width = 0.60", "half_width = 0.0", "part[3].half_width", "outside"},
+      {"outline not convex", "[-0.70, 0.15], [-0.30, -0.25]", "[-0.70, 0.15], [-0.30, 0.20]", "part[2].outline", "not convex"},
+      {"outline clockwise", "[[-0.25, -0.30], [0.40, -0.30], [3.00, 0.55], [2.90, 1.25], [2.20, 1.20], [-0.25, 0.30]]",
+       "[[-0.25, 0.30], [2.20, 1.20], [2.90, 1.25], [3.00, 0.55], [0.40, -0.30], [-0.25, -0.30]]", "part[0].outline", "counter-clockwise"},
+      {"outline a star", "[[-0.25, -0.30], [0.40, -0.30], [3.00, 0.55], [2.90, 1.25], [2.20, 1.20], [-0.25, 0.30]]",
+       "[[0.0, 1.0], [-0.588, -0.809], [0.951, 0.309], [-0.951, 0.309], [0.588, -0.809]]", "part[0].outline", "not convex"},
+      {"outline straight", "[0.40, -0.45], [1.10, -0.45]", "[0.40, -0.45], [0.75, -0.45], [1.10, -0.45]", "part[3].outline", "3 to 8 points"},
+      {"outline with a straight corner", "[2.90, -0.25], [3.05, 0.00]", "[2.90, -0.25], [3.05, -0.25]", "part[2].outline", "not convex"},
+      {"half a millimetre", "[0.40, -0.45]", "[0.4005, -0.45]", "part[3].outline", "whole millimetre"},
+      {"three scanners", "[kernel]", "[[scanner]]\nposition = [0.0, 0.0, 3.0]\npan_range_deg = [-1.0, 1.0]\npan_rate_max_deg_s = 10.0\n[kernel]", "scanner", "two"},
+      {"scanner in the ground", "position = [1.30, 1.35, 3.30]", "position = [1.30, 1.35, -0.1]", "scanner[0].position", "0 .. 8"},
+      {"pan range the wrong way", "pan_range_deg = [-20.0, 130.0]", "pan_range_deg = [130.0, -20.0]", "scanner[0].pan_range_deg", "not below"},
+      {"hold above the contract's", "request_hold = 0.05", "request_hold = 0.06", "kernel.request_hold", "outside 0.01 .. 0.05"},
+      {"silence above the contract's", "request_silent = 0.5", "request_silent = 0.6", "kernel.request_silent", "outside 0.05 .. 0.5"},
+      {"generation above freshness", "generation = 1.0", "generation = 30.0", "kernel.generation", "above fresh"},
+      {"digging faster than the swing", "velocity_max_deg_s = 50.0", "velocity_max_deg_s = 5.0", "kernel.dig_swing_limit_deg_s", "above"},
+  };
+  return edits;
+}
+
+const std::vector<BadEdit>& bad_site_edits() {
+  static const std::vector<BadEdit> edits = {
+      {"syntax", "[truck]", "[truck", "line", "not valid TOML"},
+      {"other schema", "schema = 1", "schema = 0", "schema", "outside 1 .. 1"},
+      {"no name", "name = \"bench\"", "", "name", "is missing"},
+      {"no dig zone", "[[dig_zone]]", "[dump_zone]", "dig_zone", "0 zones, 1 to 4 are taken"},
+      {"zone as table", "[[dig_zone]]", "[dig_zone]", "dig_zone", "array of tables"},
+      {"zone the wrong way", "x = [3.9, 10.5]", "x = [10.5, 3.9]", "dig_zone[0].x", "not below"},
+      {"zone out of the map", "y = [-4.2, 4.2]", "y = [-4.2, 15.2]", "dig_zone[0].y", "outside -15 .. 15"},
+      {"bottomless", "floor = -3.4", "floor = -inf", "dig_zone[0].floor", "outside"},
+      {"unknown key", "floor = -3.4", "floor = -3.4\nceiling = 1", "dig_zone[0].ceiling", "not a known key"},
+      {"no truck", "[truck]", "[lorry]", "truck", "is missing"},
+      {"flat truck", "height = 1.22", "height = 0.0", "truck.height", "outside"},
+      {"truck as text", "length = 4.88", "length = \"long\"", "truck.length", "number"},
+      {"no target", "target_kg = 18000.0", "", "truck.target_kg", "is missing"},
+      {"digging outwards", "radius = [7.4, 5.6]", "radius = [5.6, 7.4]", "dig.radius", "inwards"},
+      {"right before left", "swing_deg = [12.0, -12.0]", "swing_deg = [-12.0, 12.0]", "dig.swing_deg", "leftmost first"},
+  };
+  return edits;
+}
+
+}  // namespace berm::config::test

@@ -1,0 +1,156 @@
+// Compiling to integers: every field goes to the safe side, and stays within one step of what was meant.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "config/compile_parameters.hpp"
+#include "edited_file.hpp"
+
+namespace berm::config::test {
+namespace {
+
+constexpr double kStep = 1.0, kSlack = 2e-6;
+
+void expect_up(double exact, std::int32_t got, const char* what) {
+  EXPECT_GE(got, exact - kSlack) << what;
+  EXPECT_LT(got, exact + kStep) << what;
+}
+void expect_down(double exact, std::int32_t got, const char* what) {
+  EXPECT_LE(got, exact + kSlack) << what;
+  EXPECT_GT(got, exact - kStep) << what;
+}
+
+struct Default {
+  MachineFile machine = load_machine_file(machine_path());
+  SiteFile site = load_site_file(site_path());
+};
+
+// verifies: IF-CF-4, IF-CF-9
+TEST(Compile, HeadOfTheBlock) {
+  const Default d;
+  const berm_parameters p = compile_parameters(d.machine, d.site);
+  EXPECT_EQ(p.magic, BERM_PARAMETERS_MAGIC);
+  EXPECT_EQ(p.version, BERM_PARAMETERS_VERSION);
+  EXPECT_EQ(p.size, static_cast<std::int32_t>(sizeof p));
+  EXPECT_EQ(p.cell_mm, 300);
+  EXPECT_EQ(p.crc32, parameters_crc(p));
+  EXPECT_EQ(p.parts, 4);
+  EXPECT_EQ(p.part[4].vertices, 0) << "unused entries are zero";
+  EXPECT_EQ(p.dig_zones, 1);
+}
+
+// verifies: IF-CF-9
+TEST(Compile, DecimalsThatAreWholeStayWhole) {
+  const Default d;
+  const berm_parameters p = compile_parameters(d.machine, d.site);
+  EXPECT_EQ(p.boom_length_mm, 5648);
+  EXPECT_EQ(p.margin_mm, 300);
+  EXPECT_EQ(p.command_latency_us, 100000);
+  EXPECT_EQ(p.cycle_us, 10000);
+  EXPECT_EQ(p.request_hold_us, 50000);
+  EXPECT_EQ(p.request_silent_us, 500000);
+  EXPECT_EQ(p.acceleration_max_urad_s2[2], 2900000);
+  EXPECT_EQ(p.brake_time_us[0][3][7], 4335000);
+  EXPECT_EQ(p.dig_zone[0].floor_mm, -3400);
+  EXPECT_EQ(p.dig_zone[0].x_low_mm, 3900);
+}
+
+void expect_joints_safe(const MachineFile& m, const berm_parameters& p) {
+  for (std::size_t j = 0; j < kJoints; ++j) {
+    const JointFile& joint = m.joint[j];
+    expect_up(joint.low * 1e6, p.joint_low_urad[j], "joint_low");
+    expect_down(joint.high * 1e6, p.joint_high_urad[j], "joint_high");
+    expect_down(joint.velocity_max * 1e6, p.velocity_max_urad_s[j], "velocity_max");
+    expect_up(joint.acceleration_max * 1e6, p.acceleration_max_urad_s2[j], "acceleration_max");
+    expect_down(joint.creep_velocity * 1e6, p.creep_velocity_urad_s[j], "creep");
+    expect_up(joint.angle_error * 1e6, p.angle_error_urad[j], "angle_error");
+    expect_up(joint.velocity_error * 1e6, p.velocity_error_urad_s[j], "velocity_error");
+    for (std::size_t r = 0; r < BERM_BRAKE_REACHES; ++r)
+      for (std::size_t k = 0; k < BERM_BRAKE_SPEEDS; ++k) {
+        expect_up(m.braking.angle[j][r][k] * 1e6, p.brake_angle_urad[j][r][k], "brake_angle");
+        expect_up(m.braking.time[j][r][k] * 1e6, p.brake_time_us[j][r][k], "brake_time");
+      }
+  }
+  for (std::size_t r = 0; r < BERM_BRAKE_REACHES; ++r) expect_down(m.braking.reach[r] * 1e3, p.brake_reach_mm[r], "brake_reach");
+  expect_up(m.state_latency * 1e6, p.state_latency_us, "state_latency");
+  expect_up(m.command_latency * 1e6, p.command_latency_us, "command_latency");
+}
+
+void expect_rules_safe(const KernelFile& k, const berm_parameters& p) {
+  expect_up(k.cycle * 1e6, p.cycle_us, "cycle");
+  expect_up(k.margin * 1e3, p.margin_mm, "margin");
+  expect_down(k.fresh * 1e6, p.fresh_us, "fresh");
+  expect_up(k.generation * 1e6, p.generation_us, "generation");
+  expect_down(k.dig_swing_limit * 1e6, p.dig_swing_limit_urad_s, "dig_swing_limit");
+  expect_down(k.scanner_silent * 1e6, p.scanner_silent_us, "scanner_silent");
+  expect_up(k.spurious_range * 1e3, p.spurious_range_mm, "spurious_range");
+  expect_down(k.range_min * 1e3, p.range_min_mm, "range_min");
+  expect_up(k.range_max * 1e3, p.range_max_mm, "range_max");
+  expect_down(k.self_margin * 1e3, p.self_margin_mm, "self_margin");
+  expect_down(k.request_age * 1e6, p.request_age_us, "request_age");
+  expect_down(k.request_hold * 1e6, p.request_hold_us, "request_hold");
+  expect_down(k.request_silent * 1e6, p.request_silent_us, "request_silent");
+  expect_down(k.state_frame_age * 1e6, p.state_frame_age_us, "state_frame_age");
+  expect_down(k.machine_state_age * 1e6, p.machine_state_age_us, "machine_state_age");
+  expect_down(k.operator_age * 1e6, p.operator_age_us, "operator_age");
+  expect_down(k.standstill_speed * 1e6, p.standstill_urad_s, "standstill_speed");
+  expect_up(k.standstill * 1e6, p.standstill_us, "standstill");
+}
+
+void expect_places_safe(const MachineFile& m, const SiteFile& site, const berm_parameters& p) {
+  expect_down(m.own_body_radius * 1e3, p.own_body_radius_mm, "own_body_radius");
+  for (std::size_t i = 0; i < m.part.size(); ++i) {
+    expect_up(m.part[i].half_width * 1e3, p.part[i].half_width_mm, "half_width");
+    for (std::size_t v = 0; v < m.part[i].outline.size(); ++v)
+      for (std::size_t axis = 0; axis < 2; ++axis) EXPECT_NEAR(m.part[i].outline[v][axis] * 1e3, p.part[i].vertex_mm[v][axis], 1e-6);
+  }
+  for (std::size_t i = 0; i < m.scanner.size(); ++i) {
+    expect_up(m.scanner[i].pan_low * 1e6, p.scanner[i].pan_low_urad, "pan_low");
+    expect_down(m.scanner[i].pan_high * 1e6, p.scanner[i].pan_high_urad, "pan_high");
+    expect_down(m.scanner[i].pan_rate_max * 1e6, p.scanner[i].pan_rate_max_urad_s, "pan_rate_max");
+  }
+  for (std::size_t i = 0; i < site.dig_zone.size(); ++i) {
+    const DigZoneFile& zone = site.dig_zone[i];
+    expect_up(zone.x_low * 1e3, p.dig_zone[i].x_low_mm, "zone x_low");
+    expect_down(zone.x_high * 1e3, p.dig_zone[i].x_high_mm, "zone x_high");
+    expect_up(zone.y_low * 1e3, p.dig_zone[i].y_low_mm, "zone y_low");
+    expect_down(zone.y_high * 1e3, p.dig_zone[i].y_high_mm, "zone y_high");
+    expect_up(zone.floor * 1e3, p.dig_zone[i].floor_mm, "zone floor");
+  }
+}
+
+// Scales every number by a little, so that hardly any is whole; the statement above is per field and independent of the product's helpers.
+void disturb(MachineFile& m, SiteFile& site, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> factor(0.98, 1.0);
+  const auto shake = [&](auto&... value) { ((value *= factor(random)), ...); };
+  for (JointFile& j : m.joint) shake(j.low, j.high, j.velocity_max, j.acceleration_max, j.creep_velocity, j.angle_error, j.velocity_error);
+  for (std::size_t j = 0; j < kJoints; ++j)
+    for (std::size_t r = 0; r < BERM_BRAKE_REACHES; ++r)
+      for (std::size_t k = 0; k < BERM_BRAKE_SPEEDS; ++k) shake(m.braking.angle[j][r][k], m.braking.time[j][r][k]);
+  for (double& reach : m.braking.reach) shake(reach);
+  shake(m.state_latency, m.command_latency, m.own_body_radius);
+  for (PartFile& part : m.part) shake(part.half_width);
+  for (ScannerFile& s : m.scanner) shake(s.pan_low, s.pan_high, s.pan_rate_max);
+  KernelFile& k = m.kernel;
+  shake(k.cycle, k.margin, k.fresh, k.generation, k.dig_swing_limit, k.scanner_silent, k.spurious_range, k.range_min, k.range_max, k.self_margin, k.request_age,
+        k.request_hold, k.request_silent, k.state_frame_age, k.machine_state_age, k.operator_age, k.standstill_speed, k.standstill);
+  for (DigZoneFile& zone : site.dig_zone) shake(zone.x_low, zone.x_high, zone.y_low, zone.y_high, zone.floor);
+}
+
+// verifies: IF-CF-10, IF-CF-11, IF-CF-12, IF-CF-13
+TEST(Compile, EveryFieldIsRoundedToTheSafeSide) {
+  constexpr std::uint64_t kSeed = 7;
+  std::mt19937_64 random(kSeed);
+  for (int i = 0; i < 200; ++i) {
+    Default d;
+    if (i > 0) disturb(d.machine, d.site, random);
+    const berm_parameters p = compile_parameters(d.machine, d.site);
+    expect_joints_safe(d.machine, p);
+    expect_rules_safe(d.machine.kernel, p);
+    expect_places_safe(d.machine, d.site, p);
+    ASSERT_FALSE(testing::Test::HasFailure()) << "seed " << kSeed << " draw " << i;
+  }
+}
+
+}  // namespace
+}  // namespace berm::config::test

@@ -1,0 +1,46 @@
+// The site file: what the default says, and every kind of bad input.
+#include <gtest/gtest.h>
+
+#include "config/site_file.hpp"
+#include "config/strict_table.hpp"
+#include "edited_file.hpp"
+
+namespace berm::config::test {
+namespace {
+
+// verifies: IF-CF-8
+TEST(SiteFileTest, TheDefaultInSiUnits) {
+  const SiteFile site = load_site_file(site_path());
+  EXPECT_EQ(site.name, "bench");
+  ASSERT_EQ(site.dig_zone.size(), 1u);
+  EXPECT_DOUBLE_EQ(site.dig_zone[0].x_low, 3.9);
+  EXPECT_DOUBLE_EQ(site.dig_zone[0].x_high, 10.5);
+  EXPECT_DOUBLE_EQ(site.dig_zone[0].y_low, -4.2);
+  EXPECT_DOUBLE_EQ(site.dig_zone[0].y_high, 4.2);
+  EXPECT_DOUBLE_EQ(site.dig_zone[0].floor, -3.4);
+  EXPECT_DOUBLE_EQ(site.truck.centre[1], 6.75);
+  EXPECT_DOUBLE_EQ(site.truck.target_kg, 18000.0);
+  EXPECT_DOUBLE_EQ(site.dig.swing[0], radians(12.0));
+  EXPECT_DOUBLE_EQ(site.dig.radius[1], 5.6);
+}
+
+// verifies: IF-CF-1, IF-CF-2, IF-CF-8
+TEST(SiteFileTest, EachBadInputGivesOneLineWithFileFieldAndLimit) {
+  const Scratch scratch;
+  const std::string good = read_text(site_path());
+  for (const BadEdit& edit : bad_site_edits()) {
+    const std::string path = scratch.write("site.toml", replaced(good, edit.from, edit.to));
+    try {
+      load_site_file(path);
+      ADD_FAILURE() << edit.name << ": taken";
+    } catch (const ConfigError& error) {
+      const std::string line = error.what();
+      EXPECT_EQ(line.find(path + ": " + edit.field), 0u) << edit.name << ": " << line;
+      EXPECT_NE(line.find(edit.reason), std::string::npos) << edit.name << ": " << line;
+      EXPECT_EQ(line.find('\n'), std::string::npos) << edit.name << ": " << line;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace berm::config::test

@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "geometry/scan_projection.hpp"
+
+namespace berm::kernel::test {
+namespace {
+
+constexpr uint32_t threshold = 1000;
+
+std::vector<uint32_t> filtered(std::vector<uint32_t> ranges) {
+  const std::vector<uint32_t> before = ranges;
+  const int dropped = filter_spurious(ranges.data(), static_cast<int>(ranges.size()), threshold);
+  int changed = 0;
+  for (size_t i = 0; i < ranges.size(); ++i) {
+    EXPECT_TRUE(ranges[i] == before[i] || ranges[i] == 0);
+    changed += ranges[i] != before[i] ? 1 : 0;
+  }
+  EXPECT_EQ(dropped, changed);
+  return ranges;
+}
+
+using Ranges = std::vector<uint32_t>;
+
+} // namespace
+
+// verifies: SK-GE-23
+TEST(Spurious, DropsOneReturnThatDiffersFromBothNeighbours) {
+  EXPECT_EQ(filtered({5000, 5000, 2000, 5000, 5000}), (Ranges{5000, 5000, 0, 5000, 5000}));
+  EXPECT_EQ(filtered({5000, 5000, 9000, 5000, 5000}), (Ranges{5000, 5000, 0, 5000, 5000}));
+  EXPECT_EQ(filtered({5000, 0, 2000, 0, 5000}), (Ranges{5000, 0, 0, 0, 5000})); // neighbours within two samples
+}
+
+// verifies: SK-GE-23
+TEST(Spurious, TheThresholdItselfIsKept) {
+  EXPECT_EQ(filtered({5000, 4000, 5000}), (Ranges{5000, 4000, 5000}));
+  EXPECT_EQ(filtered({5000, 3999, 5000}), (Ranges{5000, 0, 5000}));
+}
+
+// verifies: SK-GE-23
+TEST(Spurious, KeepsTwoReturnsThatAgree) {
+  EXPECT_EQ(filtered({9000, 9000, 5000, 5100, 9000, 9000}), (Ranges{9000, 9000, 5000, 5100, 9000, 9000}));
+  EXPECT_EQ(filtered({0, 0, 0, 5000, 5100, 0, 0, 0}), (Ranges{0, 0, 0, 5000, 5100, 0, 0, 0}));
+  EXPECT_EQ(filtered({0, 0, 0, 5000, 0, 5100, 0, 0, 0}), (Ranges{0, 0, 0, 5000, 0, 5100, 0, 0, 0}));
+}
+
+// verifies: SK-GE-23
+TEST(Spurious, DropsAReturnWithoutNeighbours) {
+  EXPECT_EQ(filtered({0, 0, 0, 5000, 0, 0, 0}), (Ranges{0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(filtered({5000, 0, 0, 5000, 0, 0, 5000}), (Ranges{0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(filtered({5000}), (Ranges{0}));
+}
+
+// One neighbour that differs is not enough: an edge seen at the end of a run stays.
+// verifies: SK-GE-23
+TEST(Spurious, KeepsAReturnWithOnlyOneNeighbour) {
+  EXPECT_EQ(filtered({5000, 2000}), (Ranges{5000, 2000}));
+  EXPECT_EQ(filtered({5000, 5000, 2000, 0, 0, 0}), (Ranges{5000, 5000, 2000, 0, 0, 0}));
+}
+
+// Each return is judged by its neighbours as they came, not by what the filter left of them.
+// verifies: SK-GE-23
+TEST(Spurious, JudgesByTheRawNeighbours) {
+  EXPECT_EQ(filtered({9000, 2000, 9000, 2000, 9000}), (Ranges{9000, 0, 0, 0, 9000}));
+  EXPECT_EQ(filtered({9000, 9000, 2000, 6000, 6000}), (Ranges{9000, 9000, 0, 6000, 6000}));
+}
+
+// The smallest object that is never hidden: two samples in a row that agree, wherever they lie in the run and whatever is behind them.
+// verifies: SK-GE-23
+TEST(Spurious, NeverHidesTwoAgreeingSamplesInARow) {
+  for (const uint32_t behind : {0u, 3000u, 9000u, 60000u})
+    for (int n = 2; n <= 40; ++n)
+      for (int at = 0; at + 1 < n; ++at)
+        for (const uint32_t step : {0u, 500u, 1000u}) {
+          Ranges ranges(static_cast<size_t>(n), behind);
+          ranges[static_cast<size_t>(at)] = 5000;
+          ranges[static_cast<size_t>(at) + 1] = 5000 + step;
+          const Ranges out = filtered(ranges);
+          ASSERT_EQ(out[static_cast<size_t>(at)], 5000u);
+          ASSERT_EQ(out[static_cast<size_t>(at) + 1], 5000 + step);
+        }
+}
+
+// verifies: SK-GE-23
+TEST(Spurious, AnEmptyRunIsFine) {
+  uint32_t none = 7;
+  EXPECT_EQ(filter_spurious(&none, 0, threshold), 0);
+  EXPECT_EQ(none, 7u);
+}
+
+} // namespace berm::kernel::test

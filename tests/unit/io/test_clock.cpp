@@ -1,0 +1,42 @@
+// Late cycles and the histogram of CPU times.
+#include <gtest/gtest.h>
+
+#include "io/clock.hpp"
+#include "io/cpu_histogram.hpp"
+
+namespace berm::kernel {
+namespace {
+
+// verifies: SK-CY-17
+TEST(CycleWatch, CountsLateCyclesAndFaultsVeryLateOnesAndTimeThatRunsBackwards) {
+  CycleWatch watch;
+  EXPECT_FALSE(watch.check(1000000));
+  EXPECT_FALSE(watch.check(1010000));
+  EXPECT_FALSE(watch.check(1060000));
+  EXPECT_EQ(watch.lost_cycles(), 0U);
+  EXPECT_FALSE(watch.check(1110001));
+  EXPECT_EQ(watch.lost_cycles(), 1U);
+  EXPECT_FALSE(watch.check(1210001));
+  EXPECT_TRUE(watch.check(1310002));
+  EXPECT_EQ(watch.lost_cycles(), 3U);
+  EXPECT_TRUE(watch.check(1310002));
+  EXPECT_TRUE(watch.check(1310001));
+  EXPECT_FALSE(watch.check(1320000));
+}
+
+// verifies: SK-CY-90
+TEST(CpuHistogram, GivesQuantilesOfWhatWasAdded) {
+  CpuHistogram histogram;
+  EXPECT_EQ(histogram.quantile_us(0.5), 0);
+  for (int us = 1; us <= 100; ++us) histogram.add(us);
+  EXPECT_EQ(histogram.quantile_us(0.5), 50);
+  EXPECT_EQ(histogram.quantile_us(0.99), 99);
+  histogram.add(1000000);
+  EXPECT_EQ(histogram.max_us(), 1000000);
+  EXPECT_EQ(histogram.quantile_us(1.0), 1000000);
+  histogram.add(-5);
+  EXPECT_EQ(histogram.count(), 102U);
+}
+
+}  // namespace
+}  // namespace berm::kernel

@@ -1,0 +1,189 @@
+// The kernel's cycle against a miniature machine: what may move, and what stops it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+#include "cycle_rig.hpp"
+
+namespace berm::kernel::test {
+namespace {
+
+constexpr int kStartLimit = 400;
+constexpr double kPi = 3.14159265358979323846;
+
+std::int32_t largest(const std::int32_t (&v)[4]) { return std::max(std::max(std::abs(v[0]), std::abs(v[1])), std::max(std::abs(v[2]), std::abs(v[3]))); }
+
+// verifies: SK-CY-20
+TEST(CycleMotion, UnknownGroundIsBlocked) {
+  CycleRig rig;
+  rig.machine.pan_low_rad = 1.2;  // the scanners look elsewhere
+  rig.machine.pan_high_rad = 1.6;
+  rig.wanted_urad_s[0] = 300000;
+  for (int i = 0; i < kStartLimit; ++i) {
+    rig.step();
+    ASSERT_EQ(largest(rig.state().commanded_urad_s), 0) << "cycle " << i;
+  }
+  EXPECT_EQ(rig.state().stop_reason, BERM_STOP_UNKNOWN_GROUND);
+}
+
+// verifies: SK-CY-20
+TEST(CycleMotion, AMachineAtFullSwingStopsBeforeTheWall) {
+  CycleRig rig;
+  rig.machine.angle_rad[0] = 0.6;
+  rig.machine.pan_low_rad = -0.3;
+  rig.machine.pan_high_rad = 2.2;  // ahead of the swing to the left
+  rig.machine.wall = {6.6, 5.0};   // swing reaches it at about 90 degrees with the tip
+  ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, 1500));
+  rig.steps(1000);  // both sides swept
+  rig.wanted_urad_s[0] = 600000;
+  double fastest = 0;
+  for (int i = 0; i < 1500; ++i) {
+    rig.step();
+    fastest = std::max(fastest, rig.machine.velocity_rad_s[0]);
+  }
+  EXPECT_GT(fastest, 0.1) << "it must have swung";
+  // No point of the bucket (7.1 m out at most in this pose, 0.6 m to the sides) may come to the wall.
+  const double reach_y = 7.1 * std::sin(std::min(rig.machine.angle_rad[0], kPi / 2)) + 0.6 * std::cos(rig.machine.angle_rad[0]);
+  EXPECT_LT(reach_y, 6.6);
+  EXPECT_EQ(largest(rig.state().commanded_urad_s), 0);
+  EXPECT_TRUE(rig.state().stop_reason == BERM_STOP_COLLISION_PREDICTED || rig.state().stop_reason == BERM_STOP_UNKNOWN_GROUND) << int(rig.state().stop_reason);
+  EXPECT_GE(rig.state().stop_count[rig.state().stop_reason], 1U);
+}
+
+// verifies: SK-CY-22
+TEST(CycleMotion, AJointNearItsLimitCreepsBackAndNotOut) {
+  CycleRig rig;
+  ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, kStartLimit));
+  rig.machine.angle_rad[1] = 69.8 * kPi / 180;  // boom: 70 degrees is the end
+  rig.wanted_urad_s[1] = 200000;
+  rig.steps(40);
+  EXPECT_EQ(rig.state().commanded_urad_s[1], 0);
+  EXPECT_EQ(rig.state().stop_reason, BERM_STOP_JOINT_RANGE);
+  rig.wanted_urad_s[1] = -200000;
+  ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, 60)) << "reason " << int(rig.state().stop_reason);
+  EXPECT_LT(rig.state().commanded_urad_s[1], 0);
+  EXPECT_GE(rig.state().commanded_urad_s[1], -rig.parameters.creep_velocity_urad_s[1]);
+  // Stays in RUN all the way out of the limit: recovery does not flicker.
+  for (int i = 0; i < 400; ++i) {
+    rig.step();
+    ASSERT_EQ(rig.state().kernel_state, BERM_STATE_RUN) << "cycle " << i << " reason " << int(rig.state().stop_reason);
+  }
+  EXPECT_LT(rig.machine.angle_rad[1], 66.0 * kPi / 180);
+}
+
+// verifies: SK-CY-23
+TEST(CycleMotion, AStillMachineInABlockedPlaceIsHeldButNotCountedAsStopped) {
+  CycleRig rig;
+  ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, kStartLimit));
+  rig.steps(50);
+  rig.machine.angle_rad[1] = 69.8 * kPi / 180;
+  rig.steps(50);
+  EXPECT_EQ(rig.state().kernel_state, BERM_STATE_STOPPED);
+  EXPECT_EQ(rig.state().stop_reason, BERM_STOP_JOINT_RANGE);
+  EXPECT_EQ(rig.state().stop_category, 2);
+  EXPECT_EQ(rig.state().stop_count[BERM_STOP_JOINT_RANGE], 0U);
+  rig.machine.angle_rad[1] = 50.0 * kPi / 180;
+  EXPECT_TRUE(rig.reach_state(BERM_STATE_RUN, 100));
+}
+
+// verifies: SK-CY-24
+TEST(CycleMotion, CommandsAreCutToTheStepOfTheBusTowardsZero) {
+  EXPECT_EQ(limited_command(1499, 100000), 1000);
+  EXPECT_EQ(limited_command(-1499, 100000), -1000);
+  EXPECT_EQ(limited_command(400, 100000), 0);
+  EXPECT_EQ(limited_command(100700, 100700), 100500);
+  EXPECT_EQ(limited_command(-900000, 100700), -100500);
+}
+
+// verifies: SK-CY-30
+TEST(CycleMotion, EachCycleSendsGuardedFramesWithTheHeartbeatLast) {
+  CycleRig rig;
+  std::uint8_t velocity_counter = 0;
+  int settings = 0;
+  for (int i = 0; i < 50; ++i) {
+    rig.step();
+    const FrameList& f = rig.out->frames;
+    ASSERT_GE(f.count, 6);
+    EXPECT_EQ(f.frame[0].id, BERM_CAN_GUARD_KERNEL);
+    EXPECT_EQ(f.frame[1].id, BERM_CAN_VELOCITY_CMD_1);
+    berm_guard guard{};
+    ASSERT_TRUE(berm_decode_guard(&f.frame[0], &guard));
+    if (i > 0) {
+      EXPECT_EQ(guard.counter, static_cast<std::uint8_t>(velocity_counter + 1));
+    }
+    velocity_counter = guard.counter;
+    EXPECT_EQ(guard.crc32, berm_can_guard_crc(f.frame[1].id, guard.counter, f.frame[1].data));
+    EXPECT_EQ(f.frame[f.count - 1].id, BERM_CAN_HEARTBEAT);
+    EXPECT_EQ(f.frame[f.count - 2].id, BERM_CAN_GUARD_KERNEL);
+    berm_heartbeat heartbeat{};
+    ASSERT_TRUE(berm_decode_heartbeat(&f.frame[f.count - 1], &heartbeat));
+    EXPECT_EQ(heartbeat.cycle, rig.machine.cycle() & 0xFFFFU);
+    settings += rig.sent(BERM_CAN_MACHINE_SETTING_CMD) != nullptr ? 1 : 0;
+  }
+  EXPECT_EQ(settings, 10);
+}
+
+// verifies: SK-CY-31
+TEST(CycleMotion, PansAreObeyedWhateverTheState) {
+  CycleRig rig;
+  rig.machine.run_switch = false;
+  rig.steps(20);
+  const std::int32_t still[4] = {};
+  berm_request request = berm::test::make_request(5000, rig.state().time_us, still);
+  request.pan_goal_urad[1] = -400000;
+  request.pan_rate_urad_s[1] = 100000;
+  request.crc32 = berm_crc32(reinterpret_cast<const std::uint8_t*>(&request), offsetof(berm_request, crc32));
+  rig.app_talks = false;
+  rig.in->app_connections = 2;
+  std::memcpy(rig.in->request, &request, sizeof request);
+  rig.step();
+  ASSERT_EQ(rig.state().request_result, BERM_REQUEST_ACCEPTED);
+  berm_pan_cmd pan{};
+  ASSERT_TRUE(berm_decode_pan_cmd(rig.sent(BERM_CAN_SCANNER_PAN_CMD), &pan));
+  EXPECT_EQ(pan.scanner, 1);
+  EXPECT_NEAR(pan.goal_urad, -400000, 400);
+  EXPECT_NEAR(pan.rate_urad_s, 100000, 500);
+}
+
+// verifies: SK-CY-40
+TEST(CycleMotion, SameInputsGiveTheSameBytes) {
+  CycleRig a, b;
+  for (int i = 0; i < 600; ++i) {
+    for (CycleRig* rig : {&a, &b}) {
+      rig->wanted_urad_s[0] = i > 300 ? -200000 : 0;
+      rig->wanted_urad_s[2] = i > 350 ? 150000 : 0;
+      rig->step();
+    }
+    ASSERT_EQ(std::memcmp(&a.out->state, &b.out->state, sizeof(berm_state)), 0) << "cycle " << i;
+    ASSERT_EQ(std::memcmp(&a.out->decision, &b.out->decision, sizeof(berm_decision)), 0) << "cycle " << i;
+    ASSERT_EQ(a.out->frames.count, b.out->frames.count);
+    for (int f = 0; f < a.out->frames.count; ++f) ASSERT_EQ(std::memcmp(a.out->frames.frame[f].data, b.out->frames.frame[f].data, 8), 0);
+  }
+  EXPECT_EQ(std::memcmp(&a.cycle->map(), &b.cycle->map(), sizeof(sk_height_map)), 0);
+}
+
+// verifies: SK-CY-41
+TEST(CycleMotion, MapOnlyNeverLeavesInitAndSendsNothing) {
+  const berm_parameters parameters = berm::test::demo_parameters();
+  auto cycle = std::make_unique<Cycle>(parameters, true);
+  auto in = std::make_unique<CycleInputs>();
+  auto out = std::make_unique<CycleOutputs>();
+  for (int k = 1; k <= 20; ++k) {
+    in->clear();
+    in->cycle = static_cast<std::uint64_t>(k);
+    in->now_us = k * 10000;
+    in->point[in->point_count++] = {1000, -2000, 740};  // within the own body's circle
+    in->point[in->point_count++] = {40000, 0, 0};       // out of the map
+    cycle->step(*in, *out);
+    EXPECT_EQ(out->frames.count, 0);
+    EXPECT_EQ(out->state.kernel_state, BERM_STATE_INIT);
+    EXPECT_EQ(out->decision.scan_points, 1U);
+  }
+  EXPECT_EQ(sk_map_top(&cycle->map(), sk_map_index(-2000), sk_map_index(1000)), 740);
+}
+
+}  // namespace
+}  // namespace berm::kernel::test

@@ -1,0 +1,101 @@
+// Counts every allocation of the process during cycles: malloc itself is replaced.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <vector>
+
+#include "cycle_rig.hpp"
+#include "io/publisher.hpp"
+
+#if defined(__SANITIZE_ADDRESS__)
+#define BERM_COUNTS_MALLOC 0  // the sanitizer has replaced malloc already
+#else
+#define BERM_COUNTS_MALLOC 1
+#endif
+
+namespace {
+long allocations = 0;
+}
+
+#if BERM_COUNTS_MALLOC
+extern "C" {
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* malloc(std::size_t n) {
+  ++allocations;
+  return __libc_malloc(n);
+}
+void* calloc(std::size_t n, std::size_t m) {
+  ++allocations;
+  return __libc_calloc(n, m);
+}
+void* realloc(void* p, std::size_t n) {
+  ++allocations;
+  return __libc_realloc(p, n);
+}
+}
+#endif
+
+namespace berm::kernel::test {
+namespace {
+
+// The cycle alone: inputs are recorded from a first run, then given to a second kernel.
+// verifies: SK-CY-42
+TEST(NoAllocation, InACycle) {
+  if (!BERM_COUNTS_MALLOC) GTEST_SKIP() << "SKIPPED: malloc is the sanitizer's";
+  const long probe = allocations;
+  delete new std::vector<int>(100);
+  ASSERT_GT(allocations, probe) << "the counter does not count";
+
+  constexpr int kCycles = 500;
+  CycleRig first;
+  std::vector<std::vector<berm_can_frame>> frames;
+  std::vector<std::vector<berm_scan_packet>> packets;
+  std::vector<std::vector<std::uint8_t>> requests;
+  std::vector<int> states;
+  for (int i = 0; i < kCycles; ++i) {
+    first.wanted_urad_s[0] = i > 250 ? -300000 : 0;
+    first.step();
+    frames.emplace_back(first.in->frame, first.in->frame + first.in->frame_count);
+    packets.emplace_back(first.in->packet, first.in->packet + first.in->packet_count);
+    requests.emplace_back(first.in->request, first.in->request + SK_REQUEST_BYTES);
+    states.push_back(first.state().kernel_state);
+  }
+
+  Cycle cycle(first.parameters, false);
+  auto segment = std::make_unique<berm_state_segment>();
+  Publisher publisher(*segment, first.parameters, true);
+  auto& in = *first.in;
+  auto& out = *first.out;
+  const long before = allocations;
+  int running = 0, different = 0;
+  for (int i = 0; i < kCycles; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    in.clear();
+    in.cycle = static_cast<std::uint64_t>(i + 1);
+    in.now_us = (i + 1) * berm::test::kCycleUs;
+    for (const auto& frame : frames[k]) in.frame[in.frame_count++] = frame;
+    for (const auto& packet : packets[k]) in.packet[in.packet_count++] = packet;
+    std::copy(requests[k].begin(), requests[k].end(), in.request);
+    cycle.step(in, out);
+    publisher.state(out.state);
+    publisher.decision(out.decision);
+    publisher.scans(out.blocks);
+    publisher.slices(cycle.slices());
+    publisher.map_rows(cycle.map(), in.now_us);
+    publisher.wake();
+    running += out.state.kernel_state == BERM_STATE_RUN ? 1 : 0;
+    different += out.state.kernel_state != states[k] ? 1 : 0;
+  }
+  const long counted = allocations - before;
+  EXPECT_EQ(counted, 0);
+  EXPECT_EQ(different, 0);
+  EXPECT_GT(running, 100);
+  EXPECT_EQ(segment->decision_head, static_cast<std::uint32_t>(kCycles));
+  std::cout << kCycles << " cycles, " << running << " in RUN, " << counted << " allocations\n";
+}
+
+}  // namespace
+}  // namespace berm::kernel::test

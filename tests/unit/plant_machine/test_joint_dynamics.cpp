@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <random>
+
+#include "machine_file.hpp"
+#include "plant/machine/joint_dynamics.hpp"
+
+namespace berm::plant::testing {
+namespace {
+
+constexpr double kCycle = 0.01;
+const DigForces kFree{};
+
+TEST(JointDynamics, CommandTakesEffectAfterItsDeadTime) {
+  const PlantProfile p = profile();
+  for (std::size_t j = 0; j < 4; ++j) {
+    JointDynamics d(p.dynamics, p.shape, 1, pose(0, 45, -100, -60));
+    std::array<double, 4> command{};
+    command[j] = 0.4;
+    double t = 0.0;
+    while (d.state().velocity[j] == 0.0 && t < 1.0) {
+      d.step(kCycle, Drive::obey, command, kFree, 0);
+      t += kCycle;
+    }
+    EXPECT_GT(t, p.dynamics.joint[j].dead_time - 0.001) << kJoints[j];
+    EXPECT_LT(t, p.dynamics.joint[j].dead_time + 1.5 * kCycle) << kJoints[j];
+  }
+}
+
+TEST(JointDynamics, ReachesTheCommandedSpeedWithinItsRipple) {
+  const PlantProfile p = profile();
+  for (std::size_t j = 0; j < 4; ++j) {
+    JointDynamics d(p.dynamics, p.shape, 3, pose(-90, -40, -140, -130));
+    std::array<double, 4> command{};
+    command[j] = 0.3;
+    for (int i = 0; i < 300; ++i) d.step(kCycle, Drive::obey, command, kFree, 500);
+    if (j == 0) { EXPECT_NEAR(d.state().velocity[j], 0.3, 0.3 * p.dynamics.joint[j].ripple + 1e-3); }
+    EXPECT_GT(d.state().angle[j], pose(-90, -40, -140, -130).angle[j] + 0.3) << kJoints[j];
+  }
+}
+
+TEST(JointDynamics, DeadBandMovesNothing) {
+  const PlantProfile p = profile();
+  JointDynamics d(p.dynamics, p.shape, 1, pose(0, 45, -100, -60));
+  std::array<double, 4> command{};
+  for (std::size_t j = 0; j < 4; ++j) command[j] = 0.9 * p.dynamics.joint[j].dead_band;
+  for (int i = 0; i < 200; ++i) d.step(kCycle, Drive::obey, command, kFree, 0);
+  EXPECT_EQ(d.state().angle, pose(0, 45, -100, -60).angle);
+}
+
+TEST(JointDynamics, SharedPumpFlowScalesAllJoints) {
+  const PlantProfile p = profile();
+  JointDynamics d(p.dynamics, p.shape, 1, pose(0, -50, -140, -130));
+  std::array<double, 4> command{};
+  for (std::size_t j = 0; j < 4; ++j) command[j] = p.dynamics.joint[j].velocity_max;
+  double largest = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    d.step(kCycle, Drive::obey, command, kFree, 0);
+    double flow = 0.0;
+    for (std::size_t j = 0; j < 4; ++j) flow += std::abs(d.state().velocity[j]) / p.dynamics.joint[j].velocity_max;
+    largest = std::max(largest, flow);
+  }
+  EXPECT_LE(largest, p.dynamics.flow_limit * 1.001);
+  EXPECT_GT(largest, 1.5);
+}
+
+TEST(JointDynamics, SoilSlowsAndStopsAJoint) {
+  const PlantProfile p = profile();
+  JointDynamics d(p.dynamics, p.shape, 1, pose(0, 30, -60, -60));
+  const std::array<double, 4> command{0, 0, -0.5, 0};
+  for (int i = 0; i < 60; ++i) d.step(kCycle, Drive::obey, command, kFree, 0);
+  EXPECT_LT(d.state().velocity[2], -0.45);
+  DigForces half{}, full{};
+  half.resist_speed_factor[2] = 0.5;
+  full.resist_speed_factor[2] = 0.0;
+  for (int i = 0; i < 30; ++i) d.step(kCycle, Drive::obey, command, half, 0);
+  EXPECT_NEAR(d.state().velocity[2], -0.25, 0.01);
+  for (int i = 0; i < 30; ++i) d.step(kCycle, Drive::obey, command, full, 0);
+  EXPECT_EQ(d.state().velocity[2], 0.0);
+}
+
+TEST(JointDynamics, HardStopsHold) {
+  const PlantProfile p = profile();
+  JointDynamics d(p.dynamics, p.shape, 1, pose(0, 60, -60, 20));
+  for (int i = 0; i < 500; ++i) d.step(kCycle, Drive::obey, {0, 0.4, 1.0, 1.0}, kFree, 0);
+  for (std::size_t j = 1; j < 4; ++j) {
+    EXPECT_LE(d.state().angle[j], p.dynamics.joint[j].high) << kJoints[j];
+    EXPECT_NEAR(d.state().angle[j], p.dynamics.joint[j].high, 0.01) << kJoints[j];
+  }
+}
+
+TEST(JointDynamics, SameSeedSameMotionOtherSeedOtherMotion) {
+  const PlantProfile p = profile();
+  const auto run = [&](std::uint64_t seed) {
+    JointDynamics d(p.dynamics, p.shape, seed, pose(0, 45, -100, -60));
+    for (int i = 0; i < 200; ++i) d.step(kCycle, Drive::obey, {0.5, -0.1, 0.2, 0.1}, kFree, 0);
+    return d.state();
+  };
+  EXPECT_EQ(run(5).angle, run(5).angle);
+  EXPECT_NE(run(5).angle, run(6).angle);
+}
+
+// Over the kernel's horizon (state latency, command latency, one cycle) no command sequence takes a joint faster away from standstill, in either
+// direction, than acceleration_max allows: also not through a braked reversal.
+TEST(JointDynamics, NoCommandSequenceExceedsTheKernelsAccelerationBound) {
+  const PlantProfile p = profile();
+  const MachineFile m;
+  constexpr std::size_t kHorizon = 13;
+  std::mt19937_64 random(20240611);
+  for (int trial = 0; trial < 40; ++trial) {
+    JointDynamics d(p.dynamics, p.shape, static_cast<std::uint64_t>(trial), pose(0, 20, -95, -60));
+    std::deque<std::array<double, 4>> past;
+    std::array<double, 4> command{};
+    for (int i = 0; i < 1500; ++i) {
+      if (random() % 8 == 0) {
+        for (std::size_t j = 0; j < 4; ++j) {
+          const double unit = static_cast<double>(random() % 2001) / 1000.0 - 1.0;
+          command[j] = random() % 4 == 0 ? 0.0 : unit * (random() % 2 == 0 ? 0.1 : 1.0) * m.velocity_max[j];
+        }
+      }
+      d.step(kCycle, random() % 200 == 0 ? Drive::brake : Drive::obey, command, kFree, static_cast<double>(trial % 3) * 900.0);
+      for (std::size_t j = 0; j < 4; ++j) {  // a hard stop takes the speed at once: the window begins anew behind it
+        if (d.state().angle[j] <= m.low[j] || d.state().angle[j] >= m.high[j]) past.clear();
+      }
+      past.push_front(d.state().velocity);
+      if (past.size() > kHorizon + 1) past.pop_back();
+      for (std::size_t back = 1; back < past.size(); ++back) {
+        for (std::size_t j = 0; j < 4; ++j) {
+          const double change = m.acceleration[j] * kCycle * static_cast<double>(back) + 1e-9;
+          ASSERT_LE(past[0][j], std::max(0.0, past[back][j] + change)) << kJoints[j] << " trial " << trial << " cycle " << i << " back " << back;
+          ASSERT_GE(past[0][j], std::min(0.0, past[back][j] - change)) << kJoints[j] << " trial " << trial << " cycle " << i << " back " << back;
+          ASSERT_LE(std::abs(past[0][j]), m.velocity_max[j]) << kJoints[j];
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace berm::plant::testing

@@ -1,0 +1,115 @@
+// Whole runs of the plant in lockstep with a played kernel and app.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "fake_peers.hpp"
+#include "plant/process/plant_run.hpp"
+
+namespace berm::plant::testing {
+namespace {
+
+constexpr std::array<std::int32_t, 4> kSwing{500000, 0, 0, 0};
+
+std::string text_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+struct Result { std::string folder, trace; nlohmann::json truth; };
+
+Result run(const std::string& name, std::uint64_t seed, const std::function<Answer(std::uint32_t)>& policy) {
+  const Scenario scenario = load_scenario(BERM_SCENARIOS "/bench.toml", BERM_PLANT_PROFILES);
+  FakePeers peers(test_can_address(), policy);
+  RunOptions options;
+  options.seed = seed;
+  options.can_address = test_can_address();
+  options.scan_port = 9;  // nobody listens
+  options.out = ::testing::TempDir() + fmt::format("berm_plant_{}_{}", getpid(), name);
+  options.tick_fd = peers.tick_fd;
+  options.kernel_fd = peers.kernel_fd;
+  PlantRun(scenario, load_plant_profile(scenario.machine_file), options).run();
+  Result r{options.out, text_of(options.out + "/trace.csv"), nlohmann::json::parse(text_of(options.out + "/truth.json"))};
+  EXPECT_FALSE(std::filesystem::exists(options.out + "/trace.csv.part"));
+  EXPECT_TRUE(std::filesystem::exists(options.out + "/terrain_start.csv"));
+  EXPECT_TRUE(std::filesystem::exists(options.out + "/terrain_end.csv"));
+  std::filesystem::remove_all(options.out);
+  return r;
+}
+
+// Columns of a row of the trace by number; row 0 is the header.
+std::vector<std::string> row(const std::string& trace, std::size_t number) {
+  std::istringstream lines(trace);
+  std::string line;
+  for (std::size_t i = 0; i <= number; ++i) std::getline(lines, line);
+  std::istringstream fields(line);
+  std::vector<std::string> out;
+  for (std::string f; std::getline(fields, f, ',');) out.push_back(f);
+  return out;
+}
+
+Answer swing_then_finish(std::uint32_t cycle) {
+  Answer a;
+  if (cycle > 50 && cycle < 200) a.velocity_urad_s = kSwing;
+  a.finished = cycle >= 300;
+  return a;
+}
+
+TEST(Lockstep, SameSeedSameBytesOtherSeedOtherBytes) {
+  const Result a = run("a", 7, swing_then_finish), b = run("b", 7, swing_then_finish), c = run("c", 8, swing_then_finish);
+  EXPECT_EQ(a.trace, b.trace);
+  EXPECT_EQ(a.truth, b.truth);
+  EXPECT_NE(a.trace, c.trace);
+}
+
+TEST(Lockstep, FinishedRunEndsOneSecondLaterAndMovedAsCommanded) {
+  const Result r = run("finish", 1, swing_then_finish);
+  EXPECT_EQ(r.truth.at("end_reason"), "finished");
+  EXPECT_EQ(r.truth.at("simulated_seconds"), 4.0);
+  EXPECT_EQ(r.truth.at("refused_frames"), 0);
+  EXPECT_TRUE(r.truth.at("fault").is_null());
+  EXPECT_EQ(row(r.trace, 0)[1], "swing_rad");
+  EXPECT_EQ(row(r.trace, 50)[0], "0.500000");
+  EXPECT_EQ(row(r.trace, 50)[1], "0.000000");
+  EXPECT_GT(std::stod(row(r.trace, 400)[1]), 0.3);
+  EXPECT_EQ(row(r.trace, 400)[5], "0.000000");
+}
+
+TEST(Lockstep, DeadKernelIsAStop) {
+  const Result r = run("kernel", 1, [](std::uint32_t cycle) {
+    Answer a;
+    a.velocity_urad_s = kSwing;
+    a.kernel_dies = cycle == 200;
+    return a;
+  });
+  EXPECT_EQ(r.truth.at("end_reason"), "kernel gone");
+  EXPECT_EQ(r.truth.at("fault"), "kernel gone");
+  const double fault = r.truth.at("fault_s"), still = r.truth.at("first_standstill_after_fault_s");
+  EXPECT_NEAR(fault, 2.00, 0.02);
+  EXPECT_GT(std::stod(row(r.trace, 200)[5]), 0.4) << "it was moving";
+  EXPECT_GT(still, fault + 0.05);
+  EXPECT_LT(still, fault + 0.05 + 2.0);
+  EXPECT_NEAR(r.truth.at("simulated_seconds"), still + 2.0, 0.05);
+}
+
+TEST(Lockstep, DeadAppEndsTheRunAtStandstill) {
+  const Result r = run("app", 1, [](std::uint32_t cycle) {
+    Answer a;
+    a.enable = cycle <= 200;
+    a.velocity_urad_s = kSwing;
+    a.app_dies = cycle == 150;
+    return a;
+  });
+  EXPECT_EQ(r.truth.at("end_reason"), "app gone");
+  EXPECT_NEAR(r.truth.at("fault_s"), 1.5, 0.02);
+  EXPECT_GT(r.truth.at("first_standstill_after_fault_s"), 2.0);
+}
+
+}  // namespace
+}  // namespace berm::plant::testing

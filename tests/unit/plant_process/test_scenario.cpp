@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "plant/machine/kinematics.hpp"
+#include "plant/machine/strict_table.hpp"
+#include "plant/process/scenario.hpp"
+
+namespace berm::plant::testing {
+namespace {
+
+std::string text_of(const std::string& name) {
+  std::ifstream in(std::string(BERM_SCENARIOS) + "/" + name);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+Scenario loaded(const std::string& text) {
+  const std::string file = ::testing::TempDir() + "scenario_test.toml";
+  std::ofstream(file) << text;
+  return load_scenario(file, BERM_PLANT_PROFILES);
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    loaded(text);
+  } catch (const ConfigError& error) {
+    const std::string what = error.what(), file = ::testing::TempDir() + "scenario_test.toml: ";
+    EXPECT_EQ(what.rfind(file, 0), 0u) << what;
+    return what.substr(file.size());
+  }
+  return "accepted";
+}
+
+TEST(Scenario, ShippedScenariosLoadAndStartWithTheBucketOneMetreUp) {
+  for (const char* name : {"bench.toml", "person.toml", "two_trucks.toml"}) {
+    const Scenario s = load_scenario(std::string(BERM_SCENARIOS) + "/" + name, BERM_PLANT_PROFILES);
+    EXPECT_EQ(s.name + ".toml", name);
+    EXPECT_GE(bucket_underside(load_plant_profile(s.machine_file).shape, s.start), 1.0) << name;
+  }
+}
+
+TEST(Scenario, BenchIsTheDocumentedSite) {
+  const WorldConfig w = loaded(text_of("bench.toml")).world;
+  EXPECT_EQ(w.terrain.crest_x, 6.0);
+  EXPECT_EQ(w.terrain.crest_y, 3.6);
+  EXPECT_EQ(w.terrain.lower_z, -2.2);
+  ASSERT_EQ(w.trucks.size(), 1u);
+  const TruckConfig& t = w.trucks[0];
+  EXPECT_EQ(t.x, -0.70);
+  EXPECT_EQ(t.y, 6.75);
+  EXPECT_NEAR(t.yaw, std::numbers::pi, 1e-12);
+  EXPECT_EQ(t.target_kg, 18000.0);
+  EXPECT_NEAR(t.wall_top - t.height, -0.92, 1e-12);
+  EXPECT_NEAR(w.soil.density_bank / w.soil.swell, 1340.0, 0.1);
+  EXPECT_TRUE(w.movers.empty());
+}
+
+// What app and kernel are told of the site is what the plant's site is.
+TEST(Scenario, BenchAgreesWithTheSiteFile) {
+  const WorldConfig w = loaded(text_of("bench.toml")).world;
+  StrictTable site = StrictTable::parse_file(BERM_SITE_FILE);
+  StrictTable zone = site.tables("dig_zone").at(0), truck = site.table("truck");
+  ASSERT_EQ(w.dig_zones.size(), 1u);
+  const DigZoneConfig& z = w.dig_zones[0];
+  EXPECT_EQ((std::array<double, 2>{z.x_low, z.x_high}), zone.array<2>("x", -100, 100));
+  EXPECT_EQ((std::array<double, 2>{z.y_low, z.y_high}), zone.array<2>("y", -100, 100));
+  EXPECT_EQ(z.floor, zone.number("floor", -100, 100));
+  const TruckConfig& t = w.trucks[0];
+  EXPECT_EQ((std::array<double, 2>{t.x, t.y}), truck.array<2>("centre", -100, 100));
+  EXPECT_EQ(t.length, truck.number("length", 0, 100));
+  EXPECT_EQ(t.width, truck.number("width", 0, 100));
+  EXPECT_EQ(t.height, truck.number("height", 0, 100));
+  EXPECT_EQ(t.wall_top, truck.number("wall_top", -100, 100));
+  EXPECT_EQ(t.target_kg, truck.number("target_kg", 0, 1e6));
+}
+
+TEST(Scenario, PersonWaitsForTheSwing) {
+  const WorldConfig w = loaded(text_of("person.toml")).world;
+  ASSERT_EQ(w.movers.size(), 1u);
+  EXPECT_FALSE(w.movers[0].vehicle);
+  EXPECT_EQ(w.movers[0].height, 1.8);
+  ASSERT_TRUE(w.movers[0].start_swing_above.has_value());
+  ASSERT_EQ(w.movers[0].waypoints.size(), 3u);
+  EXPECT_EQ(w.movers[0].waypoints[1].wait_s, 8.0);
+}
+
+TEST(Scenario, EveryKindOfMistakeIsNamed) {
+  const std::string good = text_of("bench.toml");
+  EXPECT_EQ(refusal(replaced(good, "schema = 1", "schema = 1\ncolour = 3")), "colour: is not a known key");
+  EXPECT_EQ(refusal(replaced(good, "swell = 1.10", "swell = 0.9")), "soil.swell: 0.9 is outside 1 .. 2");
+  EXPECT_EQ(refusal(replaced(good, "crest_x = 6.0", "")), "terrain.crest_x: is missing");
+  EXPECT_EQ(refusal(replaced(good, "toe_x = 7.5", "toe_x = 5.0")), "terrain.toe_x: must be beyond crest_x");
+  EXPECT_EQ(refusal(replaced(good, "centre = [-0.70, 6.75]", "centre = [-0.70]")), "truck[0].centre: must be an array of 2 numbers");
+  EXPECT_EQ(refusal(replaced(good, "cell = 0.1", "cell = 0.02\ncells = 1")), "terrain.cells: is not a known key");
+  EXPECT_EQ(refusal(replaced(good, "samples_per_revolution = 400", "samples_per_revolution = 400.5")), "scanner.samples_per_revolution: must be a whole number");
+  EXPECT_EQ(refusal(good + "\n[[panel]]\naction = \"jump\"\nat_s = 1\nfor_s = 1\n"), "panel[0].action: 'jump' is not one of stop, reset, relearn, emergency, pause");
+  EXPECT_EQ(refusal(good + "\n[[person]]\nname = \"Anna B\"\n"), "person[0].name: may hold a-z, 0-9 and _ only: it becomes a column's name");
+  EXPECT_EQ(refusal(good + "\n[[person]]\nname = \"truck_1\"\n"), "person[0].name: 'truck_1' is taken");
+}
+
+TEST(Scenario, MachineIsAProfilesNameOrAPathBesideTheScenario) {
+  const std::string good = text_of("bench.toml");
+  EXPECT_EQ(loaded(good).machine_file, std::string(BERM_PLANT_PROFILES) + "/zx200_plant.toml");
+  EXPECT_EQ(loaded(replaced(good, "\"zx200_plant\"", "\"../my.toml\"")).machine_file, ::testing::TempDir() + "../my.toml");
+}
+
+TEST(Scenario, PanelFollowsItsScript) {
+  const Scenario s = loaded(text_of("bench.toml") +
+                            "\n[[panel]]\naction = \"stop\"\nat_s = 10\nfor_s = 0.5\n[[panel]]\naction = \"reset\"\nat_s = 12\nfor_s = 0.5\n"
+                            "[[panel]]\naction = \"pause\"\nat_s = 11\nfor_s = 1\n[[panel]]\naction = \"emergency\"\nat_s = 20\nfor_s = 1\n");
+  EXPECT_FALSE(panel_at(s, 0.49).run);
+  EXPECT_TRUE(panel_at(s, 0.5).run);
+  EXPECT_FALSE(panel_at(s, 9.99).stop);
+  EXPECT_TRUE(panel_at(s, 10.0).stop);
+  EXPECT_TRUE(panel_at(s, 10.49).stop);
+  EXPECT_FALSE(panel_at(s, 10.5).stop);
+  EXPECT_TRUE(panel_at(s, 10.5).run);
+  EXPECT_FALSE(panel_at(s, 11.5).run);
+  EXPECT_TRUE(panel_at(s, 12.2).reset);
+  EXPECT_TRUE(panel_at(s, 20.5).emergency);
+}
+
+}  // namespace
+}  // namespace berm::plant::testing
