@@ -326,7 +326,8 @@ Answer Sequencer::step(const Observation& o) {
   }
   arm_.sent(answer.velocity);
   const double truck_bearing = std::atan2(site_.truck.centre_y, site_.truck.centre_x);
-  answer.pan = scanners_.step(phase_, task_.next_bearing, truck_bearing, o.angle[swing], o.velocity[swing], o.pan);
+  const bool lifts_soon = stage_ == Stage::curl || (stage_ == Stage::dig && follower_.progress() > 0.6);
+  answer.pan = scanners_.step(lifts_soon ? std::uint16_t{BERM_PHASE_LIFT} : phase_, task_.next_bearing, truck_bearing, o.angle[swing], o.velocity[swing], o.pan);
   answer.phase = phase_;
   answer.horn = stage_ == Stage::horn;
   return answer;

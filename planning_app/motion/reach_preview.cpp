@@ -53,7 +53,7 @@ double stop_travel(const MachineModel& machine, std::size_t joint, double reach_
 
 double within_range(const MachineModel& machine, std::size_t joint, double reach_m, double angle, double wanted) {
   const JointLimits& limits = machine.joint[joint];
-  constexpr double spare = radians(1.0);  // for a joint that answers faster than its model
+  constexpr double spare = radians(3.5);  // a column of the braking table, and a joint that answers faster than its model
   const double room = (wanted > 0.0 ? limits.high - angle : angle - limits.low) - spare;
   constexpr int steps = 16;
   for (int k = steps; k > 0; --k) {

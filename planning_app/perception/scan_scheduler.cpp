@@ -13,6 +13,8 @@ constexpr std::size_t left = 0, right = 1;
 constexpr double at_end = radians(1.5);
 constexpr double narrowest = radians(4.0);
 constexpr double beyond_dig = radians(45.0);    // to the outer side of a bearing: overshoot of a stop, width of the bucket, parallax of the head
+constexpr double under_boom = radians(42.0);   // inwards, to the ground below the boom that only the heads beside it can see
+constexpr double trigger = radians(35.0);
 constexpr double beyond_truck = radians(50.0);
 
 }  // namespace
@@ -37,20 +39,21 @@ PanSector ScanScheduler::sector(std::size_t scanner, std::uint16_t phase, double
   switch (phase) {
     case BERM_PHASE_DIG:
     case BERM_PHASE_LIFT:
-      if (scanner == ahead) bearings = {swing_angle, swing_angle + side * radians(120.0)};
-      else bearings = {dig + side * radians(20.0), dig - side * radians(70.0)};
+      // Before the swing begins the leading scanner must have passed the trigger angle (leger-1998, 2.4): the pan cannot outrun the swing.
+      if (scanner == ahead) bearings = {swing_angle + side * (phase == BERM_PHASE_LIFT ? trigger : -under_boom), swing_angle + side * radians(120.0)};
+      else bearings = {dig + side * under_boom, dig - side * radians(70.0)};
       break;
     case BERM_PHASE_SWING_TO_TRUCK:
-      if (scanner == ahead) bearings = {swing_angle + side * radians(35.0), truck + side * beyond_truck};
+      if (scanner == ahead) bearings = {swing_angle + side * trigger, truck + side * beyond_truck};
       else bearings = {swing_angle + side * radians(15.0), dig - side * radians(40.0)};
       break;
     case BERM_PHASE_DUMP:
-      if (scanner == ahead) bearings = {swing_angle - side * radians(20.0), truck + side * beyond_truck};
-      else bearings = {truck - side * radians(25.0), dig - side * beyond_dig};
+      if (scanner == ahead) bearings = {swing_angle - side * under_boom, truck + side * beyond_truck};
+      else bearings = {swing_angle + side * under_boom, dig - side * beyond_dig};
       break;
     case BERM_PHASE_SWING_TO_DIG:
       if (scanner == ahead) bearings = {swing_angle - side * radians(20.0), truck + side * radians(25.0)};
-      else bearings = {swing_angle - side * radians(25.0), dig - side * beyond_dig};
+      else bearings = {swing_angle - side * trigger, dig - side * beyond_dig};
       break;
     default: return whole;
   }

@@ -25,7 +25,7 @@ public:
   // Both have seen their whole range since begin_full_sweep.
   bool full_sweep_done() const;
 
-  // phase: BERM_PHASE_*; bearings of dig and truck; measured pans, swing angle and speed.
+  // phase: BERM_PHASE_*, the one the motion is about to enter where that is known (LIFT before a dig ends); bearings of dig and truck; measured pans, swing angle and speed.
   std::array<PanRequest, 2> step(std::uint16_t phase, double dig_bearing, double truck_bearing, double swing_angle, double swing_speed,
                                  const std::array<double, 2>& pan);
 

@@ -11,20 +11,56 @@ static bool reach_ordered(const berm_parameters *p)
   return 0 < v[0] && v[0] < v[1] && v[1] < v[2] && v[2] < v[3] && v[3] <= SK_COORD_MAX_MM;
 }
 
-/*@ requires \valid_read(p) && 0 <= j < SK_JOINTS && 0 <= r < BERM_BRAKE_REACHES;
+/*@ requires \valid_read(row + (0 .. BERM_BRAKE_SPEEDS - 1));
   @ assigns \nothing;
-  @ ensures \result == true <==> (\forall integer c; 0 <= c < BERM_BRAKE_SPEEDS ==> sk_within(p->brake_angle_urad[j][r][c], 0, 6283186));
+  @ ensures \result == true <==> sk_row_within(row, high);
   @*/
-static bool angle_row_within(const berm_parameters *p, int32_t j, int32_t r)
+static bool row_within(const int32_t *row, int32_t high)
 {
-  int32_t c;
-  /*@ loop invariant 0 <= c <= BERM_BRAKE_SPEEDS;
-    @ loop invariant \forall integer k; 0 <= k < c ==> sk_within(p->brake_angle_urad[j][r][k], 0, 6283186);
-    @ loop assigns c;
-    @ loop variant BERM_BRAKE_SPEEDS - c;
+  int32_t k;
+  /*@ loop invariant 0 <= k <= BERM_BRAKE_SPEEDS;
+    @ loop invariant \forall integer c; 0 <= c < k ==> sk_within(row[c], 0, high);
+    @ loop assigns k;
+    @ loop variant BERM_BRAKE_SPEEDS - k;
     @*/
-  for (c = 0; c < BERM_BRAKE_SPEEDS; c++) {
-    if (!sk_is_within(p->brake_angle_urad[j][r][c], 0, 6283186)) { return false; }
+  for (k = 0; k < BERM_BRAKE_SPEEDS; k++) {
+    if (!sk_is_within(row[k], 0, high)) { return false; }
+  }
+  return true;
+}
+
+/*@ requires \valid_read(row + (0 .. BERM_BRAKE_SPEEDS - 1));
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_row_rises(row);
+  @*/
+static bool row_rises(const int32_t *row)
+{
+  int32_t k;
+  /*@ loop invariant 1 <= k <= BERM_BRAKE_SPEEDS;
+    @ loop invariant \forall integer c; 1 <= c < k ==> row[c - 1] <= row[c];
+    @ loop assigns k;
+    @ loop variant BERM_BRAKE_SPEEDS - k;
+    @*/
+  for (k = 1; k < BERM_BRAKE_SPEEDS; k++) {
+    if (row[k - 1] > row[k]) { return false; }
+  }
+  return true;
+}
+
+/*@ requires \valid_read(row + (0 .. BERM_BRAKE_SPEEDS - 1)) && \valid_read(above + (0 .. BERM_BRAKE_SPEEDS - 1));
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_row_under(row, above);
+  @*/
+static bool row_under(const int32_t *row, const int32_t *above)
+{
+  int32_t k;
+  /*@ loop invariant 0 <= k <= BERM_BRAKE_SPEEDS;
+    @ loop invariant \forall integer c; 0 <= c < k ==> row[c] <= above[c];
+    @ loop assigns k;
+    @ loop variant BERM_BRAKE_SPEEDS - k;
+    @*/
+  for (k = 0; k < BERM_BRAKE_SPEEDS; k++) {
+    if (row[k] > above[k]) { return false; }
   }
   return true;
 }
@@ -37,37 +73,23 @@ static bool angles_within(const berm_parameters *p)
 {
   int32_t j, r;
   /*@ loop invariant 0 <= j <= SK_JOINTS;
-    @ loop invariant \forall integer i, m, c; 0 <= i < j && 0 <= m < BERM_BRAKE_REACHES && 0 <= c < BERM_BRAKE_SPEEDS ==> sk_within(p->brake_angle_urad[i][m][c], 0, 6283186);
+    @ loop invariant \forall integer i; 0 <= i < j ==> sk_joint_angle_range(p, i);
     @ loop assigns j, r;
     @ loop variant SK_JOINTS - j;
     @*/
   for (j = 0; j < SK_JOINTS; j++) {
     /*@ loop invariant 0 <= r <= BERM_BRAKE_REACHES;
-      @ loop invariant \forall integer m, c; 0 <= m < r && 0 <= c < BERM_BRAKE_SPEEDS ==> sk_within(p->brake_angle_urad[j][m][c], 0, 6283186);
+      @ loop invariant \forall integer m; 0 <= m < r ==> sk_row_within(&p->brake_angle_urad[j][m][0], 6283186);
       @ loop assigns r;
       @ loop variant BERM_BRAKE_REACHES - r;
       @*/
     for (r = 0; r < BERM_BRAKE_REACHES; r++) {
-      if (!angle_row_within(p, j, r)) { return false; }
+      if (!row_within(p->brake_angle_urad[j][r], 6283186)) {
+        /*@ assert !sk_joint_angle_range(p, j); */
+        return false;
+      }
     }
-  }
-  return true;
-}
-
-/*@ requires \valid_read(p) && 0 <= j < SK_JOINTS && 0 <= r < BERM_BRAKE_REACHES;
-  @ assigns \nothing;
-  @ ensures \result == true <==> (\forall integer c; 1 <= c < BERM_BRAKE_SPEEDS ==> p->brake_angle_urad[j][r][c - 1] <= p->brake_angle_urad[j][r][c]);
-  @*/
-static bool angle_row_rises_with_speed(const berm_parameters *p, int32_t j, int32_t r)
-{
-  int32_t c;
-  /*@ loop invariant 1 <= c <= BERM_BRAKE_SPEEDS;
-    @ loop invariant \forall integer k; 1 <= k < c ==> p->brake_angle_urad[j][r][k - 1] <= p->brake_angle_urad[j][r][k];
-    @ loop assigns c;
-    @ loop variant BERM_BRAKE_SPEEDS - c;
-    @*/
-  for (c = 1; c < BERM_BRAKE_SPEEDS; c++) {
-    if (p->brake_angle_urad[j][r][c - 1] > p->brake_angle_urad[j][r][c]) { return false; }
+    /*@ assert sk_joint_angle_range(p, j); */
   }
   return true;
 }
@@ -80,37 +102,23 @@ static bool angles_rise_with_speed(const berm_parameters *p)
 {
   int32_t j, r;
   /*@ loop invariant 0 <= j <= SK_JOINTS;
-    @ loop invariant \forall integer i, m, c; 0 <= i < j && 0 <= m < BERM_BRAKE_REACHES && 1 <= c < BERM_BRAKE_SPEEDS ==> p->brake_angle_urad[i][m][c - 1] <= p->brake_angle_urad[i][m][c];
+    @ loop invariant \forall integer i; 0 <= i < j ==> sk_joint_angle_speed(p, i);
     @ loop assigns j, r;
     @ loop variant SK_JOINTS - j;
     @*/
   for (j = 0; j < SK_JOINTS; j++) {
     /*@ loop invariant 0 <= r <= BERM_BRAKE_REACHES;
-      @ loop invariant \forall integer m, c; 0 <= m < r && 1 <= c < BERM_BRAKE_SPEEDS ==> p->brake_angle_urad[j][m][c - 1] <= p->brake_angle_urad[j][m][c];
+      @ loop invariant \forall integer m; 0 <= m < r ==> sk_row_rises(&p->brake_angle_urad[j][m][0]);
       @ loop assigns r;
       @ loop variant BERM_BRAKE_REACHES - r;
       @*/
     for (r = 0; r < BERM_BRAKE_REACHES; r++) {
-      if (!angle_row_rises_with_speed(p, j, r)) { return false; }
+      if (!row_rises(p->brake_angle_urad[j][r])) {
+        /*@ assert !sk_joint_angle_speed(p, j); */
+        return false;
+      }
     }
-  }
-  return true;
-}
-
-/*@ requires \valid_read(p) && 0 <= j < SK_JOINTS && 1 <= r < BERM_BRAKE_REACHES;
-  @ assigns \nothing;
-  @ ensures \result == true <==> (\forall integer c; 0 <= c < BERM_BRAKE_SPEEDS ==> p->brake_angle_urad[j][r - 1][c] <= p->brake_angle_urad[j][r][c]);
-  @*/
-static bool angle_row_rises_with_reach(const berm_parameters *p, int32_t j, int32_t r)
-{
-  int32_t c;
-  /*@ loop invariant 0 <= c <= BERM_BRAKE_SPEEDS;
-    @ loop invariant \forall integer k; 0 <= k < c ==> p->brake_angle_urad[j][r - 1][k] <= p->brake_angle_urad[j][r][k];
-    @ loop assigns c;
-    @ loop variant BERM_BRAKE_SPEEDS - c;
-    @*/
-  for (c = 0; c < BERM_BRAKE_SPEEDS; c++) {
-    if (p->brake_angle_urad[j][r - 1][c] > p->brake_angle_urad[j][r][c]) { return false; }
+    /*@ assert sk_joint_angle_speed(p, j); */
   }
   return true;
 }
@@ -123,37 +131,23 @@ static bool angles_rise_with_reach(const berm_parameters *p)
 {
   int32_t j, r;
   /*@ loop invariant 0 <= j <= SK_JOINTS;
-    @ loop invariant \forall integer i, m, c; 0 <= i < j && 1 <= m < BERM_BRAKE_REACHES && 0 <= c < BERM_BRAKE_SPEEDS ==> p->brake_angle_urad[i][m - 1][c] <= p->brake_angle_urad[i][m][c];
+    @ loop invariant \forall integer i; 0 <= i < j ==> sk_joint_angle_reach(p, i);
     @ loop assigns j, r;
     @ loop variant SK_JOINTS - j;
     @*/
   for (j = 0; j < SK_JOINTS; j++) {
     /*@ loop invariant 1 <= r <= BERM_BRAKE_REACHES;
-      @ loop invariant \forall integer m, c; 1 <= m < r && 0 <= c < BERM_BRAKE_SPEEDS ==> p->brake_angle_urad[j][m - 1][c] <= p->brake_angle_urad[j][m][c];
+      @ loop invariant \forall integer m; 1 <= m < r ==> sk_row_under(&p->brake_angle_urad[j][m - 1][0], &p->brake_angle_urad[j][m][0]);
       @ loop assigns r;
       @ loop variant BERM_BRAKE_REACHES - r;
       @*/
     for (r = 1; r < BERM_BRAKE_REACHES; r++) {
-      if (!angle_row_rises_with_reach(p, j, r)) { return false; }
+      if (!row_under(p->brake_angle_urad[j][r - 1], p->brake_angle_urad[j][r])) {
+        /*@ assert !sk_joint_angle_reach(p, j); */
+        return false;
+      }
     }
-  }
-  return true;
-}
-
-/*@ requires \valid_read(p) && 0 <= j < SK_JOINTS && 0 <= r < BERM_BRAKE_REACHES;
-  @ assigns \nothing;
-  @ ensures \result == true <==> (\forall integer c; 0 <= c < BERM_BRAKE_SPEEDS ==> sk_within(p->brake_time_us[j][r][c], 0, 30000000));
-  @*/
-static bool time_row_within(const berm_parameters *p, int32_t j, int32_t r)
-{
-  int32_t c;
-  /*@ loop invariant 0 <= c <= BERM_BRAKE_SPEEDS;
-    @ loop invariant \forall integer k; 0 <= k < c ==> sk_within(p->brake_time_us[j][r][k], 0, 30000000);
-    @ loop assigns c;
-    @ loop variant BERM_BRAKE_SPEEDS - c;
-    @*/
-  for (c = 0; c < BERM_BRAKE_SPEEDS; c++) {
-    if (!sk_is_within(p->brake_time_us[j][r][c], 0, 30000000)) { return false; }
+    /*@ assert sk_joint_angle_reach(p, j); */
   }
   return true;
 }
@@ -166,37 +160,23 @@ static bool times_within(const berm_parameters *p)
 {
   int32_t j, r;
   /*@ loop invariant 0 <= j <= SK_JOINTS;
-    @ loop invariant \forall integer i, m, c; 0 <= i < j && 0 <= m < BERM_BRAKE_REACHES && 0 <= c < BERM_BRAKE_SPEEDS ==> sk_within(p->brake_time_us[i][m][c], 0, 30000000);
+    @ loop invariant \forall integer i; 0 <= i < j ==> sk_joint_time_range(p, i);
     @ loop assigns j, r;
     @ loop variant SK_JOINTS - j;
     @*/
   for (j = 0; j < SK_JOINTS; j++) {
     /*@ loop invariant 0 <= r <= BERM_BRAKE_REACHES;
-      @ loop invariant \forall integer m, c; 0 <= m < r && 0 <= c < BERM_BRAKE_SPEEDS ==> sk_within(p->brake_time_us[j][m][c], 0, 30000000);
+      @ loop invariant \forall integer m; 0 <= m < r ==> sk_row_within(&p->brake_time_us[j][m][0], 30000000);
       @ loop assigns r;
       @ loop variant BERM_BRAKE_REACHES - r;
       @*/
     for (r = 0; r < BERM_BRAKE_REACHES; r++) {
-      if (!time_row_within(p, j, r)) { return false; }
+      if (!row_within(p->brake_time_us[j][r], 30000000)) {
+        /*@ assert !sk_joint_time_range(p, j); */
+        return false;
+      }
     }
-  }
-  return true;
-}
-
-/*@ requires \valid_read(p) && 0 <= j < SK_JOINTS && 0 <= r < BERM_BRAKE_REACHES;
-  @ assigns \nothing;
-  @ ensures \result == true <==> (\forall integer c; 1 <= c < BERM_BRAKE_SPEEDS ==> p->brake_time_us[j][r][c - 1] <= p->brake_time_us[j][r][c]);
-  @*/
-static bool time_row_rises_with_speed(const berm_parameters *p, int32_t j, int32_t r)
-{
-  int32_t c;
-  /*@ loop invariant 1 <= c <= BERM_BRAKE_SPEEDS;
-    @ loop invariant \forall integer k; 1 <= k < c ==> p->brake_time_us[j][r][k - 1] <= p->brake_time_us[j][r][k];
-    @ loop assigns c;
-    @ loop variant BERM_BRAKE_SPEEDS - c;
-    @*/
-  for (c = 1; c < BERM_BRAKE_SPEEDS; c++) {
-    if (p->brake_time_us[j][r][c - 1] > p->brake_time_us[j][r][c]) { return false; }
+    /*@ assert sk_joint_time_range(p, j); */
   }
   return true;
 }
@@ -209,37 +189,23 @@ static bool times_rise_with_speed(const berm_parameters *p)
 {
   int32_t j, r;
   /*@ loop invariant 0 <= j <= SK_JOINTS;
-    @ loop invariant \forall integer i, m, c; 0 <= i < j && 0 <= m < BERM_BRAKE_REACHES && 1 <= c < BERM_BRAKE_SPEEDS ==> p->brake_time_us[i][m][c - 1] <= p->brake_time_us[i][m][c];
+    @ loop invariant \forall integer i; 0 <= i < j ==> sk_joint_time_speed(p, i);
     @ loop assigns j, r;
     @ loop variant SK_JOINTS - j;
     @*/
   for (j = 0; j < SK_JOINTS; j++) {
     /*@ loop invariant 0 <= r <= BERM_BRAKE_REACHES;
-      @ loop invariant \forall integer m, c; 0 <= m < r && 1 <= c < BERM_BRAKE_SPEEDS ==> p->brake_time_us[j][m][c - 1] <= p->brake_time_us[j][m][c];
+      @ loop invariant \forall integer m; 0 <= m < r ==> sk_row_rises(&p->brake_time_us[j][m][0]);
       @ loop assigns r;
       @ loop variant BERM_BRAKE_REACHES - r;
       @*/
     for (r = 0; r < BERM_BRAKE_REACHES; r++) {
-      if (!time_row_rises_with_speed(p, j, r)) { return false; }
+      if (!row_rises(p->brake_time_us[j][r])) {
+        /*@ assert !sk_joint_time_speed(p, j); */
+        return false;
+      }
     }
-  }
-  return true;
-}
-
-/*@ requires \valid_read(p) && 0 <= j < SK_JOINTS && 1 <= r < BERM_BRAKE_REACHES;
-  @ assigns \nothing;
-  @ ensures \result == true <==> (\forall integer c; 0 <= c < BERM_BRAKE_SPEEDS ==> p->brake_time_us[j][r - 1][c] <= p->brake_time_us[j][r][c]);
-  @*/
-static bool time_row_rises_with_reach(const berm_parameters *p, int32_t j, int32_t r)
-{
-  int32_t c;
-  /*@ loop invariant 0 <= c <= BERM_BRAKE_SPEEDS;
-    @ loop invariant \forall integer k; 0 <= k < c ==> p->brake_time_us[j][r - 1][k] <= p->brake_time_us[j][r][k];
-    @ loop assigns c;
-    @ loop variant BERM_BRAKE_SPEEDS - c;
-    @*/
-  for (c = 0; c < BERM_BRAKE_SPEEDS; c++) {
-    if (p->brake_time_us[j][r - 1][c] > p->brake_time_us[j][r][c]) { return false; }
+    /*@ assert sk_joint_time_speed(p, j); */
   }
   return true;
 }
@@ -252,19 +218,23 @@ static bool times_rise_with_reach(const berm_parameters *p)
 {
   int32_t j, r;
   /*@ loop invariant 0 <= j <= SK_JOINTS;
-    @ loop invariant \forall integer i, m, c; 0 <= i < j && 1 <= m < BERM_BRAKE_REACHES && 0 <= c < BERM_BRAKE_SPEEDS ==> p->brake_time_us[i][m - 1][c] <= p->brake_time_us[i][m][c];
+    @ loop invariant \forall integer i; 0 <= i < j ==> sk_joint_time_reach(p, i);
     @ loop assigns j, r;
     @ loop variant SK_JOINTS - j;
     @*/
   for (j = 0; j < SK_JOINTS; j++) {
     /*@ loop invariant 1 <= r <= BERM_BRAKE_REACHES;
-      @ loop invariant \forall integer m, c; 1 <= m < r && 0 <= c < BERM_BRAKE_SPEEDS ==> p->brake_time_us[j][m - 1][c] <= p->brake_time_us[j][m][c];
+      @ loop invariant \forall integer m; 1 <= m < r ==> sk_row_under(&p->brake_time_us[j][m - 1][0], &p->brake_time_us[j][m][0]);
       @ loop assigns r;
       @ loop variant BERM_BRAKE_REACHES - r;
       @*/
     for (r = 1; r < BERM_BRAKE_REACHES; r++) {
-      if (!time_row_rises_with_reach(p, j, r)) { return false; }
+      if (!row_under(p->brake_time_us[j][r - 1], p->brake_time_us[j][r])) {
+        /*@ assert !sk_joint_time_reach(p, j); */
+        return false;
+      }
     }
+    /*@ assert sk_joint_time_reach(p, j); */
   }
   return true;
 }

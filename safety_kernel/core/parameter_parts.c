@@ -1,6 +1,15 @@
 #include "parameter_parts.h"
 #include "parameter_range.h"
 
+/*@ requires -30000 <= a <= 30000 && -30000 <= b <= 30000;
+  @ assigns \nothing;
+  @ ensures \result == a * b && -900000000 <= \result <= 900000000;
+  @*/
+static int32_t product(int32_t a, int32_t b)
+{
+  return a * b;
+}
+
 /*@ requires \valid_read(q) && 0 <= a < BERM_PART_VERTICES && 0 <= b < BERM_PART_VERTICES && 0 <= c < BERM_PART_VERTICES;
   @ requires sk_vertex_ok(q, a) && sk_vertex_ok(q, b) && sk_vertex_ok(q, c);
   @ assigns \nothing;
@@ -8,11 +17,11 @@
   @*/
 static bool left_of(const berm_part *q, int32_t a, int32_t b, int32_t c)
 {
-  int64_t bx = (int64_t)q->vertex_mm[b][0] - (int64_t)q->vertex_mm[a][0];
-  int64_t bz = (int64_t)q->vertex_mm[b][1] - (int64_t)q->vertex_mm[a][1];
-  int64_t cx = (int64_t)q->vertex_mm[c][0] - (int64_t)q->vertex_mm[a][0];
-  int64_t cz = (int64_t)q->vertex_mm[c][1] - (int64_t)q->vertex_mm[a][1];
-  return bx * cz - bz * cx > 0;
+  int32_t bx = q->vertex_mm[b][0] - q->vertex_mm[a][0];
+  int32_t bz = q->vertex_mm[b][1] - q->vertex_mm[a][1];
+  int32_t cx = q->vertex_mm[c][0] - q->vertex_mm[a][0];
+  int32_t cz = q->vertex_mm[c][1] - q->vertex_mm[a][1];
+  return product(bx, cz) - product(bz, cx) > 0;
 }
 
 /*@ requires \valid_read(q) && sk_part_vertex_count_ok(q) && sk_part_vertices_ok(q) && 0 <= a < q->vertices && 0 <= b < q->vertices;
@@ -40,16 +49,18 @@ static bool edge_ok(const berm_part *q, int32_t a, int32_t b)
 static bool part_convex(const berm_part *q)
 {
   int32_t k;
-  /*@ loop invariant 0 <= k <= q->vertices;
-    @ loop invariant \forall integer a; 0 <= a < k ==> sk_edge_ok(q, a, sk_next(a, q->vertices));
+  /*@ loop invariant 0 <= k <= q->vertices - 1;
+    @ loop invariant \forall integer a; 0 <= a < k ==> sk_turn_ok(q, a);
     @ loop assigns k;
     @ loop variant q->vertices - k;
     @*/
-  for (k = 0; k < q->vertices; k++) {
-    int32_t next = k + 1 == q->vertices ? 0 : k + 1;
-    if (!edge_ok(q, k, next)) { return false; }
+  for (k = 0; k < q->vertices - 1; k++) {
+    if (!edge_ok(q, k, k + 1)) {
+      /*@ assert !sk_turn_ok(q, k); */
+      return false;
+    }
   }
-  return true;
+  return edge_ok(q, q->vertices - 1, 0);
 }
 
 /*@ requires \valid_read(q) && sk_part_vertex_count_ok(q);

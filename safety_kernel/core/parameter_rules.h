@@ -73,36 +73,44 @@ enum {
   @   0 < p->brake_reach_mm[0] < p->brake_reach_mm[1] && p->brake_reach_mm[1] < p->brake_reach_mm[2] < p->brake_reach_mm[3] &&
   @   p->brake_reach_mm[3] <= SK_COORD_MAX_MM;
   @ predicate sk_rule_brake_reach_covers(berm_parameters *p) = sk_total_reach(p) <= p->brake_reach_mm[BERM_BRAKE_REACHES - 1];
-  @ predicate sk_rule_brake_angle_range(berm_parameters *p) = \forall integer j, r, c;
-  @   0 <= j < SK_JOINTS && 0 <= r < BERM_BRAKE_REACHES && 0 <= c < BERM_BRAKE_SPEEDS ==> sk_within(p->brake_angle_urad[j][r][c], 0, 6283186);
-  @ predicate sk_rule_brake_angle_speed(berm_parameters *p) = \forall integer j, r, c;
-  @   0 <= j < SK_JOINTS && 0 <= r < BERM_BRAKE_REACHES && 1 <= c < BERM_BRAKE_SPEEDS ==>
-  @   p->brake_angle_urad[j][r][c - 1] <= p->brake_angle_urad[j][r][c];
-  @ predicate sk_rule_brake_angle_reach(berm_parameters *p) = \forall integer j, r, c;
-  @   0 <= j < SK_JOINTS && 1 <= r < BERM_BRAKE_REACHES && 0 <= c < BERM_BRAKE_SPEEDS ==>
-  @   p->brake_angle_urad[j][r - 1][c] <= p->brake_angle_urad[j][r][c];
-  @ predicate sk_rule_brake_time_range(berm_parameters *p) = \forall integer j, r, c;
-  @   0 <= j < SK_JOINTS && 0 <= r < BERM_BRAKE_REACHES && 0 <= c < BERM_BRAKE_SPEEDS ==> sk_within(p->brake_time_us[j][r][c], 0, 30000000);
-  @ predicate sk_rule_brake_time_speed(berm_parameters *p) = \forall integer j, r, c;
-  @   0 <= j < SK_JOINTS && 0 <= r < BERM_BRAKE_REACHES && 1 <= c < BERM_BRAKE_SPEEDS ==> p->brake_time_us[j][r][c - 1] <= p->brake_time_us[j][r][c];
-  @ predicate sk_rule_brake_time_reach(berm_parameters *p) = \forall integer j, r, c;
-  @   0 <= j < SK_JOINTS && 1 <= r < BERM_BRAKE_REACHES && 0 <= c < BERM_BRAKE_SPEEDS ==> p->brake_time_us[j][r - 1][c] <= p->brake_time_us[j][r][c];
+  @ predicate sk_row_within(int32_t *row, integer high) = \forall integer c; 0 <= c < BERM_BRAKE_SPEEDS ==> sk_within(row[c], 0, high);
+  @ predicate sk_row_rises(int32_t *row) = \forall integer c; 1 <= c < BERM_BRAKE_SPEEDS ==> row[c - 1] <= row[c];
+  @ predicate sk_row_under(int32_t *row, int32_t *above) = \forall integer c; 0 <= c < BERM_BRAKE_SPEEDS ==> row[c] <= above[c];
+  @ predicate sk_joint_angle_range(berm_parameters *p, integer j) = \forall integer r; 0 <= r < BERM_BRAKE_REACHES ==>
+  @   sk_row_within(&p->brake_angle_urad[j][r][0], 6283186);
+  @ predicate sk_rule_brake_angle_range(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==> sk_joint_angle_range(p, j);
+  @ predicate sk_joint_angle_speed(berm_parameters *p, integer j) = \forall integer r; 0 <= r < BERM_BRAKE_REACHES ==>
+  @   sk_row_rises(&p->brake_angle_urad[j][r][0]);
+  @ predicate sk_rule_brake_angle_speed(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==> sk_joint_angle_speed(p, j);
+  @ predicate sk_joint_angle_reach(berm_parameters *p, integer j) = \forall integer r; 1 <= r < BERM_BRAKE_REACHES ==>
+  @   sk_row_under(&p->brake_angle_urad[j][r - 1][0], &p->brake_angle_urad[j][r][0]);
+  @ predicate sk_rule_brake_angle_reach(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==> sk_joint_angle_reach(p, j);
+  @ predicate sk_joint_time_range(berm_parameters *p, integer j) = \forall integer r; 0 <= r < BERM_BRAKE_REACHES ==>
+  @   sk_row_within(&p->brake_time_us[j][r][0], 30000000);
+  @ predicate sk_rule_brake_time_range(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==> sk_joint_time_range(p, j);
+  @ predicate sk_joint_time_speed(berm_parameters *p, integer j) = \forall integer r; 0 <= r < BERM_BRAKE_REACHES ==>
+  @   sk_row_rises(&p->brake_time_us[j][r][0]);
+  @ predicate sk_rule_brake_time_speed(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==> sk_joint_time_speed(p, j);
+  @ predicate sk_joint_time_reach(berm_parameters *p, integer j) = \forall integer r; 1 <= r < BERM_BRAKE_REACHES ==>
+  @   sk_row_under(&p->brake_time_us[j][r - 1][0], &p->brake_time_us[j][r][0]);
+  @ predicate sk_rule_brake_time_reach(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==> sk_joint_time_reach(p, j);
   @ predicate sk_braking_ok(berm_parameters *p) =
   @   sk_rule_brake_reach_order(p) && sk_rule_brake_reach_covers(p) && sk_rule_brake_angle_range(p) && sk_rule_brake_angle_speed(p) &&
   @   sk_rule_brake_angle_reach(p) && sk_rule_brake_time_range(p) && sk_rule_brake_time_speed(p) && sk_rule_brake_time_reach(p);
   @
   @ // parts: each edge of an outline has every other vertex strictly on its left
   @ logic integer sk_cross(integer ax, integer az, integer bx, integer bz, integer cx, integer cz) = (bx - ax) * (cz - az) - (bz - az) * (cx - ax);
-  @ logic integer sk_next(integer k, integer n) = k + 1 == n ? 0 : k + 1;
   @ predicate sk_left_of(berm_part *q, integer a, integer b, integer c) =
   @   sk_cross(q->vertex_mm[a][0], q->vertex_mm[a][1], q->vertex_mm[b][0], q->vertex_mm[b][1], q->vertex_mm[c][0], q->vertex_mm[c][1]) > 0;
   @ predicate sk_edge_ok(berm_part *q, integer a, integer b) = \forall integer k; 0 <= k < q->vertices && k != a && k != b ==> sk_left_of(q, a, b, k);
+  @ predicate sk_turn_ok(berm_part *q, integer a) = sk_edge_ok(q, a, a + 1);
   @ predicate sk_part_link_ok(berm_part *q) = 1 <= q->link <= 3;
   @ predicate sk_part_width_ok(berm_part *q) = sk_within(q->half_width_mm, 1, 3000);
   @ predicate sk_part_vertex_count_ok(berm_part *q) = 3 <= q->vertices <= BERM_PART_VERTICES;
   @ predicate sk_vertex_ok(berm_part *q, integer k) = sk_within(q->vertex_mm[k][0], -15000, 15000) && sk_within(q->vertex_mm[k][1], -15000, 15000);
   @ predicate sk_part_vertices_ok(berm_part *q) = \forall integer k; 0 <= k < q->vertices ==> sk_vertex_ok(q, k);
-  @ predicate sk_part_convex(berm_part *q) = \forall integer a; 0 <= a < q->vertices ==> sk_edge_ok(q, a, sk_next(a, q->vertices));
+  @ predicate sk_part_convex(berm_part *q) =
+  @   (\forall integer a; 0 <= a < q->vertices - 1 ==> sk_turn_ok(q, a)) && sk_edge_ok(q, q->vertices - 1, 0);
   @ predicate sk_rule_part_count(berm_parameters *p) = 1 <= p->parts <= BERM_PARTS;
   @ predicate sk_rule_part_link(berm_parameters *p) = \forall integer i; 0 <= i < p->parts ==> sk_part_link_ok(&p->part[i]);
   @ predicate sk_rule_part_width(berm_parameters *p) = \forall integer i; 0 <= i < p->parts ==> sk_part_width_ok(&p->part[i]);

@@ -223,9 +223,9 @@ int32_t sk_request_check(sk_request_state *state, const uint8_t raw[SK_REQUEST_B
   if (result != BERM_REQUEST_ACCEPTED) { return result; }
   if (!age_ok(read_s64(raw, 16), now_us, p->request_age_us)) { return BERM_REQUEST_AGE; }
   if (!ranges_ok(raw, p)) { return BERM_REQUEST_RANGE; }
-  decode(raw, out);
   state->primed = true;
   state->last_sequence = read_u32(raw, 8);
   state->last_accept_us = now_us;
+  decode(raw, out);
   return BERM_REQUEST_ACCEPTED;
 }

@@ -83,8 +83,9 @@ typedef struct sk_request_state {
   @ ensures velocities: \result == BERM_REQUEST_ACCEPTED ==> sk_velocities_decoded(raw, out);
   @ ensures pan_goals: \result == BERM_REQUEST_ACCEPTED ==> sk_pan_goals_decoded(raw, out);
   @ ensures pan_rates: \result == BERM_REQUEST_ACCEPTED ==> sk_pan_rates_decoded(raw, out);
-  @ ensures state_follows: \result == BERM_REQUEST_ACCEPTED ==>
-  @   state->primed == true && state->last_sequence == sk_le32(raw, 8) && state->last_accept_us == now_us;
+  @ ensures primes: \result == BERM_REQUEST_ACCEPTED ==> state->primed == true;
+  @ ensures remembers: \result == BERM_REQUEST_ACCEPTED ==> state->last_sequence == sk_le32{Pre}(raw, 8);
+  @ ensures stamps: \result == BERM_REQUEST_ACCEPTED ==> state->last_accept_us == now_us;
   @ ensures refused_keeps_state: \result != BERM_REQUEST_ACCEPTED ==> *state == \old(*state);
   @ ensures refused_keeps_out: \result != BERM_REQUEST_ACCEPTED ==> *out == \old(*out);
   @ ensures why_magic: \result == BERM_REQUEST_MAGIC ==> !sk_request_magic(raw);

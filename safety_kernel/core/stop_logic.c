@@ -197,6 +197,7 @@ static void take_up(sk_stop_state *s, stop_demand d)
   @ ensures run: s->code == SK_STATE_RUN <==> d.rank == SK_RANK_NONE && d.go == true && \old(s->code) == SK_STATE_STANDBY;
   @ ensures init: s->code == SK_STATE_INIT ==> \old(s->code) == SK_STATE_INIT;
   @ ensures init_latch: \old(s->code) == SK_STATE_INIT && d.rank == SK_RANK_LATCH ==> s->code == SK_STATE_INIT;
+  @ ensures cut: d.cut == true && s->code != SK_STATE_INIT ==> s->category == SK_CATEGORY_0;
   @ ensures rest: s->code != SK_STATE_STOPPING && (s->code == SK_STATE_STOPPED ==> s->latched == true);
   @*/
 static void step_idle(sk_stop_state *s, stop_demand d, bool inputs_ready)

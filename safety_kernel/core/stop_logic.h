@@ -101,30 +101,30 @@ void sk_stop_init(sk_stop_state *s);
   @ ensures corrupt: !sk_stop_valid{Pre}(s) ==>
   @   s->code == SK_STATE_FAULT && s->reason == BERM_STOP_INTERNAL && s->category == SK_CATEGORY_0;
   @ ensures motion: out->motion_enabled == true <==> s->code == SK_STATE_RUN;
-  @ ensures motion_quiet: s->code == SK_STATE_RUN ==> sk_stop_quiet(in);
-  @ ensures motion_go: s->code == SK_STATE_RUN ==> sk_stop_go(in);
+  @ ensures motion_quiet: s->code == SK_STATE_RUN ==> sk_stop_quiet{Pre}(in);
+  @ ensures motion_go: s->code == SK_STATE_RUN ==> sk_stop_go{Pre}(in);
   @ ensures power: out->heartbeat_enable == true <==> s->code == SK_STATE_RUN ||
   @   (s->code == SK_STATE_STOPPING && s->category != SK_CATEGORY_0) || (s->code == SK_STATE_STOPPED && s->latched == false);
-  @ ensures cut: sk_stop_cut(in) ==> out->heartbeat_enable == false;
+  @ ensures cut: sk_stop_cut{Pre}(in) ==> out->heartbeat_enable == false;
   @ ensures no_jump: s->code == SK_STATE_RUN ==> sk_stop_valid{Pre}(s) && \old(s->latched) == false &&
   @   (\old(s->code) == SK_STATE_STANDBY || \old(s->code) == SK_STATE_RUN || \old(s->code) == SK_STATE_STOPPED);
   @ ensures no_init: s->code == SK_STATE_INIT ==> \old(s->code) == SK_STATE_INIT;
   @ ensures latch: sk_stop_valid{Pre}(s) && \old(s->latched) == true ==> s->latched == true || (s->code == SK_STATE_STANDBY &&
   @   sk_stop_reset{Pre}(s, in) && (\old(s->code) == SK_STATE_STOPPED || \old(s->code) == SK_STATE_FAULT));
-  @ ensures fault_latches: sk_stop_fault(in) ==> s->rank == SK_RANK_FAULT;
-  @ ensures latch_latches: sk_stop_latch(in) && \old(s->code) != SK_STATE_INIT ==> s->latched == true;
-  @ ensures latch_in_init: sk_stop_latch(in) && \old(s->code) == SK_STATE_INIT ==> s->code == SK_STATE_INIT || s->code == SK_STATE_FAULT;
-  @ ensures hold_stops: sk_stop_hold(in) ==> s->code != SK_STATE_RUN;
+  @ ensures fault_latches: sk_stop_fault{Pre}(in) ==> s->rank == SK_RANK_FAULT;
+  @ ensures latch_latches: sk_stop_latch{Pre}(in) && \old(s->code) != SK_STATE_INIT ==> s->latched == true;
+  @ ensures latch_in_init: sk_stop_latch{Pre}(in) && \old(s->code) == SK_STATE_INIT ==> s->code == SK_STATE_INIT || s->code == SK_STATE_FAULT;
+  @ ensures hold_stops: sk_stop_hold{Pre}(in) ==> s->code != SK_STATE_RUN;
   @ ensures fault_stays: \old(s->code) == SK_STATE_FAULT ==> s->code == SK_STATE_FAULT || s->code == SK_STATE_STANDBY;
   @ ensures first_reason: sk_stop_valid{Pre}(s) && \old(s->rank) != 0 && s->rank != 0 ==>
   @   s->rank > \old(s->rank) || (s->rank == \old(s->rank) && s->reason == \old(s->reason));
   @ ensures no_weaker: sk_stop_valid{Pre}(s) && \old(s->category) == SK_CATEGORY_0 && s->latched == true ==> s->category == SK_CATEGORY_0;
   @ ensures not_forever: \old(s->code) == SK_STATE_STOPPING && s->code == SK_STATE_STOPPING ==>
   @   in->standstill == false && !sk_stop_overdue{Pre}(s, in);
-  @ ensures starts: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_STANDBY && sk_stop_quiet(in) && sk_stop_go(in) ==> s->code == SK_STATE_RUN;
-  @ ensures runs_on: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_RUN && sk_stop_quiet(in) && sk_stop_go(in) ==> s->code == SK_STATE_RUN;
-  @ ensures resumes: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_STOPPED && \old(s->latched) == false && sk_stop_quiet(in) &&
-  @   sk_stop_go(in) ==> s->code == SK_STATE_RUN;
+  @ ensures starts: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_STANDBY && sk_stop_quiet{Pre}(in) && sk_stop_go{Pre}(in) ==> s->code == SK_STATE_RUN;
+  @ ensures runs_on: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_RUN && sk_stop_quiet{Pre}(in) && sk_stop_go{Pre}(in) ==> s->code == SK_STATE_RUN;
+  @ ensures resumes: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_STOPPED && \old(s->latched) == false && sk_stop_quiet{Pre}(in) &&
+  @   sk_stop_go{Pre}(in) ==> s->code == SK_STATE_RUN;
   @ ensures resets: sk_stop_valid{Pre}(s) && (\old(s->code) == SK_STATE_STOPPED || \old(s->code) == SK_STATE_FAULT) &&
   @   \old(s->latched) == true && sk_stop_reset{Pre}(s, in) ==> s->code == SK_STATE_STANDBY;
   @ ensures since: s->code != \old(s->code) ==> s->since_us == in->now_us;

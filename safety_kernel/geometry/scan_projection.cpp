@@ -41,9 +41,10 @@ int filter_spurious(uint32_t* range_mm, int count, uint32_t threshold_mm) noexce
     before[1] = before[0];
     before[0] = here;
     if (here == 0) continue;
-    const bool alone = previous == 0 && next == 0;
-    const bool odd = previous != 0 && next != 0 && differs(here, previous, threshold_mm) && differs(here, next, threshold_mm);
-    if (!alone && !odd) continue;
+    // Supported by a neighbour that agrees, or by lying between two: ground that recedes, however steeply.
+    const bool agrees = (previous != 0 && !differs(here, previous, threshold_mm)) || (next != 0 && !differs(here, next, threshold_mm));
+    const bool between = previous != 0 && next != 0 && here >= std::min(previous, next) && here <= std::max(previous, next);
+    if (agrees || between) continue;
     range_mm[i] = 0;
     ++dropped;
   }

@@ -13,8 +13,8 @@ namespace berm::kernel {
 // Last echo and number of echoes of each of the packet's samples; range 0 where there is none.
 void last_echoes(const berm_scan_packet& packet, uint32_t (&range_mm)[BERM_SCAN_PACKET_SAMPLES], uint8_t (&echoes)[BERM_SCAN_PACKET_SAMPLES]) noexcept;
 
-// Sets to 0 every return that differs by more than the threshold from both its neighbours (the nearest return before and after it, no
-// farther than two samples), and every return without any neighbour. One neighbour that differs is not enough. Returns how many were dropped.
+// Sets to 0 every return that nothing supports: no neighbour (the nearest return before and after it, no farther than two samples) that agrees
+// within the threshold, nor two neighbours that it lies between. Returns how many were dropped.
 // What it can hide: an object met by one sample alone, or by two that differ among themselves by more than the threshold (requirement SK-GE-23).
 int filter_spurious(uint32_t* range_mm, int count, uint32_t threshold_mm) noexcept;
 

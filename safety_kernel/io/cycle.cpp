@@ -13,7 +13,7 @@ Cycle::Cycle(const berm_parameters& parameters, bool map_only)
       self_(parameters),
       commands_(parameters.command_latency_us + parameters.state_latency_us + parameters.cycle_us),
       motion_(parameters),
-      rim_(parameters) {
+      own_cells_(parameters) {
   sk_map_clear(&map_);
   sk_stop_init(&stop_);
 }
@@ -28,7 +28,7 @@ void Cycle::step(const CycleInputs& in, CycleOutputs& out) {
   map_points_ += scans_.points() - points_before;
   take_points(in);
   if (!map_only_) {
-    rim_.stamp(map_, in.now_us, parameters_.generation_us);
+    own_cells_.stamp(map_, in.now_us, parameters_.generation_us);
     take_request(in);
     judge_motion(in.now_us);
     step_stop_logic(in);

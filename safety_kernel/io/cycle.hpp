@@ -92,7 +92,7 @@ class Cycle {
   JointHistory joints_;
   CommandHistory commands_;
   MotionCheck motion_;
-  OwnRim rim_;
+  OwnCells own_cells_;
   StandstillWatch standstill_watch_;
   sk_height_map map_;
   sk_request_state request_state_{};

@@ -78,7 +78,7 @@ std::uint8_t MotionCheck::clear(const MotionQuery& query, const sk_height_map& m
   rules_.dig_allowed = box.speed_urad_s[BERM_SWING] <= parameters_.dig_swing_limit_urad_s;
   for (int s = 0; s < slices.count; ++s) {
     const sk_slice& slice = slices.slice[s];
-    rules_.own_body_radius_mm = slice.link == BERM_BOOM ? own_and_rim_radius_mm(parameters_) : parameters_.own_body_radius_mm;
+    rules_.own_body_radius_mm = slice.link == BERM_BOOM ? own_and_rim_radius_mm(parameters_) : 0;  // the map has the columns
     // The search may fail or be wrong: what it chose is only a claim, which the core checks.
     choose_planes(map, slice, rules_, choice_);
     sk_clearance_result result{};

@@ -24,20 +24,20 @@ Span span_of(std::int32_t index) {
 
 }  // namespace
 
-OwnRim::OwnRim(const berm_parameters& parameters) {
+OwnCells::OwnCells(const berm_parameters& parameters) {
   const std::int64_t radius_squared = static_cast<std::int64_t>(parameters.own_body_radius_mm) * parameters.own_body_radius_mm;
   for (std::int32_t iy = 0; iy < SK_MAP_CELLS; ++iy) {
     for (std::int32_t ix = 0; ix < SK_MAP_CELLS; ++ix) {
       const Span x = span_of(ix), y = span_of(iy);
-      const bool touched = x.near * x.near + y.near * y.near < radius_squared;
-      const bool inside = x.far * x.far + y.far * y.far < radius_squared;
-      if (touched && !inside && count_ < kCapacity) cell_[count_++] = {iy, ix};
+      if (x.near * x.near + y.near * y.near >= radius_squared) continue;
+      const bool inside = x.far * x.far + y.far * y.far <= radius_squared;
+      cell_[count_++] = {iy, ix, inside ? SK_HEIGHT_MAX_MM : kBodyTopMm};
     }
   }
 }
 
-void OwnRim::stamp(sk_height_map& map, std::int64_t now_us, std::int32_t generation_us) const {
-  for (int i = 0; i < count_; ++i) sk_map_insert(&map, cell_[i].iy, cell_[i].ix, kBodyTopMm, now_us, generation_us);
+void OwnCells::stamp(sk_height_map& map, std::int64_t now_us, std::int32_t generation_us) const {
+  for (int i = 0; i < count_; ++i) sk_map_insert(&map, cell_[i].iy, cell_[i].ix, cell_[i].height_mm, now_us, generation_us);
 }
 
 }  // namespace berm::kernel

@@ -1,9 +1,10 @@
-// The machine's own cells, and the rim around them.
+// The machine's own cells in the map.
 //
-// The self filter drops every return nearer the swing axis than the own body's radius. Cells wholly inside that circle are the machine's own
-// (core/clearance.h). Cells that the circle only touches, the rim, can stay unobserved for ever, and the boom is always over some of them:
-//   for the boom they count as the machine's own as well;
-//   for stick and bucket they are as high as the own body may be, and higher where something higher was seen.
+// The self filter drops every return nearer the swing axis than the own body's radius, so these cells are never observed, nor reliably are
+// those that the circle only touches (the rim); and the boom is always over some of them. Therefore:
+//   for the boom, cells within the radius and a cell's diagonal are the machine's own: nothing to check (core/clearance.h);
+//   for stick and bucket, a cell wholly inside the circle is a column without end: passed at the side, never over;
+//   a cell of the rim is as high as the own body may be, and higher where something higher was seen.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +14,22 @@
 
 namespace berm::kernel {
 
-// Own body and rim lie wholly nearer the swing axis than this: radius and a cell's diagonal.
+// Own body and rim lie wholly nearer the swing axis than this.
 constexpr std::int32_t kCellDiagonalMm = SK_CELL_MM * 1415 / 1000 + 1;
 constexpr std::int32_t own_and_rim_radius_mm(const berm_parameters& parameters) { return parameters.own_body_radius_mm + kCellDiagonalMm; }
 
-class OwnRim {
+class OwnCells {
  public:
-  explicit OwnRim(const berm_parameters& parameters);
-  // Keeps the rim's cells at the own body's height at least. Once a cycle.
+  explicit OwnCells(const berm_parameters& parameters);
+  // Keeps these cells at their heights at least, and fresh. Once a cycle.
   void stamp(sk_height_map& map, std::int64_t now_us, std::int32_t generation_us) const;
-  int count() const { return count_; }
 
  private:
   struct Cell {
-    std::int32_t iy, ix;
+    std::int32_t iy, ix, height_mm;
   };
-  // A circle of radius r crosses at most 8 (r / cell + 1) cells; the parameter check lets pass 6 m.
-  static constexpr int kCapacity = 8 * (6000 / SK_CELL_MM + 2);
-  Cell cell_[kCapacity];
+  static constexpr int kSide = 2 * (6000 / SK_CELL_MM + 2);  // the parameter check lets pass a radius of 6 m
+  Cell cell_[kSide * kSide];
   int count_ = 0;
 };
 

@@ -92,7 +92,7 @@ std::uint8_t Publisher::status(const sk_height_map& map, int iy, int ix, std::in
     return std::max(std::llabs(low), std::llabs(low + SK_CELL_MM));
   };
   const std::int64_t x = far_edge(ix), y = far_edge(iy);
-  if (x * x + y * y < own_cells_radius_mm_ * own_cells_radius_mm_) return BERM_CELL_OWN_BODY;
+  if (x * x + y * y <= own_cells_radius_mm_ * own_cells_radius_mm_) return BERM_CELL_OWN_BODY;
   if (map.seen_us[iy][ix] < 0) return BERM_CELL_UNKNOWN;
   return now_us - map.seen_us[iy][ix] > parameters_.fresh_us ? BERM_CELL_STALE : BERM_CELL_OBSERVED;
 }
@@ -100,9 +100,10 @@ std::uint8_t Publisher::status(const sk_height_map& map, int iy, int ix, std::in
 void Publisher::map_rows(const sk_height_map& map, std::int64_t now_us) {
   for (int row = 0; row < kMapRows; ++row) {
     for (int ix = 0; ix < SK_MAP_CELLS; ++ix) {
-      const bool seen = map.seen_us[next_row_][ix] >= 0;
-      segment_.map_height_mm[next_row_][ix] = seen ? sk_map_top(&map, next_row_, ix) : 0;
-      segment_.map_status[next_row_][ix] = status(map, next_row_, ix, now_us);
+      const std::uint8_t kind = status(map, next_row_, ix, now_us);
+      const bool measured = kind == BERM_CELL_OBSERVED || kind == BERM_CELL_STALE;
+      segment_.map_height_mm[next_row_][ix] = measured ? sk_map_top(&map, next_row_, ix) : 0;
+      segment_.map_status[next_row_][ix] = kind;
     }
     next_row_ = (next_row_ + 1) % SK_MAP_CELLS;
   }

@@ -38,7 +38,7 @@ TEST(Skyline, ContactInTheDigZoneOnlyWhileTheSwingIsSlowAndAboveTheFloor) {
   ASSERT_TRUE(digging);
   EXPECT_TRUE(sky.clear(*digging, {}));
   EXPECT_FALSE(sky.clear(*digging, {radians(8.0), 0.0, 0.0, 0.0}));
-  const auto deep = inverse_tip(m, {6.6, -3.3}, radians(-110.0), radians(7.0));
+  const auto deep = inverse_tip(m, {6.2, -3.3}, radians(-110.0), radians(7.0));
   ASSERT_TRUE(deep);
   EXPECT_FALSE(sky.clear(*deep, {}));
   Joints aside = *digging;

@@ -38,6 +38,13 @@ TEST(Spurious, TheThresholdItselfIsKept) {
   EXPECT_EQ(filtered({5000, 3999, 5000}), (Ranges{5000, 0, 5000}));
 }
 
+// Ground that recedes steeply is no spurious return, however far apart its samples lie.
+// verifies: SK-GE-23
+TEST(Spurious, KeepsAReturnBetweenItsNeighbours) {
+  EXPECT_EQ(filtered({4500, 5000, 7000, 9500, 10000}), (Ranges{4500, 5000, 7000, 9500, 10000}));
+  EXPECT_EQ(filtered({10000, 9500, 7000, 5000, 4500}), (Ranges{10000, 9500, 7000, 5000, 4500}));
+}
+
 // verifies: SK-GE-23
 TEST(Spurious, KeepsTwoReturnsThatAgree) {
   EXPECT_EQ(filtered({9000, 9000, 5000, 5100, 9000, 9000}), (Ranges{9000, 9000, 5000, 5100, 9000, 9000}));
@@ -52,11 +59,12 @@ TEST(Spurious, DropsAReturnWithoutNeighbours) {
   EXPECT_EQ(filtered({5000}), (Ranges{0}));
 }
 
-// One neighbour that differs is not enough: an edge seen at the end of a run stays.
+// One neighbour must agree: a lone return against the sky is a bird or noise. A run's last return that agrees stays.
 // verifies: SK-GE-23
-TEST(Spurious, KeepsAReturnWithOnlyOneNeighbour) {
-  EXPECT_EQ(filtered({5000, 2000}), (Ranges{5000, 2000}));
-  EXPECT_EQ(filtered({5000, 5000, 2000, 0, 0, 0}), (Ranges{5000, 5000, 2000, 0, 0, 0}));
+TEST(Spurious, WantsAnAgreeingNeighbourAtTheEndOfARun) {
+  EXPECT_EQ(filtered({5000, 2000}), (Ranges{0, 0}));
+  EXPECT_EQ(filtered({5000, 5000, 2000, 0, 0, 0}), (Ranges{5000, 5000, 0, 0, 0, 0}));
+  EXPECT_EQ(filtered({5000, 5000, 5500, 0, 0, 0}), (Ranges{5000, 5000, 5500, 0, 0, 0}));
 }
 
 // Each return is judged by its neighbours as they came, not by what the filter left of them.

@@ -32,7 +32,7 @@ TEST(CycleMotion, UnknownGroundIsBlocked) {
 // verifies: SK-CY-20
 TEST(CycleMotion, AMachineAtFullSwingStopsBeforeTheWall) {
   CycleRig rig;
-  rig.machine.angle_rad[0] = 0.6;
+  rig.machine.angle_rad[0] = 0.4;
   rig.machine.pan_low_rad = -0.3;
   rig.machine.pan_high_rad = 2.2;  // ahead of the swing to the left
   rig.machine.wall = {6.6, 5.0};   // swing reaches it at about 90 degrees with the tip
@@ -53,25 +53,29 @@ TEST(CycleMotion, AMachineAtFullSwingStopsBeforeTheWall) {
   EXPECT_GE(rig.state().stop_count[rig.state().stop_reason], 1U);
 }
 
+constexpr int kBucket = BERM_BUCKET;
+constexpr double kCurled = -135.8 * kPi / 180;  // -136 degrees is the end
+constexpr double kMiddle = -40.0 * kPi / 180;
+
 // verifies: SK-CY-22
 TEST(CycleMotion, AJointNearItsLimitCreepsBackAndNotOut) {
   CycleRig rig;
   ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, kStartLimit));
-  rig.machine.angle_rad[1] = 69.8 * kPi / 180;  // boom: 70 degrees is the end
-  rig.wanted_urad_s[1] = 200000;
+  rig.machine.angle_rad[kBucket] = kCurled;
+  rig.wanted_urad_s[kBucket] = -200000;
   rig.steps(40);
-  EXPECT_EQ(rig.state().commanded_urad_s[1], 0);
+  EXPECT_EQ(rig.state().commanded_urad_s[kBucket], 0);
   EXPECT_EQ(rig.state().stop_reason, BERM_STOP_JOINT_RANGE);
-  rig.wanted_urad_s[1] = -200000;
+  rig.wanted_urad_s[kBucket] = 200000;
   ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, 60)) << "reason " << int(rig.state().stop_reason);
-  EXPECT_LT(rig.state().commanded_urad_s[1], 0);
-  EXPECT_GE(rig.state().commanded_urad_s[1], -rig.parameters.creep_velocity_urad_s[1]);
+  EXPECT_GT(rig.state().commanded_urad_s[kBucket], 0);
+  EXPECT_LE(rig.state().commanded_urad_s[kBucket], rig.parameters.creep_velocity_urad_s[kBucket]);
   // Stays in RUN all the way out of the limit: recovery does not flicker.
   for (int i = 0; i < 400; ++i) {
     rig.step();
     ASSERT_EQ(rig.state().kernel_state, BERM_STATE_RUN) << "cycle " << i << " reason " << int(rig.state().stop_reason);
   }
-  EXPECT_LT(rig.machine.angle_rad[1], 66.0 * kPi / 180);
+  EXPECT_GT(rig.machine.angle_rad[kBucket], kCurled + 0.2);
 }
 
 // verifies: SK-CY-23
@@ -79,13 +83,13 @@ TEST(CycleMotion, AStillMachineInABlockedPlaceIsHeldButNotCountedAsStopped) {
   CycleRig rig;
   ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, kStartLimit));
   rig.steps(50);
-  rig.machine.angle_rad[1] = 69.8 * kPi / 180;
+  rig.machine.angle_rad[kBucket] = kCurled;
   rig.steps(50);
   EXPECT_EQ(rig.state().kernel_state, BERM_STATE_STOPPED);
   EXPECT_EQ(rig.state().stop_reason, BERM_STOP_JOINT_RANGE);
   EXPECT_EQ(rig.state().stop_category, 2);
   EXPECT_EQ(rig.state().stop_count[BERM_STOP_JOINT_RANGE], 0U);
-  rig.machine.angle_rad[1] = 50.0 * kPi / 180;
+  rig.machine.angle_rad[kBucket] = kMiddle;
   EXPECT_TRUE(rig.reach_state(BERM_STATE_RUN, 100));
 }
 

@@ -1,0 +1,50 @@
+// What the app writes is never refused for its form.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/observation.hpp"
+#include "app_bench/bench_machine.hpp"
+#include "scan/scan_packet.h"
+
+namespace {
+
+using namespace berm::app;
+
+TEST(Request, CutsEveryValueToItsLimit) {
+  const MachineModel m = berm::app_bench::zx200();
+  Answer answer;
+  answer.velocity = {99.0, -99.0, 99.0, -99.0};
+  answer.pan = {{{99.0, 99.0}, {-99.0, -1.0}}};
+  answer.phase = BERM_PHASE_DUMP;
+  answer.horn = true;
+  const berm_request r = make_request(m, answer, 7, 123456);
+  for (std::size_t j = 0; j < joints; ++j) EXPECT_LE(std::abs(r.joint_velocity_urad_s[j]), static_cast<std::int32_t>(m.joint[j].velocity_max * 1e6));
+  EXPECT_LE(r.pan_goal_urad[0], m.scanner[0].pan_high * 1e6);
+  EXPECT_GE(r.pan_goal_urad[1], m.scanner[1].pan_low * 1e6);
+  EXPECT_EQ(r.pan_rate_urad_s[1], 0);
+  EXPECT_EQ(r.flags, BERM_REQUEST_FLAG_HORN);
+  EXPECT_EQ(r.sequence, 7u);
+  EXPECT_EQ(r.stamp_us, 123456);
+  EXPECT_EQ(r.reserved_tail, 0u);
+  EXPECT_EQ(r.crc32, berm_crc32(reinterpret_cast<const std::uint8_t*>(&r), offsetof(berm_request, crc32)));
+}
+
+TEST(Request, ObservationIsInRadians) {
+  berm_state state{};
+  state.joint_angle_urad[0] = 1500000;
+  state.joint_velocity_urad_s[3] = -250000;
+  state.time_us = 2500000;
+  state.payload_kg = -1;
+  state.panel = BERM_PANEL_TRUCK_PARKED;
+  state.kernel_state = BERM_STATE_RUN;
+  const Observation o = observe(state);
+  EXPECT_DOUBLE_EQ(o.angle[swing], 1.5);
+  EXPECT_DOUBLE_EQ(o.velocity[bucket], -0.25);
+  EXPECT_DOUBLE_EQ(o.time_s, 2.5);
+  EXPECT_LT(o.payload_kg, 0.0);
+  EXPECT_TRUE(o.truck_parked);
+  EXPECT_TRUE(o.running());
+}
+
+}  // namespace
