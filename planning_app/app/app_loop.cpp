@@ -9,6 +9,7 @@ namespace berm::app {
 namespace {
 
 constexpr int wait_ms = 100;
+constexpr std::uint64_t map_every = 25;  // cycles; the kernel needs about as many to publish its whole map
 
 bool send_tick(int fd, const Tick& tick) {
   if (fd < 0) return true;
@@ -36,6 +37,7 @@ LoopEnd run_loop(const MachineModel& machine, KernelLink& link, Sequencer& seque
     handled = state.cycle;
     any = true;
     intake.take(link.segment(), sequencer.terrain(), sequencer.bed());
+    if (state.cycle % map_every == 0) sequencer.kernel_map().take(link.segment());
     const Answer answer = sequencer.step(observe(state));
     link.write(make_request(machine, answer, ++sequence, state.time_us));
     if (!send_tick(tick_fd, {state.cycle, sequencer.finished() ? tick_finished : 0u, 0u})) return LoopEnd::tick_peer_gone;

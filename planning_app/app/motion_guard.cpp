@@ -19,6 +19,10 @@ Joints guarded(const MachineModel& machine, const Skyline& skyline, const Joints
     for (const std::size_t j : {boom, stick, bucket}) slowed[j] *= share.arm;
     if (skyline.clear(angle, slowed)) return slowed;
   }
+  return crept(machine, command);
+}
+
+Joints crept(const MachineModel& machine, const Joints& command) {
   Joints creep = command;
   for (std::size_t j = 0; j < joints; ++j) {
     const double limit = 0.9 * machine.joint[j].creep_velocity;

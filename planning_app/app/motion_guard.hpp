@@ -9,4 +9,7 @@ namespace berm::app {
 // everything creeps and the kernel decides.
 Joints guarded(const MachineModel& machine, const Skyline& skyline, const Joints& angle, const Joints& command);
 
+// Every joint at most at its creep speed.
+Joints crept(const MachineModel& machine, const Joints& command);
+
 }  // namespace berm::app

@@ -10,15 +10,17 @@ namespace berm::app {
 namespace {
 
 constexpr double full_bucket_kg = 1560.0;         // what a pass is planned to bring at most
-constexpr double loose_density = 1340.0;          // kg/m3
-constexpr double swell = 1.10;
-constexpr double cut_reserve = 1.12;              // the cut is planned larger than the goal; the weighing ends it
+constexpr double heaped_kg = 1600.0;              // what the bucket holds
+constexpr double bank_density = 1474.0;           // kg/m3, where nothing was learned yet
+constexpr double cut_reserve = 1.05;              // the cut is planned larger than the goal; the estimate ends it
 constexpr double script_period = 0.1;             // s
 constexpr double skyline_period = 0.5;
 constexpr double arrived = radians(1.5);
 constexpr double still = radians(0.8);            // rad/s
-constexpr double air_speed = 1.1, soil_speed = 0.75, curl_speed = 1.3;  // m/s of the tip
+constexpr double air_speed = 1.1, soil_speed = 1.3, curl_speed = 1.5;  // m/s of the tip
 constexpr double stall_patience = 1.0;            // s
+constexpr double curled = radians(-174.0);        // absolute bucket angle with the mouth up
+constexpr double near_truck = radians(20.0);      // either side of the dump's bearing
 constexpr double horn_s = 1.0;
 constexpr double bed_points_age = 12.0;           // s, for the bed map
 
@@ -43,10 +45,6 @@ Sequencer::Sequencer(const MachineModel& machine, const SiteModel& site, int tru
   dig_.bearing = site.dig_swing_right - radians(60.0);  // no dig before the first: nothing to stay away from
 }
 
-bool Sequencer::standing(const Observation& o) const {
-  return std::all_of(o.velocity.begin(), o.velocity.end(), [](double v) { return std::fabs(v) < still; });
-}
-
 void Sequencer::enter(Stage stage, const Observation& o) {
   stage_ = stage;
   stage_s_ = o.time_s;
@@ -60,20 +58,19 @@ void Sequencer::enter_phase(std::uint16_t phase, const Observation& o) {
 
 void Sequencer::look(const Observation& o) {
   if (skyline_ && o.time_s - skyline_s_ < skyline_period) return;
-  skyline_.emplace(machine_, site_, terrain_);
+  skyline_.emplace(machine_, site_, kernel_map_.ground(KernelMap::Unseen::blocked));
   skyline_s_ = o.time_s;
 }
 
 DigNeeds Sequencer::needs_for(double kg) const {
   DigNeeds needs;
-  needs.volume = cut_reserve * std::max(300.0, kg) / loose_density / swell;
+  needs.volume = cut_reserve * std::max(300.0, kg) / (yield_ * bank_density);
   needs.bucket_width = bucket_width(machine_);
-  needs.bias = depth_bias_;
   return needs;
 }
 
 void Sequencer::plan_next_dig() {
-  dig_ = choose_dig(site_, terrain_, needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg), dig_.bearing);
+  dig_ = choose_dig(machine_, site_, terrain_, needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg), dig_.bearing);
 }
 
 void Sequencer::begin_approach(const Observation& o, bool lower) {
@@ -117,8 +114,8 @@ Joints Sequencer::settle(const Observation& o) {
 void Sequencer::begin_dig(const Observation& o) {
   goal_kg_ = fill_.next_goal_kg(full_bucket_kg);
   const DigNeeds needs = needs_for(goal_kg_);
-  surface_.emplace(terrain_, o.angle[swing], needs.bucket_width);
-  dig_ = plan_dig(site_, terrain_, needs, o.angle[swing]);
+  cut_.emplace(machine_, SurfaceProfile(terrain_, o.angle[swing], needs.bucket_width), needs.bucket_width);
+  dig_ = plan_dig(machine_, site_, terrain_, needs, o.angle[swing]);
   const ArmPoints now = forward(machine_, o.angle);
   std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}};
   way.insert(way.end(), dig_.drag.begin(), dig_.drag.end());
@@ -128,7 +125,7 @@ void Sequencer::begin_dig(const Observation& o) {
     begin_approach(o, true);
     return;
   }
-  log_.event("dig", {{"bearing_deg", degrees(dig_.bearing)}, {"depth_m", dig_.depth}, {"volume_m3", dig_.volume}, {"goal_kg", goal_kg_}, {"path_m", path->length()}});
+  log_.event("dig", {{"bearing_deg", degrees(dig_.bearing)}, {"depth_m", dig_.depth}, {"volume_m3", dig_.volume}, {"goal_kg", goal_kg_}, {"yield", yield_}, {"path_m", path->length()}});
   follower_.begin(std::move(*path));
   pass_began_s_ = pass_ == 0 || pass_began_s_ == 0.0 ? o.time_s : pass_began_s_;
   enter_phase(BERM_PHASE_DIG, o);
@@ -145,51 +142,61 @@ void Sequencer::cut_passage(const Observation& o) {
   }
 }
 
-// A drag that ended light goes deeper next time; one that stalled or was heavy long before its end, shallower.
-void Sequencer::learn_depth(bool stalled, bool heavy) {
-  constexpr double most = 0.5;
-  const double share = goal_kg_ > 0.0 ? recent_.kg() / goal_kg_ : 1.0;
-  if (stalled || (heavy && follower_.progress() < 0.6)) depth_bias_ -= 0.08;
-  else if (share < 0.9) depth_bias_ += 0.4 * (0.95 - share);
-  depth_bias_ = std::clamp(depth_bias_, -most, most);
+// What the cut model's cubic metre weighed in the bucket. A full bucket says only that there was at least so much.
+void Sequencer::learn_yield(double weighed_kg) {
+  constexpr double weight = 0.5, least = 0.5, most = 1.8, full_share = 0.97;
+  const double modelled = cut_ ? cut_->volume() * bank_density : 0.0;
+  if (modelled < 200.0) return;
+  const double seen = weighed_kg / modelled;
+  if (weighed_kg > full_share * heaped_kg && seen < yield_) return;
+  yield_ = std::clamp((1.0 - weight) * yield_ + weight * seen, least, most);
 }
 
 Joints Sequencer::dig(const Observation& o) {
   const ArmPoints now = forward(machine_, o.angle);
   cut_passage(o);
-  const bool in_soil = now.tip.z < surface_->at(now.tip.r) + 0.15;
-  const bool heavy = recent_.kg() >= goal_kg_ && follower_.progress() > 0.3;
+  cut_->reach(o.angle);
+  const bool in_soil = now.tip.z < cut_->surface().at(now.tip.r) + 0.15;
+  // The weighing is blind while the bucket is in the soil: the cut model tells what is in it.
+  const bool heavy = cut_->volume() * bank_density * yield_ >= goal_kg_;
   const bool stalled = follower_.stalled_s() > stall_patience;
   if (follower_.finished() || heavy || stalled) {
-    learn_depth(stalled, heavy);
     begin_curl(o);
   }
   return follower_.step(machine_, arm_, o.angle[swing], in_soil ? soil_speed : air_speed, o.angle, o.velocity);
 }
 
+// Out of the soil by the shortest way on which the bucket can curl: inward until the curled bucket is within reach, up to just over the
+// surface, then curled.
 void Sequencer::begin_curl(const Observation& o) {
+  constexpr double curled_within = 6.35, over_surface = 0.15, lift = 0.45;
   const ArmPoints now = forward(machine_, o.angle);
-  const DigWaypoint from{now.tip.r, now.tip.z, now.bucket_attitude};
-  const DigWaypoint to{now.tip.r - 0.05, now.tip.z + 0.45, radians(-174.0)};
-  if (auto path = DigPath::solve(machine_, {from, to})) {
+  const double r = std::min(now.tip.r - 0.05, curled_within);
+  const double z = std::max(now.tip.z, cut_->surface().at(r) + over_surface);
+  const double halfway = std::min(now.bucket_attitude, 0.5 * (now.bucket_attitude + curled));
+  const std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}, {r, z, halfway}, {r - 0.05, z + lift, curled}};
+  if (auto path = DigPath::solve(machine_, way)) {
     begin_pass_search(o, path->at(path->length()));
     follower_.begin(std::move(*path));
   } else {
     begin_pass_search(o, o.angle);
     follower_.end();
   }
+  trimming_ = trimmed_ = false;
   enter(Stage::curl, o);
 }
 
 void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_from) {
   dump_ = choose_dump_point(bed_, 0.5 * bucket_width(machine_), o.time_s - bed_points_age);
-  const double expected = fill_.loaded_kg() + (recent_.kg() > 0.0 ? recent_.kg() : goal_kg_);
+  const double expected = fill_.loaded_kg() + goal_kg_;
   const bool more = expected < TruckFill::full_share * site_.truck.target_kg;
   const double here = o.angle[swing];
   dig_.bearing = here;
   plan_next_dig();
-  task_ = PassTask{lifted_from, dump_.bearing, dump_.radius, dig_.bearing, {dig_.drag.front().r, dig_.drag.front().z}, more};
+  task_ = PassTask{lifted_from, dump_.bearing, dump_.radius, dig_.bearing, {dig_.drag.front().r, dig_.drag.front().z}, site_.truck.wall_top, more};
   task_.lifted_from[swing] = here;
+  const Skyline skyline(machine_, site_, kernel_map_.ground(KernelMap::Unseen::level));
+  task_.truck_top = skyline.highest(dump_.bearing - near_truck, dump_.bearing + near_truck, 4.2, 8.6);
   const auto poses = pass_poses(machine_, site_, task_);
   if (!poses) {
     log_.event("unreachable", {{"time_s", o.time_s}, {"what", "dump point"}, {"bearing_deg", degrees(dump_.bearing)}, {"radius_m", dump_.radius}});
@@ -197,21 +204,29 @@ void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_fro
     return;
   }
   poses_ = *poses;
-  search_.emplace(machine_, Skyline(machine_, site_, terrain_), task_, poses_);
+  search_.emplace(machine_, skyline, task_, poses_);
 }
 
 Joints Sequencer::curl(const Observation& o) {
   if (search_ && !search_->done()) search_->step();
-  const bool curled = !follower_.active() || follower_.finished() || o.time_s - stage_s_ > 3.0 || forward(machine_, o.angle).bucket_attitude < radians(-168.0);
-  if (curled && search_ && search_->done()) {
-    script_ = pass_script(task_, poses_, search_->thresholds());
+  if (cut_) cut_->reach(o.angle);
+  if (trimming_) return trim(o);
+  const bool done = !follower_.active() || follower_.finished() || o.time_s - stage_s_ > 5.0 || forward(machine_, o.angle).bucket_attitude < curled + radians(6.0);
+  if (done && !trimmed_ && recent_.kg() > TruckFill::trim_share * site_.truck.target_kg - fill_.loaded_kg()) {
+    log_.event("trim", {{"time_s", o.time_s}, {"payload_kg", recent_.kg()}, {"loaded_kg", fill_.loaded_kg()}});
+    trimming_ = trimmed_ = true;
+    trim_since_s_ = o.time_s;
+    return {};
+  }
+  if (done && search_ && search_->done()) {
+    script_ = pass_script(machine_, task_, poses_, search_->thresholds());
     script_.start();
     script_s_ = -1.0;
     emptied_ = false;
     open_since_s_ = -1.0;
     before_.reset();
     after_.reset();
-    log_.event("script", {{"swing_start_boom_deg", degrees(search_->thresholds().swing_start_boom)}, {"lower_offset_deg", degrees(search_->thresholds().lower_offset)},
+    log_.event("script", {{"swing_start_boom_deg", degrees(search_->thresholds().swing_start_boom)}, {"hover_offset_deg", degrees(search_->thresholds().hover_offset)},
                           {"truck_bearing_deg", degrees(dump_.bearing)}, {"bed_observed", dump_.observed}, {"clear", search_->clear()}, {"model_seconds", search_->seconds()}});
     enter(Stage::pass, o);
     return pass(o);
@@ -220,9 +235,22 @@ Joints Sequencer::curl(const Observation& o) {
   return follower_.step(machine_, arm_, o.angle[swing], curl_speed, o.angle, o.velocity);
 }
 
+// The last bucket would overload the truck: over the dig, lets go of what is too much, tilt by tilt, then curls again.
+Joints Sequencer::trim(const Observation& o) {
+  constexpr double tilt_rate = radians(12.0), longest_s = 12.0, steepest = radians(-75.0);
+  const double goal = site_.truck.target_kg - fill_.loaded_kg();
+  const double attitude = forward(machine_, o.angle).bucket_attitude;
+  if (recent_.kg() <= goal || o.time_s - trim_since_s_ > longest_s || attitude > steepest) {
+    trimming_ = false;
+    follower_.end();
+    return {};
+  }
+  return {0.0, 0.0, 0.0, tilt_rate};
+}
+
 std::uint32_t Sequencer::pass_events(const Observation& o) {
-  constexpr double open_at_least = 0.25, open_at_most = 2.0, empty_share = 0.06;
-  const bool opening = script_.of(bucket).active() >= 2;
+  constexpr double open_at_least = 0.25, open_at_most = 2.0, empty_share = 0.05;
+  const bool opening = script_.of(bucket).active() >= opening_rule;
   if (!opening || emptied_) return emptied_ ? event_emptied : event_none;
   if (open_since_s_ < 0.0 && o.angle[bucket] > poses_.dump[bucket] - radians(30.0)) open_since_s_ = o.time_s;
   if (open_since_s_ < 0.0) return event_none;
@@ -237,7 +265,7 @@ Joints Sequencer::pass(const Observation& o) {
   const int swing_rule = script_.of(swing).active();
   if (swing_rule == 0) enter_phase(BERM_PHASE_LIFT, o);
   else if (swing_rule >= 2) enter_phase(BERM_PHASE_SWING_TO_DIG, o);
-  else enter_phase(script_.of(bucket).active() >= 2 ? BERM_PHASE_DUMP : BERM_PHASE_SWING_TO_TRUCK, o);
+  else enter_phase(script_.of(bucket).active() >= opening_rule ? BERM_PHASE_DUMP : BERM_PHASE_SWING_TO_TRUCK, o);
   if (phase_ == BERM_PHASE_SWING_TO_TRUCK) before_.add(o.payload_kg);
   if (phase_ == BERM_PHASE_SWING_TO_DIG) after_.add(o.payload_kg);
   const Joints goals = script_.goals();
@@ -252,6 +280,7 @@ void Sequencer::end_pass(const Observation& o) {
   const double had = fill_.loaded_kg();
   fill_.add_pass(before, after);
   const double payload = fill_.loaded_kg() - had;
+  if (weighed) learn_yield(before);
   bed_.note_dump(dump_.u, payload);
   ++pass_;
   log_.event("pass", {{"pass", pass_}, {"truck", truck_}, {"seconds", o.time_s - pass_began_s_}, {"payload_kg", payload}, {"loaded_kg", fill_.loaded_kg()},
@@ -309,6 +338,35 @@ Joints Sequencer::plan(const Observation& o) {
   return {};
 }
 
+void Sequencer::log_held(const Observation& o, const Joints& wanted) const {
+  const auto blocking = skyline_->blocking(preview(machine_, o.angle, wanted));
+  if (!blocking) return;
+  const bool ground = blocking->what == Skyline::Blocking::What::ground, unseen = std::isinf(blocking->height);
+  nlohmann::ordered_json fields{{"time_s", o.time_s}, {"by", !ground ? blocking->what == Skyline::Blocking::What::own_body ? "own body" : "joint range" : unseen ? "unseen ground" : "ground"}};
+  if (ground) fields.update({{"bearing_deg", degrees(blocking->bearing)}, {"distance_m", blocking->distance}});
+  if (ground && !unseen) fields["height_m"] = blocking->height;
+  log_.event("held", fields);
+}
+
+// Through the guard. What the guard holds back for long is looked at again; if that does not help the kernel decides, at creep speed.
+Joints Sequencer::slowed(const Observation& o, const Joints& wanted) {
+  constexpr double look_after = 1.0, give_up_after = 12.0;
+  const Joints allowed = guarded(machine_, *skyline_, arm_.predicted(o.angle, o.velocity), wanted);
+  const bool held = std::all_of(allowed.begin(), allowed.end(), [](double v) { return v == 0.0; });
+  if (!held || held_since_s_ < 0.0) {
+    held_since_s_ = held ? o.time_s : -1.0;
+    looked_ = false;
+    return allowed;
+  }
+  const double held_s = o.time_s - held_since_s_;
+  if (held_s > look_after && !looked_) {
+    log_held(o, wanted);
+    scanners_.begin_full_sweep();
+    looked_ = true;
+  }
+  return held_s > give_up_after ? crept(machine_, wanted) : allowed;
+}
+
 Answer Sequencer::step(const Observation& o) {
   recent_.add(o.payload_kg);
   look(o);
@@ -322,7 +380,7 @@ Answer Sequencer::step(const Observation& o) {
   } else {
     const Joints wanted = plan(o);
     const bool moves = std::any_of(wanted.begin(), wanted.end(), [](double v) { return v != 0.0; });
-    answer.velocity = moves ? guarded(machine_, *skyline_, arm_.predicted(o.angle, o.velocity), wanted) : wanted;
+    answer.velocity = moves ? slowed(o, wanted) : wanted;
   }
   arm_.sent(answer.velocity);
   const double truck_bearing = std::atan2(site_.truck.centre_y, site_.truck.centre_x);

@@ -9,6 +9,7 @@
 #include "app/recovery.hpp"
 #include "app/weighing.hpp"
 #include "motion/dig_path.hpp"
+#include "perception/kernel_map.hpp"
 #include "planning/bed_map.hpp"
 #include "planning/dig_point.hpp"
 #include "planning/dump_point.hpp"
@@ -24,10 +25,11 @@ public:
   Sequencer(const Sequencer&) = delete;  // parts of it point into it
   Sequencer& operator=(const Sequencer&) = delete;
 
-  // Once a cycle. The maps must hold the cycle's scan points already.
+  // Once a cycle. The maps must hold the cycle's scan points and the kernel's published map already.
   Answer step(const Observation& o);
 
   bool finished() const { return stage_ == Stage::finished; }
+  KernelMap& kernel_map() { return kernel_map_; }
   TerrainMap& terrain() { return terrain_; }
   BedMap& bed() { return bed_; }
 
@@ -42,11 +44,12 @@ private:
   Joints settle(const Observation& o);
   Joints dig(const Observation& o);
   Joints curl(const Observation& o);
+  Joints trim(const Observation& o);
   Joints pass(const Observation& o);
   void plan_next_dig();
   DigNeeds needs_for(double kg) const;
   void cut_passage(const Observation& o);
-  void learn_depth(bool stalled, bool heavy);
+  void learn_yield(double weighed_kg);
   void begin_approach(const Observation& o, bool lower);
   void begin_dig(const Observation& o);
   void begin_curl(const Observation& o);
@@ -54,13 +57,15 @@ private:
   std::uint32_t pass_events(const Observation& o);
   void end_pass(const Observation& o);
   void look(const Observation& o);            // renews the skyline now and then
-  bool standing(const Observation& o) const;
+  void log_held(const Observation& o, const Joints& wanted) const;
+  Joints slowed(const Observation& o, const Joints& wanted);
 
   MachineModel machine_;
   SiteModel site_;
   ProgressLog log_;
   int trucks_;
 
+  KernelMap kernel_map_;
   TerrainMap terrain_;
   BedMap bed_;
   std::optional<Skyline> skyline_;
@@ -79,8 +84,12 @@ private:
   double stage_s_ = 0.0;
   std::uint16_t phase_ = BERM_PHASE_WAIT;
   DigPlan dig_;
-  std::optional<SurfaceProfile> surface_;     // before the dig, along its bearing
-  double depth_bias_ = 0.0;
+  std::optional<CutModel> cut_;               // of this dig
+  double yield_ = 1.0;                        // what a modelled cubic metre brings, of what bank soil weighs
+  double held_since_s_ = -1.0;                // by the guard
+  bool looked_ = false;
+  bool trimming_ = false, trimmed_ = false;
+  double trim_since_s_ = 0.0;
   DumpPoint dump_;
   int truck_ = 1;
   int pass_ = 0;

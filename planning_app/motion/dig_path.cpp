@@ -8,8 +8,8 @@ namespace berm::app {
 namespace {
 
 constexpr double sample_spacing = 0.04;            // m
-constexpr double joint_share = 0.55;               // of a joint's largest speed that the reference may ask for
-constexpr double error_full_stop = radians(7.0);   // the reference waits when the joints are this far behind
+constexpr double joint_share = 0.70;               // of a joint's largest speed that the reference may ask for
+constexpr double error_full_stop = radians(14.0);   // the reference waits when the joints are this far behind
 
 constexpr double guard = radians(7.5);              // keeps a standing joint's stop travel inside its range
 

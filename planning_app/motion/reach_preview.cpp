@@ -39,6 +39,32 @@ void along_outline(const MachineModel& machine, const Prism& part, const Joints&
   }
 }
 
+// Calls visit(pose) for poses whose links' attitudes run through the sums of the joints' intervals, each on its own: a cover, as the kernel's.
+template <typename Visit>
+void for_attitudes(const ReachIntervals& box, int bucket_samples, Visit visit) {
+  const auto sample = [](double low, double high, int k) { return low + 0.5 * k * (high - low); };
+  const double stick_low = box.low[boom] + box.low[stick], stick_high = box.high[boom] + box.high[stick];
+  for (int kb = 0; kb < 3; ++kb)
+    for (int ks = 0; ks < 3; ++ks)
+      for (int kk = 0; kk < bucket_samples; ++kk) {
+        const double boom_at = sample(box.low[boom], box.high[boom], kb), stick_at = sample(stick_low, stick_high, ks);
+        const double bucket_at = sample(stick_low + box.low[bucket], stick_high + box.high[bucket], kk);
+        visit(Joints{0.0, boom_at, stick_at - boom_at, bucket_at - stick_at});
+      }
+}
+
+double reach_over(const MachineModel& machine, const ReachIntervals& box) {
+  constexpr double cover_slack = 0.1;  // the kernel's cover is a polygon of few edges
+  double reach = 0.0;
+  for (const Prism& part : machine.parts) {
+    if (part.link == boom) continue;
+    for_attitudes(box, part.link == bucket ? 3 : 1, [&](const Joints& q) {
+      along_outline(machine, part, q, 10.0, [&](const PlanePoint& p) { reach = std::max(reach, std::hypot(p.r, part.half_width)); });
+    });
+  }
+  return reach + cover_slack;
+}
+
 }  // namespace
 
 double stop_travel(const MachineModel& machine, std::size_t joint, double reach_m, double velocity) {
@@ -65,37 +91,63 @@ double within_range(const MachineModel& machine, std::size_t joint, double reach
 
 ReachIntervals preview(const MachineModel& machine, const Joints& angle, const Joints& velocity) {
   ReachIntervals box;
-  box.reach = reach_of(machine, angle) + 0.3;  // the intervals themselves lengthen the reach a little
-  for (std::size_t j = 0; j < joints; ++j) {
-    box.high[j] = angle[j] + stop_travel(machine, j, box.reach, velocity[j]);
-    box.low[j] = angle[j] - stop_travel(machine, j, box.reach, -velocity[j]);
-  }
+  const auto joint = [&](std::size_t j, double reach_m) {
+    box.high[j] = angle[j] + stop_travel(machine, j, reach_m, velocity[j]);
+    box.low[j] = angle[j] - stop_travel(machine, j, reach_m, -velocity[j]);
+  };
+  // As the kernel does: the last row bounds the arm's intervals, the reach over them gives the row of the swing.
+  for (const std::size_t j : {boom, stick, bucket}) joint(j, machine.braking.reach.back());
+  box.reach = reach_over(machine, box);
+  joint(swing, box.reach);
   const JointLimits& s = machine.joint[swing];
   const double latency = machine.state_latency + machine.command_latency + machine.cycle;
   box.swing_speed = std::fabs(velocity[swing]) + s.velocity_error + s.acceleration_max * latency;
   return box;
 }
 
+namespace {
+
+// Lower convex hull of the points kept by bin, filled in for every bin between its ends.
+void close_below(std::array<double, LowerEdge::bins>& z) {
+  std::vector<int> hull;
+  for (int i = 0; i < LowerEdge::bins; ++i) {
+    if (z[static_cast<std::size_t>(i)] == LowerEdge::none) continue;
+    while (hull.size() >= 2) {
+      const int m = hull.back(), f = hull[hull.size() - 2];
+      const double line = z[static_cast<std::size_t>(f)] + (z[static_cast<std::size_t>(i)] - z[static_cast<std::size_t>(f)]) * (m - f) / (i - f);
+      if (z[static_cast<std::size_t>(m)] < line) break;
+      hull.pop_back();
+    }
+    hull.push_back(i);
+  }
+  for (std::size_t k = 0; k + 1 < hull.size(); ++k)
+    for (int i = hull[k]; i < hull[k + 1]; ++i) {
+      const double from = z[static_cast<std::size_t>(hull[k])], to = z[static_cast<std::size_t>(hull[k + 1])];
+      z[static_cast<std::size_t>(i)] = from + (to - from) * (i - hull[k]) / (hull[k + 1] - hull[k]);
+    }
+}
+
+}  // namespace
+
 LowerEdge::LowerEdge(const MachineModel& machine, const ReachIntervals& box) {
   z_.fill(none);
   constexpr double spacing = 0.19;  // under a bin
-  const auto sample = [&](std::size_t j, int k) { return box.low[j] + 0.5 * k * (box.high[j] - box.low[j]); };
-  for (int kb = 0; kb < 3; ++kb)
-    for (int ks = 0; ks < 3; ++ks)
-      for (int kk = 0; kk < 3; ++kk) {
-        const Joints q{0.0, sample(boom, kb), sample(stick, ks), sample(bucket, kk)};
-        for (const Prism& part : machine.parts) {
-          if (part.link == boom) continue;
-          if (part.link == stick && kk != 0) continue;
-          half_width_ = std::max(half_width_, part.half_width);
-          along_outline(machine, part, q, spacing, [&](const PlanePoint& p) {
-            reach_ = std::max(reach_, p.r);
-            nearest_ = std::min(nearest_, p.r);
-            const int bin = static_cast<int>(p.r / bin_m);
-            if (p.r >= 0.0 && bin < bins) z_[static_cast<std::size_t>(bin)] = std::min(z_[static_cast<std::size_t>(bin)], p.z);
-          });
-        }
-      }
+  for (const Prism& part : machine.parts) {
+    if (part.link == boom) continue;
+    half_width_ = std::max(half_width_, part.half_width);
+    std::array<double, bins> lowest;
+    lowest.fill(none);
+    for_attitudes(box, part.link == bucket ? 3 : 1, [&](const Joints& q) {
+      along_outline(machine, part, q, spacing, [&](const PlanePoint& p) {
+        reach_ = std::max(reach_, p.r);
+        nearest_ = std::min(nearest_, p.r);
+        const int bin = static_cast<int>(p.r / bin_m);
+        if (p.r >= 0.0 && bin < bins) lowest[static_cast<std::size_t>(bin)] = std::min(lowest[static_cast<std::size_t>(bin)], p.z);
+      });
+    });
+    close_below(lowest);
+    for (std::size_t i = 0; i < lowest.size(); ++i) z_[i] = std::min(z_[i], lowest[i]);
+  }
 }
 
 double LowerEdge::lowest() const { return *std::min_element(z_.begin(), z_.end()); }

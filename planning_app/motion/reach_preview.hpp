@@ -12,7 +12,7 @@ namespace berm::app {
 struct ReachIntervals {
   Joints low{}, high{};
   double swing_speed = 0.0;  // bound until standstill, rad/s
-  double reach = 0.0;        // farthest point of the implements from the swing axis, m
+  double reach = 0.0;        // farthest point of the implements from the swing axis over the intervals, m
 };
 
 // How far a joint can still go in the direction of velocity (rad/s, negative: it moves the other way) when stopped one cycle from now; rad.

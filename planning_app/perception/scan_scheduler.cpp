@@ -12,9 +12,11 @@ namespace {
 constexpr std::size_t left = 0, right = 1;
 constexpr double at_end = radians(1.5);
 constexpr double narrowest = radians(4.0);
-constexpr double beyond_dig = radians(45.0);    // to the outer side of a bearing: overshoot of a stop, width of the bucket, parallax of the head
 constexpr double under_boom = radians(42.0);   // inwards, to the ground below the boom that only the heads beside it can see
-constexpr double trigger = radians(35.0);
+constexpr double beyond_dig = radians(90.0);    // the stop beyond the dig, seen from a head at the side of near ground
+constexpr double lead_near = radians(45.0), lead_far = radians(85.0);  // ahead of a moving swing: its stop angle, and the parallax of near ground
+constexpr double past_truck = radians(55.0);    // the implements' width, the overshoot of a stop, parallax
+constexpr double pi = std::numbers::pi;
 constexpr double beyond_truck = radians(50.0);
 
 }  // namespace
@@ -38,22 +40,26 @@ PanSector ScanScheduler::sector(std::size_t scanner, std::uint16_t phase, double
   PanSector bearings;  // base frame
   switch (phase) {
     case BERM_PHASE_DIG:
+      if (scanner == ahead) bearings = {swing_angle - side * under_boom, swing_angle + side * radians(120.0)};
+      else bearings = {dig + side * under_boom, dig - side * beyond_dig};
+      break;
     case BERM_PHASE_LIFT:
-      // Before the swing begins the leading scanner must have passed the trigger angle (leger-1998, 2.4): the pan cannot outrun the swing.
-      if (scanner == ahead) bearings = {swing_angle + side * (phase == BERM_PHASE_LIFT ? trigger : -under_boom), swing_angle + side * radians(120.0)};
-      else bearings = {dig + side * under_boom, dig - side * radians(70.0)};
+      // Before the swing begins the leading scanner must have passed over what comes first, out to its far end: the pan cannot outrun the swing.
+      if (scanner == ahead) bearings = {swing_angle + side * lead_near, swing_angle + side * pi};
+      else bearings = {dig + side * under_boom, dig - side * beyond_dig};
       break;
     case BERM_PHASE_SWING_TO_TRUCK:
-      if (scanner == ahead) bearings = {swing_angle + side * trigger, truck + side * beyond_truck};
+      // At its far end until the swing has carried it past the truck; then ahead of the stop angle.
+      if (scanner == ahead) bearings = far_seen_ ? PanSector{swing_angle + side * lead_near, swing_angle + side * lead_far} : PanSector{swing_angle + side * pi, swing_angle + side * pi};
       else bearings = {swing_angle + side * radians(15.0), dig - side * radians(40.0)};
       break;
     case BERM_PHASE_DUMP:
       if (scanner == ahead) bearings = {swing_angle - side * under_boom, truck + side * beyond_truck};
-      else bearings = {swing_angle + side * under_boom, dig - side * beyond_dig};
+      else bearings = {swing_angle - side * radians(5.0), swing_angle - side * radians(75.0)};  // where the swing back begins, seen just before
       break;
     case BERM_PHASE_SWING_TO_DIG:
       if (scanner == ahead) bearings = {swing_angle - side * radians(20.0), truck + side * radians(25.0)};
-      else bearings = {swing_angle - side * trigger, dig - side * beyond_dig};
+      else bearings = {swing_angle - side * lead_near, swing_angle - side * lead_far};
       break;
     default: return whole;
   }
@@ -69,6 +75,9 @@ PanSector ScanScheduler::sector(std::size_t scanner, std::uint16_t phase, double
 
 std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, double truck, double swing_angle, double swing_speed, const std::array<double, 2>& pan) {
   std::array<PanRequest, 2> request;
+  const std::size_t ahead = truck >= dig ? left : right;
+  if (phase != BERM_PHASE_SWING_TO_TRUCK) far_seen_ = false;
+  else if ((truck >= dig ? 1.0 : -1.0) * (pan[ahead] + swing_angle - truck) > past_truck) far_seen_ = true;
   for (std::size_t i = 0; i < head_.size(); ++i) {
     const ScannerMount& mount = machine_.scanner[i];
     Head& head = head_[i];

@@ -36,6 +36,7 @@ private:
 
   MachineModel machine_;
   std::array<Head, 2> head_;
+  bool far_seen_ = false;  // during this swing to the truck the leading scanner has seen the ground beyond the truck
 };
 
 }  // namespace berm::app

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "motion/dig_path.hpp"
+#include "planning/cut_model.hpp"
 #include "planning/site_model.hpp"
 #include "planning/terrain_map.hpp"
 
@@ -22,26 +23,13 @@ struct DigNeeds {
   double bucket_width = 1.1;        // m
   double deepest = 1.0;             // most vertical depth under the surface, m
   double floor_guard = 0.75;        // the tip stays this far above the dig zone's floor
-  double bias = 0.0;                // added to the depth: what earlier digs lacked, m
 };
 
 // Bearings stand from left to right; the one after the last is preferred, then the one that yields the wanted volume with the least depth.
 // Always gives a plan; where nothing yields enough, the best there is.
-DigPlan choose_dig(const SiteModel& site, const TerrainMap& terrain, const DigNeeds& needs, double last_bearing);
+DigPlan choose_dig(const MachineModel& machine, const SiteModel& site, const TerrainMap& terrain, const DigNeeds& needs, double last_bearing);
 
 // The dig along one bearing.
-DigPlan plan_dig(const SiteModel& site, const TerrainMap& terrain, const DigNeeds& needs, double bearing);
-
-// The ground along a bearing, from the machine outward. A face hides itself from a scanner above its crest: what was never seen is taken to
-// fall from the last seen point at the slope at which cut bank stands, down to the next seen point, and never to lie above the bucket's passage.
-class SurfaceProfile {
-public:
-  SurfaceProfile(const TerrainMap& terrain, double bearing, double width);
-  double at(double r) const;
-
-private:
-  static constexpr double first = 4.0, last = 10.0, step = 0.1;  // m
-  std::vector<double> z_;
-};
+DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const TerrainMap& terrain, const DigNeeds& needs, double bearing);
 
 }  // namespace berm::app

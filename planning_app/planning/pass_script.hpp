@@ -17,11 +17,12 @@ struct PassTask {
   double dump_radius = 0.0;    // of the dump point from the swing axis
   double next_bearing = 0.0;   // swing angle of the next dig
   PlanePoint next_entry{};     // where the next drag begins (tip)
+  double truck_top = 0.0;      // z of the highest thing under the swing near the truck; never taken as lower than its walls
   bool lower_at_end = true;    // false: stay high after the pass, the truck is full
 };
 
 // Right-hand sides.
-struct PassPoses { Joints carry{}, spill{}, dump{}, back{}, dig{}; };
+struct PassPoses { Joints carry{}, spill{}, dump{}, back{}, hover{}, dig{}; };
 
 // Left-hand sides.
 struct PassThresholds {
@@ -31,13 +32,15 @@ struct PassThresholds {
   double open_offset = 0.0;        // the bucket opens this far before it
   double open_stick = 0.0;         // ... and with the stick beyond this
   double pour_bucket = 0.0;        // bucket angle above which the load pours: the stick moves to the dump point
-  double lower_offset = 0.0;       // boom, stick and bucket move to the dig this far before its bearing
+  double hover_offset = 0.0;       // boom, stick and bucket reach out over the dig this far before its bearing
 };
 
 // Nothing when the dump point is out of reach.
 std::optional<PassPoses> pass_poses(const MachineModel& machine, const SiteModel& site, const PassTask& task);
 
-Script pass_script(const PassTask& task, const PassPoses& poses, const PassThresholds& thresholds);
+// The bucket's rule that opens it over the bed.
+inline constexpr int opening_rule = 3;
+Script pass_script(const MachineModel& machine, const PassTask& task, const PassPoses& poses, const PassThresholds& thresholds);
 
 // From wherever the implements are to the start of a dig: raise and half curl, swing when high, lower when over the dig.
 struct ApproachTask {

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double unknown_height = 0.0;   // the bench the machine stands on
 constexpr double own_slack = 0.10;       // beyond the kernel's margin: the kernel's slices are wider than the implements
+constexpr double own_rim = 0.55;         // the kernel closes the cells that its own body's circle touches, too
 constexpr double lateral_step = 0.2;     // of the search across the implements' width; at most a terrain cell
 constexpr double wall_thickness = 0.3;   // generous
 constexpr double nothing = -std::numeric_limits<double>::infinity();
@@ -28,10 +29,11 @@ void from_bed(const TruckBed& bed, const BedPoint& p, double& x, double& y) {
 }
 
 bool in_dig_zone(const SiteModel& site, double x, double y) {
-  // A cell's width inside: the kernel excepts whole cells only.
-  constexpr double inset = 0.3;
+  // The kernel excepts whole cells of its map only.
+  constexpr double cell = 0.3, rounding = 1e-6;
+  const double x_low = std::floor(x / cell) * cell, y_low = std::floor(y / cell) * cell;
   return std::any_of(site.dig_zones.begin(), site.dig_zones.end(), [&](const DigZone& z) {
-    return x > z.x_low + inset && x < z.x_high - inset && y > z.y_low + inset && y < z.y_high - inset;
+    return x_low > z.x_low - rounding && x_low + cell < z.x_high + rounding && y_low > z.y_low - rounding && y_low + cell < z.y_high + rounding;
   });
 }
 
@@ -40,16 +42,20 @@ std::size_t Skyline::slot(double bearing, int bin) {
   return static_cast<std::size_t>(((b % bearings) + bearings) % bearings * LowerEdge::bins + bin);
 }
 
-Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const TerrainMap& terrain)
+Ground ground_of(const TerrainMap& terrain) {
+  return [&terrain](double x, double y) { return terrain.height_or(x, y, unknown_height); };
+}
+
+Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Ground& ground)
     : machine_(&machine), all_(static_cast<std::size_t>(bearings * LowerEdge::bins), nothing), outside_dig_zone_(all_) {
   floor_ = nothing;
   for (const DigZone& z : site.dig_zones) floor_ = std::max(floor_, z.floor);
   double half_width = 0.0;
   for (const Prism& part : machine.parts) half_width = std::max(half_width, part.half_width);
-  half_width += 0.2;  // a cell of the terrain map
+  half_width += 0.3;  // a cell of the kernel's map
   const TruckBed& bed = site.truck;
   const auto top = [&](double x, double y) {
-    double z = terrain.height_or(x, y, unknown_height);
+    double z = ground(x, y);
     const BedPoint p = to_bed(bed, x, y);
     if (std::fabs(p.u) < 0.5 * bed.length + wall_thickness && std::fabs(p.v) < 0.5 * bed.width + wall_thickness) z = std::max(z, bed.wall_top);
     return z;
@@ -73,19 +79,28 @@ Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Terra
   }
 }
 
-bool Skyline::clear(const ReachIntervals& box) const {
+double Skyline::highest(double bearing_low, double bearing_high, double r_low, double r_high) const {
+  constexpr double step = 2.0 * std::numbers::pi / bearings;
+  double top = nothing;
+  for (double bearing = bearing_low; bearing < bearing_high + 0.5 * step; bearing += step)
+    for (int bin = static_cast<int>(r_low / LowerEdge::bin_m); bin <= static_cast<int>(r_high / LowerEdge::bin_m) && bin < LowerEdge::bins; ++bin)
+      top = std::max(top, height(bearing, bin));
+  return top;
+}
+
+std::optional<Skyline::Blocking> Skyline::blocking(const ReachIntervals& box) const {
   for (const std::size_t j : {boom, stick, bucket})
-    if (box.low[j] < machine_->joint[j].low || box.high[j] > machine_->joint[j].high) return false;
+    if (box.low[j] < machine_->joint[j].low || box.high[j] > machine_->joint[j].high) return Blocking{Blocking::What::joint_range};
   const LowerEdge edge(*machine_, box);
-  if (edge.nearest() < machine_->own_body_radius + 0.3) return false;
+  if (edge.nearest() < machine_->own_body_radius + own_rim) return Blocking{Blocking::What::own_body};
   const bool contact_allowed = box.swing_speed < machine_->dig_swing_limit && edge.lowest() > floor_ + 0.1;
   const std::vector<double>& top = contact_allowed ? outside_dig_zone_ : all_;
   const double margin = machine_->margin + own_slack;
   constexpr double step = 2.0 * std::numbers::pi / bearings;
   for (double bearing = box.low[swing]; bearing < box.high[swing] + step; bearing += step)
     for (int bin = 0; bin < LowerEdge::bins; ++bin)
-      if (edge.z(bin) < top[slot(bearing, bin)] + margin) return false;
-  return true;
+      if (const double z = top[slot(bearing, bin)]; edge.z(bin) < z + margin) return Blocking{Blocking::What::ground, bearing, (bin + 0.5) * LowerEdge::bin_m, z};
+  return std::nullopt;
 }
 
 }  // namespace berm::app

@@ -2,6 +2,8 @@
 // implements' width. Answers whether a reach preview is clear of it.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "motion/reach_preview.hpp"
@@ -10,16 +12,30 @@
 
 namespace berm::app {
 
+// Height of the ground at a point of the plan; infinity where nothing may pass over it.
+using Ground = std::function<double(double x, double y)>;
+
+// The app's own terrain map; ground never observed counts as level with the machine.
+Ground ground_of(const TerrainMap& terrain);
+
 class Skyline {
 public:
-  // Ground never observed counts as level with the machine; the truck's bed as high as its walls, whatever was seen.
-  Skyline(const MachineModel& machine, const SiteModel& site, const TerrainMap& terrain);
+  // The truck's bed counts as high as its walls, whatever was seen. machine must outlive the skyline, ground need not.
+  Skyline(const MachineModel& machine, const SiteModel& site, const Ground& ground);
 
   // Whether the implements stay clear, by the kernel's margin and a little more, of everything under the intervals. In the dig zone contact is
   // allowed while the swing is slow and the lower edge above the zone's floor.
-  bool clear(const ReachIntervals& box) const;
+  bool clear(const ReachIntervals& box) const { return !blocking(box); }
   bool clear(const Joints& angle, const Joints& velocity) const { return clear(preview(*machine_, angle, velocity)); }
 
+  struct Blocking {
+    enum class What { joint_range, own_body, ground } what = What::ground;
+    double bearing = 0.0, distance = 0.0, height = 0.0;  // of the ground; height is infinite where it is unseen
+  };
+  std::optional<Blocking> blocking(const ReachIntervals& box) const;
+
+  // The highest ground within the implements' width, between two bearings (low to high) and two distances.
+  double highest(double bearing_low, double bearing_high, double r_low, double r_high) const;
   double height(double bearing, int bin) const { return all_[slot(bearing, bin)]; }
 
 private:

@@ -16,6 +16,7 @@ public:
 
   static constexpr double full_share = 0.975;
   static constexpr double overload_share = 1.03;
+  static constexpr double trim_share = 1.02;      // a bucket that would bring more than this lets some of it go first
 
 private:
   double target_;

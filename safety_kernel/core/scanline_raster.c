@@ -4,28 +4,273 @@
 typedef struct sk_course {
   bool along_x;            /* columns run along x */
   int32_t a0, b0, z0;      /* the end with the lower coordinate along */
-  int32_t a1, b1, z1;
+  int32_t da, db, dz;      /* to the other end; da > 0 */
 } sk_course;
 
-/* Bounds of the segment where it passes a column's border. */
+/* Bounds of the segment, relative to its start, where it passes a column's border. */
 typedef struct sk_border { int32_t b_low, b_high, z_high; } sk_border;
 
-/*@ predicate sk_column_in_range(integer c) = -1000 <= c <= 1000;
+/*@ // algebra of one line from (0, 0) to (da, dv); each lemma is proved like any goal
+  @ lemma sk_unscale: \forall real d, x, y; d > 0 && sk_times(d, x) <= sk_times(d, y) ==> x <= y;
+  @ lemma sk_rising: \forall real s, r0, r1; s >= 0 && r0 <= r1 ==> sk_times(s, r0) <= sk_times(s, r1);
+  @ lemma sk_falling: \forall real s, r0, r1; s <= 0 && r0 <= r1 ==> sk_times(s, r0) >= sk_times(s, r1);
+  @ lemma sk_amid: \forall real s, r, r0, r1; r0 <= r <= r1 ==> (sk_times(s, r0) <= sk_times(s, r) <= sk_times(s, r1) ||
+  @   sk_times(s, r1) <= sk_times(s, r) <= sk_times(s, r0));
+  @ predicate sk_on_line(real dv, real da, real a, real v) = sk_times(da, v) == sk_times(dv, a);
+  @ predicate sk_over_line(real dv, real da, real a, real v) = sk_times(da, v) >= sk_times(dv, a);
+  @ predicate sk_under_line(real dv, real da, real a, real v) = sk_times(da, v) <= sk_times(dv, a);
+  @ lemma sk_still_over: \forall real dv, da, v, w, r; da > 0 && w >= v && sk_over_line(dv, da, r, v) ==> sk_over_line(dv, da, r, w);
+  @ lemma sk_still_under: \forall real dv, da, v, w, r; da > 0 && w <= v && sk_under_line(dv, da, r, v) ==> sk_under_line(dv, da, r, w);
+  @ // a bound at both ends of a piece is a bound on the piece
+  @ lemma sk_bounded_above: \forall real dv, da, a, v, r0, r1, u; da > 0 && r0 <= a <= r1 && sk_on_line(dv, da, a, v) &&
+  @   sk_over_line(dv, da, r0, u) && sk_over_line(dv, da, r1, u) ==> v <= u;
+  @ lemma sk_bounded_below: \forall real dv, da, a, v, r0, r1, u; da > 0 && r0 <= a <= r1 && sk_on_line(dv, da, a, v) &&
+  @   sk_under_line(dv, da, r0, u) && sk_under_line(dv, da, r1, u) ==> v >= u;
+  @ lemma sk_smaller: \forall integer d, x, y; d > 0 && d * x < d * y + d ==> x <= y;
+  @ lemma sk_floor_between: \forall integer d, q, n, v, w; d > 0 && sk_is_floor(q, n, d) && d * v <= n <= d * w ==> v <= q <= w;
+  @ lemma sk_ceil_between: \forall integer d, q, n, v, w; d > 0 && sk_is_ceil(q, n, d) && d * v <= n <= d * w ==> v <= q <= w;
+  @ lemma sk_whole: \forall integer a, b; (real)(a * b) == sk_times(a, b);
+  @ lemma sk_ceil_over: \forall integer dv, da, r, u; da * u >= dv * r ==> sk_over_line(dv, da, r, u);
+  @ lemma sk_floor_under: \forall integer dv, da, r, u; da * u <= dv * r ==> sk_under_line(dv, da, r, u);
+  @ lemma sk_fraction_on: \forall real dv, da, t; sk_on_line(dv, da, sk_times(t, da), sk_times(t, dv));
+  @
   @ predicate sk_coordinate_in_range(integer v) = -SK_COORD_MAX_MM <= v <= SK_COORD_MAX_MM;
   @ predicate sk_height_in_range(integer z) = -SK_HEIGHT_MAX_MM <= z <= SK_HEIGHT_MAX_MM;
-  @ predicate sk_course_fits(sk_course s) = s.a0 < s.a1 && sk_coordinate_in_range(s.a0) && sk_coordinate_in_range(s.a1) &&
-  @   sk_coordinate_in_range(s.b0) && sk_coordinate_in_range(s.b1) && sk_height_in_range(s.z0) && sk_height_in_range(s.z1);
-  @ logic integer sk_column_of(boolean along_x, integer iy, integer ix) = along_x ? ix : iy;
-  @ logic integer sk_row_of(boolean along_x, integer iy, integer ix) = along_x ? iy : ix;
-  @
-  @ // v is at or below, above the line that goes from v0 to v1 in da steps, after run steps
-  @ predicate sk_below_line(integer v, integer v0, integer v1, integer da, integer run) = da * (v - v0) <= (v1 - v0) * run;
-  @ predicate sk_above_line(integer v, integer v0, integer v1, integer da, integer run) = da * (v - v0) >= (v1 - v0) * run;
-  @ // bounds at both ends of a piece are bounds in between
-  @ lemma sk_piece_below: \forall integer v, w, v0, v1, da, r0, r1; \forall real t; da > 0 && r0 <= t * da <= r1 &&
-  @   sk_below_line(v, v0, v1, da, r0) && sk_below_line(w, v0, v1, da, r1) ==> sk_least(v, w) <= sk_at(v0, v1, t);
-  @ lemma sk_piece_above: \forall integer v, w, v0, v1, da, r0, r1; \forall real t; da > 0 && r0 <= t * da <= r1 &&
-  @   sk_above_line(v, v0, v1, da, r0) && sk_above_line(w, v0, v1, da, r1) ==> sk_at(v0, v1, t) <= sk_most(v, w);
-  @ lemma sk_at_between: \forall integer v0, v1; \forall real t; 0 <= t <= 1 ==> sk_least(v0, v1) <= sk_at(v0, v1, t) <= sk_most(v0, v1);
-  @ lemma sk_at_reversed: \forall integer v0, v1; \forall real t; sk_at(v0, v1, t) == sk_at(v1, v0, 1 - t);
+  @ predicate sk_course_fits(sk_course s) = 0 < s.da && sk_coordinate_in_range(s.a0) && sk_coordinate_in_range(s.a0 + s.da) &&
+  @   sk_coordinate_in_range(s.b0) && sk_coordinate_in_range(s.b0 + s.db) && sk_height_in_range(s.z0) && sk_height_in_range(s.z0 + s.dz);
+  @ logic integer sk_column_of(integer along_x, integer iy, integer ix) = along_x != 0 ? ix : iy;
+  @ logic integer sk_row_of(integer along_x, integer iy, integer ix) = along_x != 0 ? iy : ix;
+  @ // the part of a course inside a column, measured from the course's start
+  @ logic integer sk_entry(sk_course s, integer column) = sk_most(0, sk_cell_low(column) - s.a0);
+  @ logic integer sk_exit(sk_course s, integer column) = sk_least(s.da, sk_cell_low(column) + SK_CELL_MM - s.a0);
+  @ predicate sk_border_is(sk_course s, integer run, sk_border b) = sk_under_line(s.db, s.da, run, b.b_low) &&
+  @   sk_over_line(s.db, s.da, run, b.b_high) && sk_over_line(s.dz, s.da, run, b.z_high);
+  @ predicate sk_border_fits(sk_course s, sk_border b) = sk_least(0, s.db) <= b.b_low && b.b_high <= sk_most(0, s.db) &&
+  @   b.b_low <= sk_most(0, s.db) && sk_least(0, s.db) <= b.b_high && sk_least(0, s.dz) <= b.z_high <= sk_most(0, s.dz);
+  @ // the course's point (a, b, z), relative to its start, lies over a cell
+  @ predicate sk_course_over(sk_course s, real a, real b, real z, integer column, integer row) = 0 <= a <= s.da &&
+  @   sk_on_line(s.db, s.da, a, b) && sk_on_line(s.dz, s.da, a, z) && sk_cell_holds(column, s.a0 + a) && sk_cell_holds(row, s.b0 + b);
+  @ // every cell in a column before the given one
+  @ predicate sk_course_covers{L}(sk_height_map *m, sk_course s, integer column, integer now) = \forall real a, b, z; \forall integer iy, ix;
+  @   sk_in_map(iy, ix) && sk_column_of(s.along_x, iy, ix) < column &&
+  @   sk_course_over(s, a, b, z, sk_column_of(s.along_x, iy, ix), sk_row_of(s.along_x, iy, ix)) ==>
+  @     \at(m->height_mm[iy][ix], L) >= s.z0 + z && \at(m->seen_us[iy][ix], L) == now;
+  @ predicate sk_raised_over{A, B}(sk_height_map *m, integer iy, integer ix, integer now) =
+  @   sk_cell_raised{A, B}(m, iy, ix, -SK_HEIGHT_MAX_MM, now);
+  @ predicate sk_course_raises{A, B}(sk_height_map *m, sk_course s, integer column, integer now) = \forall integer iy, ix; sk_in_map(iy, ix) ==>
+  @   sk_cell_kept{A, B}(m, iy, ix) || (sk_column_of(s.along_x, iy, ix) < column && sk_cell_meets(sk_column_of(s.along_x, iy, ix), s.a0, s.a0 + s.da) &&
+  @     sk_cell_meets(sk_row_of(s.along_x, iy, ix), s.b0, s.b0 + s.db) && sk_raised_over{A, B}(m, iy, ix, now));
+  @ predicate sk_in_column(integer along_x, integer iy, integer ix, integer column) = sk_in_map(iy, ix) && sk_column_of(along_x, iy, ix) == column;
   @*/
+
+/*@ requires 0 < da <= 2 * SK_COORD_MAX_MM && 0 <= run <= da && -2 * SK_COORD_MAX_MM <= dv <= 2 * SK_COORD_MAX_MM;
+  @ assigns \nothing;
+  @ ensures sk_under_line(dv, da, run, \result);
+  @ ensures sk_least(0, dv) <= \result <= sk_most(0, dv);
+  @*/
+static int32_t sk_scale_down(int64_t dv, int64_t run, int64_t da)
+{
+  int64_t q;
+  /*@ assert dv >= 0 ==> 0 <= dv * run <= dv * da; */
+  /*@ assert dv <= 0 ==> dv * da <= dv * run <= 0; */
+  q = sk_floor_div(dv * run, da);
+  /*@ assert da * sk_least(0, dv) <= dv * run <= da * sk_most(0, dv); */
+  /*@ assert sk_least(0, dv) <= q <= sk_most(0, dv); */
+  return (int32_t)q;
+}
+
+/*@ requires 0 < da <= 2 * SK_COORD_MAX_MM && 0 <= run <= da && -2 * SK_COORD_MAX_MM <= dv <= 2 * SK_COORD_MAX_MM;
+  @ assigns \nothing;
+  @ ensures sk_over_line(dv, da, run, \result);
+  @ ensures sk_least(0, dv) <= \result <= sk_most(0, dv);
+  @*/
+static int32_t sk_scale_up(int64_t dv, int64_t run, int64_t da)
+{
+  int64_t q;
+  /*@ assert dv >= 0 ==> 0 <= dv * run <= dv * da; */
+  /*@ assert dv <= 0 ==> dv * da <= dv * run <= 0; */
+  q = sk_ceil_div(dv * run, da);
+  /*@ assert da * sk_least(0, dv) <= dv * run <= da * sk_most(0, dv); */
+  /*@ assert sk_least(0, dv) <= q <= sk_most(0, dv); */
+  return (int32_t)q;
+}
+
+/*@ requires sk_course_fits(s) && 0 <= run <= s.da;
+  @ assigns \nothing;
+  @ ensures sk_border_is(s, run, \result);
+  @ ensures sk_border_fits(s, \result);
+  @*/
+static sk_border sk_border_at(sk_course s, int32_t run)
+{
+  sk_border b;
+  b.b_low = sk_scale_down(s.db, run, s.da);
+  b.b_high = sk_scale_up(s.db, run, s.da);
+  b.z_high = sk_scale_up(s.dz, run, s.da);
+  return b;
+}
+
+/* Raises the cells of one column that meet [b_low, b_high] across it. */
+/*@ requires \valid(m) && now_us >= 0 && generation_us > 0;
+  @ requires sk_coordinate_in_range(b_low) && sk_coordinate_in_range(b_high) && sk_height_in_range(z);
+  @ assigns m->height_mm[..][..], m->previous_mm[..][..], m->began_us[..][..], m->seen_us[..][..];
+  @ ensures 0 <= \result <= 1000;
+  @ ensures raised: \forall integer iy, ix; sk_in_column(along_x, iy, ix, column) && sk_cell_low(sk_row_of(along_x, iy, ix)) <= b_high &&
+  @   b_low <= sk_cell_low(sk_row_of(along_x, iy, ix)) + SK_CELL_MM ==> sk_cell_raised{Pre, Post}(m, iy, ix, z, now_us);
+  @ ensures kept: \forall integer iy, ix; sk_in_map(iy, ix) && !(sk_column_of(along_x, iy, ix) == column &&
+  @   sk_cell_low(sk_row_of(along_x, iy, ix)) <= b_high && b_low <= sk_cell_low(sk_row_of(along_x, iy, ix)) + SK_CELL_MM) ==>
+  @   sk_cell_kept{Pre, Post}(m, iy, ix);
+  @*/
+static int32_t sk_raise_span(sk_height_map *m, bool along_x, int32_t column, int32_t b_low, int32_t b_high, int32_t z, int64_t now_us,
+                             int32_t generation_us)
+{
+  int32_t first = sk_map_index(b_low - 1); /* a cell that ends at b_low is touched */
+  int32_t last = sk_map_index(b_high);
+  int32_t count = 0;
+  int32_t row;
+  /*@ loop invariant first <= row && (row <= last + 1 || row == first);
+    @ loop invariant 0 <= count <= row - first;
+    @ loop invariant raised: \forall integer iy, ix; sk_in_column(along_x, iy, ix, column) && first <= sk_row_of(along_x, iy, ix) < row ==>
+    @   sk_cell_raised{Pre, Here}(m, iy, ix, z, now_us);
+    @ loop invariant kept: \forall integer iy, ix;
+    @   sk_in_map(iy, ix) && !(sk_column_of(along_x, iy, ix) == column && first <= sk_row_of(along_x, iy, ix) < row) ==>
+    @   sk_cell_kept{Pre, Here}(m, iy, ix);
+    @ loop assigns row, count, m->height_mm[..][..], m->previous_mm[..][..], m->began_us[..][..], m->seen_us[..][..];
+    @ loop variant last - row;
+    @*/
+  for (row = first; row <= last; row++) {
+    int32_t iy = along_x ? row : column;
+    int32_t ix = along_x ? column : row;
+    if (sk_map_insert(m, iy, ix, z, now_us, generation_us)) { count = count + 1; }
+  }
+  return count;
+}
+
+/* Raises the cells of one column that the course crosses, between its borders. */
+/*@ requires \valid(m) && now_us >= 0 && generation_us > 0 && sk_course_fits(s);
+  @ requires sk_border_is(s, sk_entry(s, column), in) && sk_border_fits(s, in);
+  @ requires sk_border_is(s, sk_exit(s, column), out) && sk_border_fits(s, out);
+  @ assigns m->height_mm[..][..], m->previous_mm[..][..], m->began_us[..][..], m->seen_us[..][..];
+  @ ensures 0 <= \result <= 1000;
+  @ ensures covers: \forall real a, b, z; \forall integer iy, ix; sk_in_column(s.along_x, iy, ix, column) &&
+  @   sk_course_over(s, a, b, z, column, sk_row_of(s.along_x, iy, ix)) ==> m->height_mm[iy][ix] >= s.z0 + z && m->seen_us[iy][ix] == now_us;
+  @ ensures others: \forall integer iy, ix; sk_in_map(iy, ix) && sk_column_of(s.along_x, iy, ix) != column ==> sk_cell_kept{Pre, Post}(m, iy, ix);
+  @ ensures raises: \forall integer iy, ix; sk_in_column(s.along_x, iy, ix, column) ==> sk_cell_kept{Pre, Post}(m, iy, ix) ||
+  @   (sk_cell_meets(sk_row_of(s.along_x, iy, ix), s.b0, s.b0 + s.db) && sk_raised_over{Pre, Post}(m, iy, ix, now_us));
+  @*/
+static int32_t sk_raise_column(sk_height_map *m, sk_course s, int32_t column, sk_border in, sk_border out, int64_t now_us, int32_t generation_us)
+{
+  int32_t b_low = (int32_t)sk_least_of(in.b_low, out.b_low);
+  int32_t b_high = (int32_t)sk_most_of(in.b_high, out.b_high);
+  int32_t z_high = (int32_t)sk_most_of(in.z_high, out.z_high);
+  /*@ assert sk_under_line(s.db, s.da, sk_entry(s, column), b_low) && sk_under_line(s.db, s.da, sk_exit(s, column), b_low); */
+  /*@ assert sk_over_line(s.db, s.da, sk_entry(s, column), b_high) && sk_over_line(s.db, s.da, sk_exit(s, column), b_high); */
+  /*@ assert sk_over_line(s.dz, s.da, sk_entry(s, column), z_high) && sk_over_line(s.dz, s.da, sk_exit(s, column), z_high); */
+  /*@ assert piece: \forall real a, b, z; \forall integer row; sk_course_over(s, a, b, z, column, row) ==>
+    @   b_low <= b <= b_high && z <= z_high; */
+  return sk_raise_span(m, s.along_x, column, s.b0 + b_low, s.b0 + b_high, s.z0 + z_high, now_us, generation_us);
+}
+
+/* Walks the columns from border to border. */
+/*@ requires \valid(m) && now_us >= 0 && generation_us > 0 && sk_course_fits(s);
+  @ assigns m->height_mm[..][..], m->previous_mm[..][..], m->began_us[..][..], m->seen_us[..][..];
+  @ ensures 0 <= \result <= 1000000;
+  @ ensures covers: sk_course_covers(m, s, 1000, now_us);
+  @ ensures raises: sk_course_raises{Pre, Post}(m, s, 1000, now_us);
+  @*/
+static int32_t sk_raise_course(sk_height_map *m, sk_course s, int64_t now_us, int32_t generation_us)
+{
+  int32_t first = sk_map_index(s.a0 - 1);
+  int32_t last = sk_map_index(s.a0 + s.da);
+  sk_border in = sk_border_at(s, 0);
+  sk_border out;
+  int32_t count = 0;
+  int32_t column;
+  /*@ loop invariant first <= column <= last;
+    @ loop invariant 0 <= count <= 1000 * (column - first);
+    @ loop invariant sk_border_is(s, sk_entry(s, column), in) && sk_border_fits(s, in);
+    @ loop invariant covers: sk_course_covers(m, s, column, now_us);
+    @ loop invariant raises: sk_course_raises{Pre, Here}(m, s, column, now_us);
+    @ loop assigns column, count, in, out, m->height_mm[..][..], m->previous_mm[..][..], m->began_us[..][..], m->seen_us[..][..];
+    @ loop variant last - column;
+    @*/
+  for (column = first; column < last; column++) {
+    out = sk_border_at(s, SK_CELL_MM * (column + 1) + SK_MAP_ORIGIN_MM - s.a0);
+    count = count + sk_raise_column(m, s, column, in, out, now_us, generation_us);
+    in = out;
+  }
+  out = sk_border_at(s, s.da);
+  return count + sk_raise_column(m, s, last, in, out, now_us, generation_us);
+}
+
+/* Both ends over one point of the ground. */
+/*@ requires \valid(m) && now_us >= 0 && generation_us > 0 && sk_point_fits(p) && sk_point_fits(q) && p.x_mm == q.x_mm && p.y_mm == q.y_mm;
+  @ assigns m->height_mm[..][..], m->previous_mm[..][..], m->began_us[..][..], m->seen_us[..][..];
+  @ ensures 0 <= \result;
+  @ ensures covers: sk_covers(m, p, q, now_us);
+  @ ensures only: sk_only_raises{Pre, Post}(m, p, q, now_us);
+  @*/
+static int32_t sk_raise_point(sk_height_map *m, sk_point p, sk_point q, int64_t now_us, int32_t generation_us)
+{
+  int32_t z = (int32_t)sk_most_of(p.z_mm, q.z_mm);
+  int32_t first = sk_map_index(p.x_mm - 1);
+  int32_t last = sk_map_index(p.x_mm);
+  int32_t count = sk_raise_span(m, true, first, p.y_mm, p.y_mm, z, now_us, generation_us);
+  if (first < last) { count = count + sk_raise_span(m, true, last, p.y_mm, p.y_mm, z, now_us, generation_us); }
+  return count;
+}
+
+static sk_course sk_course_x(sk_point p, sk_point q)
+{
+  sk_course s;
+  s.along_x = true;
+  s.a0 = p.x_mm;
+  s.b0 = p.y_mm;
+  s.z0 = p.z_mm;
+  s.da = q.x_mm - p.x_mm;
+  s.db = q.y_mm - p.y_mm;
+  s.dz = q.z_mm - p.z_mm;
+  return s;
+}
+
+static sk_course sk_course_y(sk_point p, sk_point q)
+{
+  sk_course s;
+  s.along_x = false;
+  s.a0 = p.y_mm;
+  s.b0 = p.x_mm;
+  s.z0 = p.z_mm;
+  s.da = q.y_mm - p.y_mm;
+  s.db = q.x_mm - p.x_mm;
+  s.dz = q.z_mm - p.z_mm;
+  return s;
+}
+
+static bool sk_point_ok(sk_point p)
+{
+  return -SK_COORD_MAX_MM <= p.x_mm && p.x_mm <= SK_COORD_MAX_MM && -SK_COORD_MAX_MM <= p.y_mm && p.y_mm <= SK_COORD_MAX_MM &&
+         -SK_HEIGHT_MAX_MM <= p.z_mm && p.z_mm <= SK_HEIGHT_MAX_MM;
+}
+
+static int32_t sk_distance(int32_t a, int32_t b)
+{
+  return a > b ? a - b : b - a;
+}
+
+static int32_t sk_raise_ordered(sk_height_map *m, sk_point p, sk_point q, int64_t now_us, int32_t generation_us)
+{
+  if (sk_distance(p.x_mm, q.x_mm) >= sk_distance(p.y_mm, q.y_mm)) {
+    if (p.x_mm < q.x_mm) { return sk_raise_course(m, sk_course_x(p, q), now_us, generation_us); }
+    return sk_raise_course(m, sk_course_x(q, p), now_us, generation_us);
+  }
+  if (p.y_mm < q.y_mm) { return sk_raise_course(m, sk_course_y(p, q), now_us, generation_us); }
+  return sk_raise_course(m, sk_course_y(q, p), now_us, generation_us);
+}
+
+int32_t sk_raster_segment(sk_height_map *m, const sk_point *p, const sk_point *q, int64_t now_us, int32_t generation_us)
+{
+  sk_point from = *p;
+  sk_point to = *q;
+  if (!sk_point_ok(from) || !sk_point_ok(to) || now_us < 0 || generation_us <= 0) { return -1; }
+  if (from.x_mm == to.x_mm && from.y_mm == to.y_mm) { return sk_raise_point(m, from, to, now_us, generation_us); }
+  return sk_raise_ordered(m, from, to, now_us, generation_us);
+}

@@ -20,6 +20,7 @@ struct Loading {
   void step() {
     const Observation o = observe(plant.state());
     intake.take(plant.segment(), sequencer.terrain(), sequencer.bed());
+    if (o.cycle % 25 == 0) sequencer.kernel_map().take(plant.segment());
     const Answer answer = sequencer.step(o);
     last = answer;
     plant.step(make_request(machine, answer, ++sequence, o.time_us));

@@ -32,6 +32,8 @@ BenchMachine::BenchMachine(const MachineModel& machine, const Joints& start, std
   segment_->magic = BERM_CONTRACT_MAGIC;
   segment_->version = BERM_CONTRACT_VERSION;
   segment_->size = sizeof(berm_state_segment);
+  segment_->cell_mm = static_cast<std::uint32_t>(std::lround(kernel_cell * 1e3));
+  segment_->map_origin_mm = -static_cast<std::int32_t>(std::lround(kernel_half_side * 1e3));
   publish();
 }
 
@@ -184,6 +186,19 @@ void BenchMachine::check() {
   }
 }
 
+// As the kernel's map: the highest of the cell, once a scanline has crossed it.
+void BenchMachine::publish_cell(int ix, int iy) {
+  const double age = static_cast<double>(cycle_) * machine_.cycle - seen_[static_cast<std::size_t>(iy * kernel_side + ix)];
+  const double x = (ix + 0.5) * kernel_cell - kernel_half_side, y = (iy + 0.5) * kernel_cell - kernel_half_side;
+  const bool own = std::hypot(x, y) < machine_.own_body_radius;
+  const bool ever = seen_[static_cast<std::size_t>(iy * kernel_side + ix)] >= 0.0;
+  segment_->map_status[iy][ix] = own ? BERM_CELL_OWN_BODY : !ever ? BERM_CELL_UNKNOWN : age > machine_.fresh ? BERM_CELL_STALE : BERM_CELL_OBSERVED;
+  double top = -1e9;
+  for (const double dx : {-0.1, 0.0, 0.1})
+    for (const double dy : {-0.1, 0.0, 0.1}) top = std::max(top, site_.height(x + dx, y + dy));
+  segment_->map_height_mm[iy][ix] = ever ? static_cast<std::int32_t>(std::lround(top * 1e3)) : 0;
+}
+
 void BenchMachine::publish() {
   berm_state& state = segment_->state;
   ++segment_->state_guard;
@@ -198,6 +213,8 @@ void BenchMachine::publish() {
   state.payload_kg = static_cast<std::int32_t>(std::lround(payload_ * (1.0 + 0.03 * noise(random_))));
   state.kernel_state = kernel_runs ? BERM_STATE_RUN : BERM_STATE_STOPPED;
   state.stop_reason = kernel_runs ? std::uint8_t{BERM_STOP_NONE} : stop_reason;
+  for (int rows = 0; rows < 4; ++rows, next_row_ = (next_row_ + 1) % kernel_side)
+    for (int ix = 0; ix < kernel_side; ++ix) publish_cell(ix, next_row_);
   state.panel = BERM_PANEL_OPERATOR_RUN | (truck_parked ? BERM_PANEL_TRUCK_PARKED : 0u);
   ++segment_->state_guard;
   ++segment_->wake;

@@ -56,6 +56,7 @@ private:
   void scan(const berm_request& request);
   void check();
   void publish();
+  void publish_cell(int ix, int iy);
 
   app::MachineModel machine_;
   BenchSite site_;
@@ -68,6 +69,7 @@ private:
   std::uint64_t cycle_ = 0;
   std::array<std::uint32_t, 2> mirror_{};
   std::vector<double> seen_;  // s, by 0.3 m cell
+  int next_row_ = 0;
   Findings findings_;
 };
 

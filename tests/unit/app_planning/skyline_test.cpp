@@ -14,14 +14,16 @@ using namespace berm::app;
 TEST(Skyline, TheTrucksWallsStandEvenUnseen) {
   const MachineModel m = berm::app_bench::zx200();
   const SiteModel site = berm::app_bench::bench();
-  const Skyline sky(m, site, TerrainMap());
+  const TerrainMap nothing_seen;
+  const Skyline sky(m, site, ground_of(nothing_seen));
   EXPECT_GE(sky.height(radians(96.0), static_cast<int>(6.75 / LowerEdge::bin_m)), site.truck.wall_top);
 }
 
 TEST(Skyline, HighIsClearLowIsNot) {
   const MachineModel m = berm::app_bench::zx200();
   const SiteModel site = berm::app_bench::bench();
-  const Skyline sky(m, site, TerrainMap());
+  const TerrainMap nothing_seen;
+  const Skyline sky(m, site, ground_of(nothing_seen));
   auto high = inverse_pin(m, {6.0, 3.2}, radians(-178.0), radians(7.0));
   auto low = inverse_pin(m, {6.0, 1.2}, radians(-178.0), radians(7.0));
   ASSERT_TRUE(high && low);
@@ -33,7 +35,8 @@ TEST(Skyline, HighIsClearLowIsNot) {
 TEST(Skyline, ContactInTheDigZoneOnlyWhileTheSwingIsSlowAndAboveTheFloor) {
   const MachineModel m = berm::app_bench::zx200();
   const SiteModel site = berm::app_bench::bench();
-  const Skyline sky(m, site, TerrainMap());
+  const TerrainMap nothing_seen;
+  const Skyline sky(m, site, ground_of(nothing_seen));
   const auto digging = inverse_tip(m, {6.6, -1.2}, radians(-110.0), radians(7.0));
   ASSERT_TRUE(digging);
   EXPECT_TRUE(sky.clear(*digging, {}));
@@ -52,7 +55,7 @@ TEST(Skyline, LooksAsFarAheadAsTheSwingNeedsToStop) {
   TerrainMap terrain;
   for (double r = 5.0; r < 7.0; r += 0.1)
     for (double across = -0.4; across < 0.4; across += 0.1) terrain.insert(r * std::cos(radians(-40)) + across * 0.64, r * std::sin(radians(-40)) + across * 0.77, 4.0, 1.0);
-  const Skyline sky(m, site, terrain);
+  const Skyline sky(m, site, ground_of(terrain));
   const auto carry = inverse_pin(m, {6.0, 3.2}, radians(-178.0), radians(7.0));
   ASSERT_TRUE(carry);
   EXPECT_TRUE(sky.clear(*carry, {}));
@@ -84,7 +87,7 @@ TEST(PassSearch, FindsASwingThatStartsBeforeTheBoomIsUpAndStaysClear) {
   TerrainMap terrain;
   for (double x = -12.0; x < 12.0; x += 0.1)
     for (double y = -12.0; y < 12.0; y += 0.1) terrain.insert(x, y, x < 6.0 && y < 3.6 ? 0.0 : -2.2, 1.0);
-  const Skyline sky(m, site, terrain);
+  const Skyline sky(m, site, ground_of(terrain));
   PassTask task;
   task.lifted_from = *inverse_tip(m, {5.6, 0.4}, radians(-170.0), radians(7.0));
   task.truck_bearing = radians(96.0);

@@ -1,0 +1,96 @@
+#include "planning/cut_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace berm::app {
+
+namespace {
+
+constexpr double bank_slope = 1.5;                 // rise over run of a cut face
+
+}  // namespace
+
+SurfaceProfile::SurfaceProfile(const TerrainMap& terrain, double bearing, double width) {
+  const double c = std::cos(bearing), s = std::sin(bearing);
+  const std::size_t count = static_cast<std::size_t>(std::lround((last - first) / step)) + 1;
+  constexpr double none = INFINITY;
+  std::vector<double> seen(count, none), bound(count, none);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double r = first + step * static_cast<double>(i);
+    double sum = 0.0, bound_sum = 0.0;
+    int known = 0, bounded = 0;
+    for (int k = -2; k <= 2; ++k) {
+      const double across = 0.22 * k * width;
+      const double x = r * c - across * s, y = r * s + across * c;
+      if (const auto z = terrain.height(x, y)) { sum += *z; ++known; }
+      if (const auto z = terrain.bound(x, y)) { bound_sum += *z; ++bounded; }
+    }
+    if (known > 0) seen[i] = sum / known;
+    if (bounded > 0) bound[i] = bound_sum / bounded;
+  }
+  z_.assign(count, 0.0);
+  double before = 0.0;  // the bench, where not even its edge has been seen
+  for (std::size_t i = 0; i < count; ++i) {
+    double z = seen[i];
+    if (z == none) {
+      std::size_t next = i;
+      while (next < count && seen[next] == none) ++next;
+      const double foot = next < count ? std::min(seen[next], before) : -none;
+      z = std::min(std::max(before - bank_slope * step, foot), bound[i]);
+    }
+    z_[i] = before = z;
+  }
+}
+
+double SurfaceProfile::at(double r) const {
+  const double place = std::clamp((r - first) / step, 0.0, static_cast<double>(z_.size() - 1));
+  const std::size_t i = std::min(static_cast<std::size_t>(place), z_.size() - 2);
+  const double t = place - static_cast<double>(i);
+  return (1.0 - t) * z_[i] + t * z_[i + 1];
+}
+
+CutModel::CutModel(const MachineModel& machine, const SurfaceProfile& surface, double bucket_width)
+    : machine_(machine), surface_(surface), width_(bucket_width) {}
+
+double CutModel::reach(const Joints& pose) {
+  constexpr double spacing = 0.06;      // under a step of the profile
+  constexpr double shell_side = -0.05;  // the outline's other side is the heaped load
+  std::vector<double>& z = surface_.heights();
+  const ArmPoints arm = forward(machine_, pose);
+  const double c = std::cos(arm.bucket_attitude), s = std::sin(arm.bucket_attitude);
+  double area = 0.0;
+  for (const Prism& part : machine_.parts) {
+    if (part.link != bucket) continue;
+    for (std::size_t i = 0; i < part.outline.size(); ++i) {
+      const auto& from = part.outline[i];
+      const auto& to = part.outline[(i + 1) % part.outline.size()];
+      const int pieces = std::max(1, static_cast<int>(std::ceil(std::hypot(to[0] - from[0], to[1] - from[1]) / spacing)));
+      for (int k = 0; k < pieces; ++k) {
+        const double t = static_cast<double>(k) / pieces;
+        const double x = from[0] + t * (to[0] - from[0]), across = from[1] + t * (to[1] - from[1]);
+        if (across < shell_side) continue;
+        const double r = arm.bucket_pin.r + x * c - across * s, height = arm.bucket_pin.z + x * s + across * c;
+        const double place = std::round((r - SurfaceProfile::first) / SurfaceProfile::step);
+        if (!(place >= 0.0 && place < static_cast<double>(z.size()))) continue;
+        double& ground = z[static_cast<std::size_t>(place)];
+        if (ground > height) {
+          area += (ground - height) * SurfaceProfile::step;
+          ground = height;
+        }
+      }
+    }
+  }
+  volume_ += area * width_;
+  return area * width_;
+}
+
+double cut_volume(const MachineModel& machine, const SurfaceProfile& surface, double bucket_width, const DigPath& path) {
+  CutModel model(machine, surface, bucket_width);
+  constexpr double pace = 0.06;  // m along the path
+  for (double s = 0.0; s < path.length(); s += pace) model.reach(path.at(s));
+  model.reach(path.at(path.length()));
+  return model.volume();
+}
+
+}  // namespace berm::app
