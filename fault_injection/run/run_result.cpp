@@ -30,6 +30,13 @@ int trucks_loaded(const RunResult& r) {
   return static_cast<int>(std::count_if(kg.begin(), kg.end(), [target](double load) { return target > 0.0 && load >= kLoadedShare * target; }));
 }
 
+// Seconds from the first thing that should stop the machine to its standstill; null when there was none of either.
+json standstill_after_fault(const RunResult& r) {
+  const auto fault = r.truth.find("fault_s"), still = r.truth.find("first_standstill_after_fault_s");
+  if (fault == r.truth.end() || still == r.truth.end() || !fault->is_number() || !still->is_number()) return nullptr;
+  return still->get<double>() - fault->get<double>();
+}
+
 std::string place(const StopEvent& stop) {
   if (!stop.has_place) return fmt::format("{:.1f} s", stop.time_s);
   return fmt::format("{:.1f} s at ({:.1f}, {:.1f}) height {:.1f} m", stop.time_s, stop.x_m, stop.y_m, stop.height_m);
@@ -71,7 +78,7 @@ json flat_json(const RunResult& r) {
   out["simulated_seconds"] = r.truth.value("simulated_seconds", 0.0);
   out["wall_seconds"] = r.wall_seconds;
   out["end_reason"] = r.truth.value("end_reason", "");
-  out["standstill_after_fault_s"] = r.truth.contains("standstill_after_fault_s") ? r.truth["standstill_after_fault_s"] : json(nullptr);
+  out["standstill_after_fault_s"] = standstill_after_fault(r);
   out["journal_lost"] = r.journal_lost;
   out["pid_plant"] = r.pids[0];
   out["pid_kernel"] = r.pids[1];
@@ -83,9 +90,9 @@ std::vector<std::string> shortcomings(const RunResult& r) {
   std::vector<std::string> reasons;
   if (r.contacts > 0) reasons.push_back(fmt::format("{} contact(s)", r.contacts));
   if (r.options.fault) {
-    const auto standstill = r.truth.find("standstill_after_fault_s");
-    if (standstill == r.truth.end() || !standstill->is_number()) reasons.emplace_back("the machine did not come to a standstill after the fault");
-    else if (standstill->get<double>() > kStandstillWithin_s) reasons.push_back(fmt::format("standstill only {:.2f} s after the fault", standstill->get<double>()));
+    const auto standstill = standstill_after_fault(r);
+    if (!standstill.is_number()) reasons.emplace_back("the machine did not come to a standstill after the fault");
+    else if (standstill.get<double>() > kStandstillWithin_s) reasons.push_back(fmt::format("standstill only {:.2f} s after the fault", standstill.get<double>()));
     return reasons;
   }
   if (trucks_loaded(r) < r.options.trucks) reasons.push_back(fmt::format("{} of {} trucks loaded to {:.0f} % of target", trucks_loaded(r), r.options.trucks, 100 * kLoadedShare));
@@ -116,7 +123,7 @@ std::string summary_text(const RunResult& r) {
     for (const auto& contact : r.truth["contact_list"]) row("", contact.is_string() ? contact.get<std::string>() : contact.dump());
   if (j["closest_approach_m"].is_number())
     row("closest approach", fmt::format("{:.2f} m{}", j["closest_approach_m"].get<double>(),
-                                        r.truth.contains("closest_what") ? fmt::format(" ({})", r.truth["closest_what"].get<std::string>()) : ""));
+                                        r.truth.contains("closest_approach_what") && r.truth["closest_approach_what"].is_string() ? fmt::format(" ({})", r.truth["closest_approach_what"].get<std::string>()) : ""));
   row("kernel stops", stops_text(r));
   row("kernel faults", r.kernel_faults == 0 ? "none" : fmt::format("{} (first: {})", r.kernel_faults, r.first_fault));
   if (j["cycle_us_p50"].is_number())

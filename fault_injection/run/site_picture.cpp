@@ -101,7 +101,7 @@ void draw_from_side(SvgPanel& panel, const SitePictureInput& in) {
   }
   panel.line(path, kPathStyle);
   panel.axes(2.0, "distance from the swing axis (m)", "height (m)");
-  panel.title("From the side, swing plane: ground at the dig face (brown) and at the truck (black) as the kernel's map has it");
+  panel.title("From the side, in the swing plane: ground at the dig face (brown) and at the truck (black)");
   panel.text(9.2, 6.4, "swept volume of the fastest swing: boom", fmt::format("font-size:11px;fill:{}", kLinkColours[1]));
   panel.text(9.2, 5.95, "stick", fmt::format("font-size:11px;fill:{}", kLinkColours[2]));
   panel.text(9.2, 5.5, "bucket with its heaviest load", fmt::format("font-size:11px;fill:{}", kLinkColours[3]));

@@ -21,6 +21,8 @@ constexpr double air_speed = 1.1, soil_speed = 1.3, curl_speed = 1.5;  // m/s of
 constexpr double stall_patience = 1.0;            // s
 constexpr double curled = radians(-174.0);        // absolute bucket angle with the mouth up
 constexpr double near_truck = radians(20.0);      // either side of the dump's bearing
+constexpr double poor_share = 0.1;                // a pass that brings less of its goal found nothing
+constexpr int most_poor_passes = 4;               // in a row; then there is nothing left to dig from here
 constexpr double horn_s = 1.0;
 constexpr double bed_points_age = 12.0;           // s, for the bed map
 
@@ -115,7 +117,9 @@ void Sequencer::begin_dig(const Observation& o) {
   goal_kg_ = fill_.next_goal_kg(full_bucket_kg);
   const DigNeeds needs = needs_for(goal_kg_);
   cut_.emplace(machine_, SurfaceProfile(terrain_, o.angle[swing], needs.bucket_width), needs.bucket_width);
-  dig_ = plan_dig(machine_, site_, terrain_, needs, o.angle[swing]);
+  SiteModel here = site_;
+  here.dig_radius_end = dig_.end_radius;
+  dig_ = plan_dig(machine_, here, terrain_, needs, o.angle[swing]);
   const ArmPoints now = forward(machine_, o.angle);
   std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}};
   way.insert(way.end(), dig_.drag.begin(), dig_.drag.end());
@@ -132,13 +136,13 @@ void Sequencer::begin_dig(const Observation& o) {
   enter(Stage::dig, o);
 }
 
-// The bucket's edge leaves the ground no higher than itself.
-void Sequencer::cut_passage(const Observation& o) {
-  const ArmPoints now = forward(machine_, o.angle);
-  const double half = 0.45 * bucket_width(machine_);
-  for (double across = -half; across <= half; across += 0.5 * TerrainMap::cell) {
-    const double c = std::cos(o.angle[swing]), s = std::sin(o.angle[swing]);
-    terrain_.lower_to(now.tip.r * c - across * s, now.tip.r * s + across * c, now.tip.z);
+// Where the bucket has passed the ground is no higher than its shell was.
+void Sequencer::note_cut(const Observation& o) {
+  const SurfaceProfile before(terrain_, o.angle[swing], bucket_width(machine_)), &after = cut_->surface();
+  const double half = 0.45 * bucket_width(machine_), c = std::cos(o.angle[swing]), s = std::sin(o.angle[swing]);
+  for (double r = SurfaceProfile::first; r < SurfaceProfile::last; r += 0.5 * TerrainMap::cell) {
+    if (after.at(r) > before.at(r) - 0.02) continue;
+    for (double across = -half; across <= half; across += 0.5 * TerrainMap::cell) terrain_.lower_to(r * c - across * s, r * s + across * c, after.at(r));
   }
 }
 
@@ -154,7 +158,6 @@ void Sequencer::learn_yield(double weighed_kg) {
 
 Joints Sequencer::dig(const Observation& o) {
   const ArmPoints now = forward(machine_, o.angle);
-  cut_passage(o);
   cut_->reach(o.angle);
   const bool in_soil = now.tip.z < cut_->surface().at(now.tip.r) + 0.15;
   // The weighing is blind while the bucket is in the soil: the cut model tells what is in it.
@@ -219,6 +222,7 @@ Joints Sequencer::curl(const Observation& o) {
     return {};
   }
   if (done && search_ && search_->done()) {
+    note_cut(o);
     script_ = pass_script(machine_, task_, poses_, search_->thresholds());
     script_.start();
     script_s_ = -1.0;
@@ -281,11 +285,18 @@ void Sequencer::end_pass(const Observation& o) {
   fill_.add_pass(before, after);
   const double payload = fill_.loaded_kg() - had;
   if (weighed) learn_yield(before);
+  poor_passes_ = payload < poor_share * goal_kg_ ? poor_passes_ + 1 : 0;
   bed_.note_dump(dump_.u, payload);
   ++pass_;
   log_.event("pass", {{"pass", pass_}, {"truck", truck_}, {"seconds", o.time_s - pass_began_s_}, {"payload_kg", payload}, {"loaded_kg", fill_.loaded_kg()},
                       {"dump_u_m", dump_.u}, {"dig_bearing_deg", degrees(task_.lifted_from[swing])}, {"time_s", o.time_s}});
   pass_began_s_ = o.time_s;
+  if (poor_passes_ >= most_poor_passes && !fill_.full()) {
+    log_.event("face_exhausted", {{"time_s", o.time_s}, {"truck", truck_}, {"loaded_kg", fill_.loaded_kg()}});
+    enter_phase(BERM_PHASE_WAIT, o);
+    enter(Stage::exhausted, o);
+    return;
+  }
   if (!fill_.full()) {
     if (task_.lower_at_end) enter(Stage::settle, o);
     else begin_approach(o, true);  // it weighed less than expected
@@ -333,6 +344,7 @@ Joints Sequencer::plan(const Observation& o) {
         enter(Stage::wait_truck, o);
       }
       return {};
+    case Stage::exhausted:
     case Stage::finished: return {};
   }
   return {};

@@ -34,7 +34,7 @@ public:
   BedMap& bed() { return bed_; }
 
 private:
-  enum class Stage { survey, wait_truck, approach, settle, dig, curl, pass, horn, wait_leave, finished };
+  enum class Stage { survey, wait_truck, approach, settle, dig, curl, pass, horn, wait_leave, exhausted, finished };
 
   void enter(Stage stage, const Observation& o);
   void enter_phase(std::uint16_t phase, const Observation& o);
@@ -48,7 +48,7 @@ private:
   Joints pass(const Observation& o);
   void plan_next_dig();
   DigNeeds needs_for(double kg) const;
-  void cut_passage(const Observation& o);
+  void note_cut(const Observation& o);
   void learn_yield(double weighed_kg);
   void begin_approach(const Observation& o, bool lower);
   void begin_dig(const Observation& o);
@@ -88,6 +88,7 @@ private:
   double yield_ = 1.0;                        // what a modelled cubic metre brings, of what bank soil weighs
   double held_since_s_ = -1.0;                // by the guard
   bool looked_ = false;
+  int poor_passes_ = 0;
   bool trimming_ = false, trimmed_ = false;
   double trim_since_s_ = 0.0;
   DumpPoint dump_;

@@ -81,10 +81,11 @@ double within_range(const MachineModel& machine, std::size_t joint, double reach
   const JointLimits& limits = machine.joint[joint];
   constexpr double spare = radians(3.5);  // a column of the braking table, and a joint that answers faster than its model
   const double room = (wanted > 0.0 ? limits.high - angle : angle - limits.low) - spare;
+  constexpr double noise = radians(1.5);  // of a measured speed: it may round up into the table's next column
   constexpr int steps = 16;
   for (int k = steps; k > 0; --k) {
     const double speed = std::fabs(wanted) * k / steps;
-    if (stop_travel(machine, joint, reach_m, speed) <= room) return std::copysign(speed, wanted);
+    if (stop_travel(machine, joint, reach_m, speed + noise) <= room) return std::copysign(speed, wanted);
   }
   return 0.0;
 }

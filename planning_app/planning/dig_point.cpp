@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planning/skyline.hpp"
+
 namespace berm::app {
 
 namespace {
@@ -78,30 +80,60 @@ DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const Terra
   plan.bearing = bearing;
   plan.depth = high;
   plan.volume = volume(high);
+  plan.end_radius = site.dig_radius_end;
   plan.start_height = profile.z.front();
   plan.drag = drag_of(profile, high, lowest);
   return plan;
 }
 
+namespace {
+
+// Whether the bucket stays inside a dig zone on a drag along the bearing.
+bool zone_holds(const SiteModel& site, double bearing, double half_width) {
+  constexpr double before_end = 0.6, beyond_start = 0.9;  // the curled bucket's lip; its shell
+  const double c = std::cos(bearing), s = std::sin(bearing);
+  for (const double r : {site.dig_radius_end - before_end, site.dig_radius_start + beyond_start})
+    for (const double across : {-half_width, half_width})
+      if (!in_dig_zone(site, r * c - across * s, r * s + across * c)) return false;
+  return true;
+}
+
+struct Search { DigPlan plan; double cost = INFINITY; };
+
+void consider(const MachineModel& machine, const SiteModel& site, const TerrainMap& terrain, const DigNeeds& needs, double last_bearing, double bearing, Search& best) {
+  DigPlan plan = plan_dig(machine, site, terrain, needs, bearing);
+  // A lack of volume costs most, then depth; overlapping the last cut costs, moving from left to right is free.
+  const double lack = std::max(0.0, needs.volume - plan.volume) / needs.volume;
+  const double overlap = std::max(0.0, 1.0 - std::fabs(bearing - last_bearing) / radians(9.0));
+  const double leftward = bearing > last_bearing ? 0.02 : 0.0;
+  const double cost = 10.0 * lack + plan.depth + 0.15 * overlap + leftward;
+  if (cost >= best.cost) return;
+  best.cost = cost;
+  best.plan = std::move(plan);
+}
+
+}  // namespace
+
 DigPlan choose_dig(const MachineModel& machine, const SiteModel& site, const TerrainMap& terrain, const DigNeeds& needs, double last_bearing) {
+  constexpr double enough = 0.75;       // of the wanted volume
+  constexpr int widest = 3;             // steps beyond the site's bearings, where the dig zone allows
+  constexpr double further_in = 0.4;    // m, of the drag's end
   const double width = site.dig_swing_left - site.dig_swing_right;
   const int count = std::max(1, static_cast<int>(std::lround(width / bearing_step)) + 1);
-  DigPlan best;
-  double best_cost = INFINITY;
-  for (int k = 0; k < count; ++k) {
-    const double bearing = count == 1 ? site.dig_swing_left - 0.5 * width : site.dig_swing_left - width * k / (count - 1);
-    DigPlan plan = plan_dig(machine, site, terrain, needs, bearing);
-    // A lack of volume costs most, then depth; overlapping the last cut costs, moving from left to right is free.
-    const double lack = std::max(0.0, needs.volume - plan.volume) / needs.volume;
-    const double overlap = std::max(0.0, 1.0 - std::fabs(bearing - last_bearing) / radians(9.0));
-    const double leftward = bearing > last_bearing ? 0.02 : 0.0;
-    const double cost = 10.0 * lack + plan.depth + 0.15 * overlap + leftward;
-    if (cost < best_cost) {
-      best_cost = cost;
-      best = std::move(plan);
-    }
+  Search best;
+  for (int k = 0; k < count; ++k)
+    consider(machine, site, terrain, needs, last_bearing, count == 1 ? site.dig_swing_left - 0.5 * width : site.dig_swing_left - width * k / (count - 1), best);
+  if (best.plan.volume >= enough * needs.volume) return best.plan;
+  // What the site names is dug out: to both sides of it, then a little nearer to the machine.
+  SiteModel wider = site;
+  for (const double in : {0.0, further_in}) {
+    wider.dig_radius_end = site.dig_radius_end - in;
+    for (int step = in > 0.0 ? -count / 2 : 1; step <= widest; ++step)
+      for (const double bearing : {site.dig_swing_left + step * bearing_step, site.dig_swing_right - step * bearing_step})
+        if (zone_holds(wider, bearing, 0.5 * needs.bucket_width)) consider(machine, wider, terrain, needs, last_bearing, bearing, best);
+    if (best.plan.volume >= enough * needs.volume) break;
   }
-  return best;
+  return best.plan;
 }
 
 }  // namespace berm::app

@@ -14,6 +14,7 @@ struct DigPlan {
   double bearing = 0.0;             // swing angle
   double depth = 0.0;               // greatest vertical depth under the surface, m
   double volume = 0.0;              // bank volume the forward model expects, m3
+  double end_radius = 0.0;          // of the tip
   double start_height = 0.0;        // surface where the tip enters, z
   std::vector<DigWaypoint> drag;    // from above the entry to the end with the bucket curled
 };
@@ -25,6 +26,7 @@ struct DigNeeds {
   double floor_guard = 0.75;        // the tip stays this far above the dig zone's floor
 };
 
+// First between the site's bearings; where these no longer yield enough, beside them and nearer the machine, inside the dig zone.
 // Bearings stand from left to right; the one after the last is preferred, then the one that yields the wanted volume with the least depth.
 // Always gives a plan; where nothing yields enough, the best there is.
 DigPlan choose_dig(const MachineModel& machine, const SiteModel& site, const TerrainMap& terrain, const DigNeeds& needs, double last_bearing);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
@@ -58,8 +59,13 @@ int run(int argc, char** argv) {
   app.add_option("--kernel-fd", options.kernel_fd, "inherited read end of the kernel's lifeline pipe")->check(CLI::Range(0, 1 << 20));
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadInput;
+    std::string what = error.what();
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    std::fprintf(stderr, "berm_plant: %s (see --help)\n", what.c_str());
+    return kBadInput;
   }
   options.stop_fd = stop_descriptor();
   try {

@@ -17,7 +17,7 @@ namespace {
 constexpr double kernel_cell = 0.3, kernel_half_side = 15.6;
 constexpr int kernel_side = 104;
 constexpr double bank_density = 1474.0;
-constexpr double most_payload = 1800.0;
+constexpr double most_payload = 1608.0;
 
 int kernel_index(double v) { return static_cast<int>(std::floor((v + kernel_half_side) / kernel_cell)); }
 
@@ -70,10 +70,20 @@ void BenchMachine::move(const berm_request& request) {
 void BenchMachine::work_soil() {
   const ArmPoints arm = forward(machine_, angle_);
   const Point tip = in_base(arm.tip, angle_[swing]);
-  if (!site_.on_truck(tip.x, tip.y) && arm.bucket_attitude > radians(-178.0)) {
-    const double taken = site_.cut(tip.x, tip.y, angle_[swing], 0.55, tip.z) * bank_density;
-    payload_ = std::min(most_payload, payload_ + taken);
+  if (!site_.on_truck(tip.x, tip.y)) {
+    // Everything above the bucket's shell goes into it, or past it when it is full.
+    for (const Prism& part : machine_.parts)
+      for (std::size_t i = 0; part.link == bucket && i < part.outline.size(); ++i)
+        for (int k = 0; k < 12; ++k) {
+          const auto &from = part.outline[i], &to = part.outline[(i + 1) % part.outline.size()];
+          const double x = from[0] + k / 12.0 * (to[0] - from[0]), across = from[1] + k / 12.0 * (to[1] - from[1]);
+          if (across < -0.05) continue;  // the outline's side of the heaped load
+          const double c = std::cos(arm.bucket_attitude), s = std::sin(arm.bucket_attitude);
+          const Point p = in_base({arm.bucket_pin.r + x * c - across * s, arm.bucket_pin.z + x * s + across * c}, angle_[swing]);
+          payload_ = std::min(most_payload, payload_ + site_.cut(p.x, p.y, angle_[swing], 0.55, p.z) * bank_density);
+        }
   }
+  digging_ = !site_.on_truck(tip.x, tip.y) && tip.z < site_.height(tip.x, tip.y) + 0.1;
   if (arm.bucket_attitude > radians(-140.0) && arm.tip.z > 0.2 && payload_ > 0.0) {
     const double share = std::clamp((arm.bucket_attitude - radians(-140.0)) / radians(50.0), 0.0, 1.0);
     const double out = std::min(payload_, (200.0 + 2500.0 * share) * machine_.cycle);
@@ -210,7 +220,7 @@ void BenchMachine::publish() {
     state.joint_velocity_urad_s[j] = static_cast<std::int32_t>(std::lround((velocity_[j] + radians(0.05) * noise(random_)) * 1e6));
   }
   for (std::size_t i = 0; i < 2; ++i) state.pan_angle_urad[i] = static_cast<std::int32_t>(std::lround(pan_[i] * 1e6));
-  state.payload_kg = static_cast<std::int32_t>(std::lround(payload_ * (1.0 + 0.03 * noise(random_))));
+  state.payload_kg = digging_ ? -1 : static_cast<std::int32_t>(std::lround(payload_ * (1.0 + 0.03 * noise(random_))));
   state.kernel_state = kernel_runs ? BERM_STATE_RUN : BERM_STATE_STOPPED;
   state.stop_reason = kernel_runs ? std::uint8_t{BERM_STOP_NONE} : stop_reason;
   for (int rows = 0; rows < 4; ++rows, next_row_ = (next_row_ + 1) % kernel_side)

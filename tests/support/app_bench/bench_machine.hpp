@@ -66,6 +66,7 @@ private:
   std::array<std::deque<double>, 4> under_way_;
   std::array<double, 2> pan_{}, pan_before_{};
   double payload_ = 0.0;
+  bool digging_ = false;                // the weighing is blind
   std::uint64_t cycle_ = 0;
   std::array<std::uint32_t, 2> mirror_{};
   std::vector<double> seen_;  // s, by 0.3 m cell

@@ -14,8 +14,11 @@ scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-bad-"))
 
 
 def unknown_options():
-    for program in ("berm_load", "berm_map", "berm_params", "berm_plant", "berm_app", "berm_kernel"):
-        one_clear_line(run(program, "--no-such-option"), "no-such-option")
+    needed = {"berm_load": (), "berm_map": ("x.pcap",), "berm_params": (), "berm_kernel": (),
+              "berm_plant": ("--scenario", "x", "--can", "udp:239.255.66.250:1", "--scan-port", 1, "--out", scratch / "none"),
+              "berm_app": ("--machine", "x", "--site", "x", "--socket", "x")}
+    for program, options in needed.items():
+        one_clear_line(run(program, *options, "--no-such-option"), "no-such-option")
 
 
 def help_is_no_error():

@@ -76,9 +76,9 @@ TEST(DigFollower, WaitsForJointsThatSoilHolds) {
   ArmController arm(m);
   DigFollower follower;
   follower.begin(std::move(*path));
-  for (int k = 0; k < 300; ++k) arm.sent(follower.step(m, arm, 0.0, 0.75, held, {}));
+  for (int k = 0; k < 600; ++k) arm.sent(follower.step(m, arm, 0.0, 0.75, held, {}));
   EXPECT_FALSE(follower.finished());
-  EXPECT_GT(follower.stalled_s(), 0.5);
+  EXPECT_GT(follower.stalled_s(), 0.3);
 }
 
 }  // namespace

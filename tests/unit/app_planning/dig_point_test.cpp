@@ -25,7 +25,7 @@ TEST(SurfaceProfile, AHiddenFaceFallsFromTheCrestToTheNextSeenGround) {
   const SurfaceProfile surface(map, 0.0, 1.1);
   EXPECT_NEAR(surface.at(5.5), 0.0, 1e-9);
   EXPECT_LT(surface.at(6.5), -0.4);
-  EXPECT_GT(surface.at(6.5), -0.9);
+  EXPECT_GT(surface.at(6.5), -1.0);
   EXPECT_NEAR(surface.at(8.5), -2.2, 1e-9);
   for (double r = 6.0; r < 9.0; r += 0.1) EXPECT_LE(surface.at(r + 0.1), surface.at(r) + 1e-9);
 }
@@ -36,12 +36,30 @@ TEST(SurfaceProfile, NeverAboveTheBucketsPassage) {
   EXPECT_NEAR(SurfaceProfile(map, 0.0, 1.1).at(6.5), -1.8, 0.15);
 }
 
+TEST(CutModel, TakesWhatLiesAboveTheBucketOnce) {
+  const MachineModel m = berm::app_bench::zx200();
+  TerrainMap map;
+  for (double x = 3.0; x < 12.0; x += 0.1)
+    for (double y = -2.0; y < 2.0; y += 0.1) map.insert(x, y, 0.0, 1.0);
+  CutModel model(m, SurfaceProfile(map, 0.0, 1.1), 1.1);
+  const auto above = inverse_tip(m, {7.0, 0.2}, radians(-90.0)), in = inverse_tip(m, {7.0, -0.5}, radians(-90.0));
+  ASSERT_TRUE(above && in);
+  EXPECT_EQ(model.reach(*above), 0.0);
+  const double taken = model.reach(*in);
+  EXPECT_GT(taken, 0.05);                      // the hanging bucket's lower edge over its width
+  EXPECT_LT(taken, 0.5 * 1.3 * 1.1);           // at most its whole length
+  EXPECT_NEAR(model.surface().at(7.0), -0.5, 0.06);
+  EXPECT_EQ(model.reach(*in), 0.0);
+  EXPECT_EQ(model.reach(*above), 0.0);
+  EXPECT_EQ(model.volume(), taken);
+}
+
 TEST(DigPoint, CutsTheWantedVolumeAndStaysAboveTheFloor) {
   const SiteModel site = berm::app_bench::bench();
-  const DigNeeds needs{1.1, 1.1, 1.0, 0.75, 0.0};
-  const DigPlan plan = choose_dig(site, seen_bench(), needs, radians(-90.0));
-  EXPECT_NEAR(plan.volume, 1.1, 0.02);
-  EXPECT_GT(plan.depth, 0.3);
+  const DigNeeds needs{1.1, 1.1, 1.0, 0.75};
+  const DigPlan plan = choose_dig(berm::app_bench::zx200(), site, seen_bench(), needs, radians(-90.0));
+  EXPECT_NEAR(plan.volume, 1.1, 0.06);
+  EXPECT_GT(plan.depth, 0.2);
   EXPECT_LT(plan.depth, 1.0);
   for (const DigWaypoint& w : plan.drag) {
     EXPECT_GE(w.z, site.dig_zones[0].floor + needs.floor_guard - 1e-9);
@@ -56,7 +74,7 @@ TEST(DigPoint, BearingsStayInsideTheSiteAndDoNotRepeatWhereOthersAreAsGood) {
   const TerrainMap map = seen_bench();
   double last = radians(-90.0);
   for (int i = 0; i < 6; ++i) {
-    const DigPlan plan = choose_dig(site, map, {1.1, 1.1, 1.0, 0.75, 0.0}, last);
+    const DigPlan plan = choose_dig(berm::app_bench::zx200(), site, map, {1.1, 1.1, 1.0, 0.75}, last);
     EXPECT_LE(plan.bearing, site.dig_swing_left + 1e-9);
     EXPECT_GE(plan.bearing, site.dig_swing_right - 1e-9);
     EXPECT_GT(std::fabs(plan.bearing - last), radians(8.0));
@@ -70,7 +88,7 @@ TEST(DigPoint, LeavesWhatIsDugOut) {
   for (double r = 5.0; r < 8.0; r += 0.1)
     for (double across = -0.9; across < 0.9; across += 0.1)
       map.insert(r * std::cos(site.dig_swing_left) - across * std::sin(site.dig_swing_left), r * std::sin(site.dig_swing_left) + across * std::cos(site.dig_swing_left), -2.6, 50.0);
-  const DigPlan plan = choose_dig(site, map, {1.1, 1.1, 1.0, 0.75, 0.0}, radians(-90.0));
+  const DigPlan plan = choose_dig(berm::app_bench::zx200(), site, map, {1.1, 1.1, 1.0, 0.75}, radians(-90.0));
   EXPECT_LT(plan.bearing, site.dig_swing_left - radians(5.0));
 }
 

@@ -71,14 +71,47 @@ TEST(PassPoses, HoldTheLoadLevelAndOpenOverTheBed) {
     PassTask task;
     task.dump_radius = radius;
     task.next_entry = {7.4, -1.6};
+    task.truck_top = site.truck.wall_top;
     const auto poses = pass_poses(m, site, task);
     ASSERT_TRUE(poses) << radius;
     EXPECT_NEAR(forward(m, poses->carry).bucket_attitude, radians(-178.0), radians(3.0));
     EXPECT_LT(forward(m, poses->spill).bucket_attitude, radians(-155.0));
-    EXPECT_NEAR(forward(m, poses->dump).bucket_attitude, radians(-70.0), radians(3.0));
-    EXPECT_NEAR(forward(m, poses->dump).tip.r, radius + 0.10 + 1.562 * std::cos(radians(-70.0)), 0.06);
+    EXPECT_NEAR(forward(m, poses->dump).bucket_attitude, radians(-48.0), radians(3.0));
+    EXPECT_NEAR(forward(m, poses->dump).tip.r, radius - 0.25 + 1.562 * std::cos(radians(-48.0)), 0.06);
     for (const Joints* pose : {&poses->carry, &poses->spill, &poses->dump, &poses->back}) EXPECT_GT(bucket_underside(m, *pose), site.truck.wall_top + 1.1);
   }
+}
+
+TEST(PassPoses, PassHigherOverAHighCab) {
+  const MachineModel m = berm::app_bench::zx200();
+  const SiteModel site = berm::app_bench::bench();
+  PassTask task;
+  task.dump_radius = 6.8;
+  task.next_entry = {7.4, -1.6};
+  task.truck_top = 0.3;
+  const auto low = pass_poses(m, site, task);
+  task.truck_top = 0.8;
+  const auto high = pass_poses(m, site, task);
+  ASSERT_TRUE(low && high);
+  EXPECT_NEAR(bucket_underside(m, high->carry) - bucket_underside(m, low->carry), 0.5, 0.10);  // the bucket tilts a little as well
+}
+
+TEST(Skyline, NamesWhatBlocks) {
+  const MachineModel m = berm::app_bench::zx200();
+  const SiteModel site = berm::app_bench::bench();
+  const Skyline sky(m, site, [](double x, double y) { return x > 0.0 && y > 4.0 && y < 5.0 ? INFINITY : -2.0; });
+  auto pose = inverse_pin(m, {6.4, 3.2}, radians(-178.0), radians(7.0));
+  ASSERT_TRUE(pose);
+  (*pose)[swing] = radians(50.0);
+  const auto blocking = sky.blocking(preview(m, *pose, {}));
+  ASSERT_TRUE(blocking);
+  EXPECT_EQ(blocking->what, Skyline::Blocking::What::ground);
+  EXPECT_TRUE(std::isinf(blocking->height));
+  EXPECT_NEAR(blocking->distance * std::sin(blocking->bearing), 4.5, 1.5);
+  const auto folded = inverse_pin(m, {4.6, 2.2}, radians(-178.0));
+  ASSERT_TRUE(folded);
+  ASSERT_TRUE(sky.blocking(preview(m, *folded, {})));
+  EXPECT_EQ(sky.blocking(preview(m, *folded, {}))->what, Skyline::Blocking::What::own_body);
 }
 
 TEST(PassSearch, FindsASwingThatStartsBeforeTheBoomIsUpAndStaysClear) {
@@ -94,6 +127,7 @@ TEST(PassSearch, FindsASwingThatStartsBeforeTheBoomIsUpAndStaysClear) {
   task.dump_radius = 6.8;
   task.next_bearing = 0.0;
   task.next_entry = {7.4, -1.6};
+  task.truck_top = site.truck.wall_top;
   const auto poses = pass_poses(m, site, task);
   ASSERT_TRUE(poses);
   PassSearch search(m, sky, task, *poses);

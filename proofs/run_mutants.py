@@ -1,0 +1,108 @@
+#!/usr/bin/python3
+"""Shows that the proofs can fail: each mutant of mutants/mutants.json changes the body of one function of the core, and the proof of that
+function must then leave a goal unproved. As a control the unchanged function is proved first, with the same time limit.
+
+A line each: killed (a goal is unproved), SURVIVED, or NOT RUN (with the reason; never counted as killed). Exit 0 when all are killed."""
+
+import argparse
+import json
+import os
+import shutil
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import wp_session
+
+LIST = Path(__file__).resolve().parent / "mutants" / "mutants.json"
+FIELDS = {"id", "file", "function", "old", "new", "what"}
+AT_A_TIME = 2
+
+
+def arguments():
+    p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    p.add_argument("--only", metavar="ID", action="append", help="this mutant only (may be repeated)")
+    p.add_argument("--json", metavar="FILE", help='write {"mutants","killed","survived","not_run","results":[{"id","outcome","unproved"}]}')
+    p.add_argument("--timeout", metavar="S", type=int, default=10, help="seconds for each prover and goal (default 10)")
+    a = p.parse_args()
+    if not 1 <= a.timeout <= 600:
+        p.error("--timeout: 1 to 600 seconds")
+    return a
+
+
+def load(only):
+    mutants = json.loads(LIST.read_text())["mutants"]
+    ids = [m["id"] for m in mutants]
+    for m in mutants:
+        if set(m) != FIELDS:
+            raise SystemExit(f"run_mutants: {LIST.name}: {m.get('id')}: needs exactly {', '.join(sorted(FIELDS))}")
+    if len(set(ids)) != len(ids):
+        raise SystemExit(f"run_mutants: {LIST.name}: an id stands twice")
+    for name in only or []:
+        if name not in ids:
+            sys.stderr.write(f"run_mutants: --only {name}: no such mutant\n")
+            raise SystemExit(2)
+    return [m for m in mutants if not only or m["id"] in only]
+
+
+def copy_of_core(folder, name):
+    core = Path(folder) / name / "core"
+    shutil.copytree(wp_session.CORE, core)
+    return core
+
+
+def prove_function(core, file, function, env, timeout_s):
+    return wp_session.prove(core, Path(file).stem, env, timeout_s, core.parent, [function])
+
+
+def run_control(pair, env, timeout_s, folder):
+    file, function = pair
+    out = prove_function(copy_of_core(folder, f"control-{Path(file).stem}-{function}"), file, function, env, timeout_s)
+    sound = not out.errors and out.goals and out.goals == out.proved
+    return pair, None if sound else f"the unchanged function is not proved ({out.proved} of {out.goals}) {' '.join(out.errors)}".strip()
+
+
+def run_mutant(m, controls, env, timeout_s, folder):
+    """Outcome and the unproved goals."""
+    if controls[(m["file"], m["function"])]:
+        return "NOT RUN", [controls[(m["file"], m["function"])]]
+    core = copy_of_core(folder, f"mutant-{m['id']}")
+    path = core / m["file"]
+    text = path.read_text() if path.exists() else ""
+    if text.count(m["old"]) != 1 or m["old"] == m["new"]:
+        return "NOT RUN", [f"the text to change stands {text.count(m['old'])} times in {m['file']}"]
+    path.write_text(text.replace(m["old"], m["new"]))
+    out = prove_function(core, m["file"], m["function"], env, timeout_s)
+    if out.goals is None or out.errors:
+        return "NOT RUN", out.errors
+    return ("killed" if out.proved < out.goals else "SURVIVED"), out.unproved
+
+
+def main():
+    a = arguments()
+    missing = wp_session.missing_tools()
+    if missing:
+        sys.stderr.write(f"run_mutants: not installed: {', '.join(missing)}\n")
+        return 2
+    mutants = load(a.only)
+    results = []
+    with wp_session.work_folder() as folder, ThreadPoolExecutor(AT_A_TIME) as pool:
+        env = wp_session.environment(folder)
+        pairs = sorted({(m["file"], m["function"]) for m in mutants})
+        controls = dict(pool.map(lambda pair: run_control(pair, env, a.timeout, folder), pairs))
+        print(f"control: {sum(c is None for c in controls.values())} of {len(pairs)} unchanged functions proved", flush=True)
+        for m, (outcome, goals) in zip(mutants, pool.map(lambda x: run_mutant(x, controls, env, a.timeout, folder), mutants)):
+            results.append({"id": m["id"], "outcome": outcome, "unproved": goals})
+            print(f"{outcome:<9} {m['id']:<22} {m['file']}:{m['function']}: {m['what']}; {', '.join(goals[:3])}{' ...' if len(goals) > 3 else ''}", flush=True)
+    count = {o: sum(r["outcome"] == o for r in results) for o in ("killed", "SURVIVED", "NOT RUN")}
+    print(f"{count['killed']} of {len(results)} mutants killed, {count['SURVIVED']} survived, {count['NOT RUN']} not run")
+    if a.json:
+        half = Path(f"{a.json}.part")
+        half.write_text(json.dumps({"mutants": len(results), "killed": count["killed"], "survived": count["SURVIVED"], "not_run": count["NOT RUN"],
+                                    "results": results}, indent=1) + "\n")
+        os.replace(half, a.json)
+    return 0 if results and count["killed"] == len(results) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
