@@ -5,6 +5,7 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <fmt/core.h>
 
 #include "app/app_loop.hpp"
@@ -55,8 +56,14 @@ int main(int argc, char** argv) {
   cli.add_option("--tick-fd", options.tick_fd, "inherited SOCK_SEQPACKET descriptor for the simulation's tick")->check(CLI::Range(3, 1 << 20));
   try {
     cli.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return cli.exit(e);
+  } catch (const CLI::Success& success) {
+    return cli.exit(success);
+  } catch (const CLI::ParseError& error) {
+    std::string what = error.what();
+    for (char& c : what)
+      if (c == '\n') c = ' ';
+    std::fprintf(stderr, "berm_app: %s (see --help)\n", what.c_str());
+    return 2;
   }
   struct sigaction action {};
   action.sa_handler = on_signal;  // no SA_RESTART: waiting calls return

@@ -91,6 +91,8 @@ namespace {
 // Whether the bucket stays inside a dig zone on a drag along the bearing.
 bool zone_holds(const SiteModel& site, double bearing, double half_width) {
   constexpr double before_end = 0.6, beyond_start = 0.9;  // the curled bucket's lip; its shell
+  constexpr double swing_spread = 0.5;                    // m, of a standing swing's reach box at that distance, and a map cell's rest
+  half_width += swing_spread;
   const double c = std::cos(bearing), s = std::sin(bearing);
   for (const double r : {site.dig_radius_end - before_end, site.dig_radius_start + beyond_start})
     for (const double across : {-half_width, half_width})

@@ -101,7 +101,7 @@ const std::vector<BadEdit>& bad_machine_edits() {
       {"half a millimetre", "[0.40, -0.45]", "[0.4005, -0.45]", "part[3].outline", "whole millimetre"},
       {"three scanners", "[kernel]", "[[scanner]]\nposition = [0.0, 0.0, 3.0]\npan_range_deg = [-1.0, 1.0]\npan_rate_max_deg_s = 10.0\n[kernel]", "scanner", "two"},
       {"scanner in the ground", "position = [1.30, 1.35, 3.30]", "position = [1.30, 1.35, -0.1]", "scanner[0].position", "0 .. 8"},
-      {"pan range the wrong way", "pan_range_deg = [-20.0, 130.0]", "pan_range_deg = [130.0, -20.0]", "scanner[0].pan_range_deg", "not below"},
+      {"pan range the wrong way", "pan_range_deg = [-45.0, 130.0]", "pan_range_deg = [130.0, -20.0]", "scanner[0].pan_range_deg", "not below"},
       {"hold above the contract's", "request_hold = 0.05", "request_hold = 0.06", "kernel.request_hold", "outside 0.01 .. 0.05"},
       {"silence above the contract's", "request_silent = 0.5", "request_silent = 0.6", "kernel.request_silent", "outside 0.05 .. 0.5"},
       {"generation above freshness", "generation = 1.0", "generation = 30.0", "kernel.generation", "above fresh"},
