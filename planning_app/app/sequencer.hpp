@@ -34,6 +34,8 @@ public:
   BedMap& bed() { return bed_; }
 
 private:
+  static constexpr double full_bucket_kg = 1560.0;  // what a pass is planned to bring at most
+
   enum class Stage { survey, wait_truck, approach, settle, dig, curl, pass, horn, wait_leave, exhausted, finished };
 
   void enter(Stage stage, const Observation& o);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "app/sequencer.hpp"
@@ -80,6 +81,41 @@ TEST(Sequencer, LoadsOneTruck) {
   EXPECT_EQ(run.plant.findings().unseen_cells, 0);
   EXPECT_LT(run.plant.findings().most_azimuth_rate, radians(50.0));
   EXPECT_LT(run.seconds, 12.0 * 25.0 + 30.0);
+}
+
+TEST(Sequencer, GoesOnAfterTheKernelStoppedItInTheSwing) {
+  Loading run(1, start_pose());
+  while (run.last.phase != BERM_PHASE_SWING_TO_TRUCK && run.seconds < 60.0) run.step();
+  ASSERT_LT(run.seconds, 60.0);
+  for (int k = 0; k < 100; ++k) run.step();
+  run.plant.kernel_runs = false;
+  const MachineModel& m = run.machine;
+  for (int k = 0; k < 500; ++k) {
+    run.step();
+    for (std::size_t j = 0; j < joints; ++j) ASSERT_LE(std::fabs(run.last.velocity[j]), m.joint[j].creep_velocity) << "while stopped";
+  }
+  run.plant.kernel_runs = true;
+  const double resumed = run.seconds;
+  while (run.plant.site().bed_mass() < 1000.0 && run.seconds < resumed + 30.0) run.step();
+  EXPECT_GE(run.plant.site().bed_mass(), 1000.0) << "the pass did not go on";
+  expect_no_contact(run);
+}
+
+TEST(Sequencer, WaitsForTheTruckAndStandsMeanwhile) {
+  Loading run(1, start_pose());
+  run.plant.truck_parked = false;
+  while (run.seconds < 30.0) {
+    run.step();
+    for (const double v : run.last.velocity) ASSERT_EQ(v, 0.0);
+  }
+  run.plant.truck_parked = true;
+  bool moved = false;
+  for (int k = 0; k < 200; ++k) {
+    run.step();
+    for (const double v : run.last.velocity) moved = moved || v != 0.0;
+  }
+  EXPECT_TRUE(moved);
+  EXPECT_FALSE(run.last.horn);
 }
 
 }  // namespace

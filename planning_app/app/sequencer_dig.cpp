@@ -1,0 +1,179 @@
+// The sequencer's digs: where, how deep, when the bucket is full, and what the next pass may learn from it.
+#include <algorithm>
+#include <cmath>
+
+#include "app/sequencer.hpp"
+
+namespace berm::app {
+
+namespace {
+
+constexpr double heaped_kg = 1600.0;              // what the bucket holds
+constexpr double bank_density = 1474.0;           // kg/m3, where nothing was learned yet
+constexpr double cut_reserve = 1.05;              // the cut is planned larger than the goal; the estimate ends it
+constexpr double air_speed = 1.1, soil_speed = 1.3, curl_speed = 1.5;  // m/s of the tip
+constexpr double stall_patience = 1.0;            // s
+constexpr double curled = radians(-174.0);        // absolute bucket angle with the mouth up
+constexpr double near_truck = radians(20.0);      // either side of the dump's bearing
+constexpr double bed_points_age = 12.0;           // s, for the bed map
+
+double bucket_width(const MachineModel& machine) {
+  double half = 0.0;
+  for (const Prism& part : machine.parts)
+    if (part.link == bucket) half = std::max(half, part.half_width);
+  return 1.85 * half;  // the prism covers the bucket with some room
+}
+
+}  // namespace
+
+DigNeeds Sequencer::needs_for(double kg) const {
+  DigNeeds needs;
+  needs.volume = cut_reserve * std::max(300.0, kg) / (yield_ * bank_density);
+  needs.bucket_width = bucket_width(machine_);
+  return needs;
+}
+
+void Sequencer::plan_next_dig() {
+  dig_ = choose_dig(machine_, site_, terrain_, needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg), dig_.bearing);
+}
+
+void Sequencer::begin_dig(const Observation& o) {
+  goal_kg_ = fill_.next_goal_kg(full_bucket_kg);
+  const DigNeeds needs = needs_for(goal_kg_);
+  cut_.emplace(machine_, SurfaceProfile(terrain_, o.angle[swing], needs.bucket_width), needs.bucket_width);
+  SiteModel here = site_;
+  here.dig_radius_end = dig_.end_radius;
+  dig_ = plan_dig(machine_, here, terrain_, needs, o.angle[swing]);
+  const ArmPoints now = forward(machine_, o.angle);
+  std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}};
+  way.insert(way.end(), dig_.drag.begin(), dig_.drag.end());
+  auto path = DigPath::solve(machine_, way);
+  if (!path) {
+    log_.event("unreachable", {{"time_s", o.time_s}, {"what", "drag"}, {"bearing_deg", degrees(dig_.bearing)}});
+    begin_approach(o, true);
+    return;
+  }
+  log_.event("dig", {{"bearing_deg", degrees(dig_.bearing)}, {"depth_m", dig_.depth}, {"volume_m3", dig_.volume}, {"goal_kg", goal_kg_}, {"yield", yield_}, {"path_m", path->length()}});
+  follower_.begin(std::move(*path));
+  pass_began_s_ = pass_ == 0 || pass_began_s_ == 0.0 ? o.time_s : pass_began_s_;
+  enter_phase(BERM_PHASE_DIG, o);
+  enter(Stage::dig, o);
+}
+
+// Where the bucket has passed the ground is no higher than its shell was.
+void Sequencer::note_cut(const Observation& o) {
+  const SurfaceProfile before(terrain_, o.angle[swing], bucket_width(machine_)), &after = cut_->surface();
+  const double half = 0.45 * bucket_width(machine_), c = std::cos(o.angle[swing]), s = std::sin(o.angle[swing]);
+  for (double r = SurfaceProfile::first; r < SurfaceProfile::last; r += 0.5 * TerrainMap::cell) {
+    if (after.at(r) > before.at(r) - 0.02) continue;
+    for (double across = -half; across <= half; across += 0.5 * TerrainMap::cell) terrain_.lower_to(r * c - across * s, r * s + across * c, after.at(r));
+  }
+}
+
+// What the cut model's cubic metre weighed in the bucket. A full bucket says only that there was at least so much.
+void Sequencer::learn_yield(double weighed_kg) {
+  constexpr double weight = 0.5, least = 0.5, most = 1.8, full_share = 0.97;
+  const double modelled = cut_ ? cut_->volume() * bank_density : 0.0;
+  if (modelled < 200.0) return;
+  const double seen = weighed_kg / modelled;
+  if (weighed_kg > full_share * heaped_kg && seen < yield_) return;
+  yield_ = std::clamp((1.0 - weight) * yield_ + weight * seen, least, most);
+}
+
+Joints Sequencer::dig(const Observation& o) {
+  const ArmPoints now = forward(machine_, o.angle);
+  cut_->reach(o.angle);
+  const bool in_soil = now.tip.z < cut_->surface().at(now.tip.r) + 0.15;
+  // The weighing is blind while the bucket is in the soil: the cut model tells what is in it.
+  const bool heavy = cut_->volume() * bank_density * yield_ >= goal_kg_;
+  const bool stalled = follower_.stalled_s() > stall_patience;
+  if (follower_.finished() || heavy || stalled) {
+    begin_curl(o);
+  }
+  return follower_.step(machine_, arm_, o.angle[swing], in_soil ? soil_speed : air_speed, o.angle, o.velocity);
+}
+
+// Out of the soil by the shortest way on which the bucket can curl: inward until the curled bucket is within reach, up to just over the
+// surface, then curled.
+void Sequencer::begin_curl(const Observation& o) {
+  constexpr double curled_within = 6.35, over_surface = 0.15, lift = 0.45;
+  const ArmPoints now = forward(machine_, o.angle);
+  const double r = std::min(now.tip.r - 0.05, curled_within);
+  const double z = std::max(now.tip.z, cut_->surface().at(r) + over_surface);
+  const double halfway = std::min(now.bucket_attitude, 0.5 * (now.bucket_attitude + curled));
+  const std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}, {r, z, halfway}, {r - 0.05, z + lift, curled}};
+  if (auto path = DigPath::solve(machine_, way)) {
+    begin_pass_search(o, path->at(path->length()));
+    follower_.begin(std::move(*path));
+  } else {
+    begin_pass_search(o, o.angle);
+    follower_.end();
+  }
+  trimming_ = trimmed_ = false;
+  enter(Stage::curl, o);
+}
+
+void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_from) {
+  dump_ = choose_dump_point(bed_, 0.5 * bucket_width(machine_), o.time_s - bed_points_age);
+  const double expected = fill_.loaded_kg() + goal_kg_;
+  const bool more = expected < TruckFill::full_share * site_.truck.target_kg;
+  const double here = o.angle[swing];
+  dig_.bearing = here;
+  plan_next_dig();
+  task_ = PassTask{lifted_from, dump_.bearing, dump_.radius, dig_.bearing, {dig_.drag.front().r, dig_.drag.front().z}, site_.truck.wall_top, more};
+  task_.lifted_from[swing] = here;
+  const Skyline skyline(machine_, site_, kernel_map_.ground(KernelMap::Unseen::level));
+  task_.truck_top = skyline.highest(dump_.bearing - near_truck, dump_.bearing + near_truck, 4.2, 8.6);
+  const auto poses = pass_poses(machine_, site_, task_);
+  if (!poses) {
+    log_.event("unreachable", {{"time_s", o.time_s}, {"what", "dump point"}, {"bearing_deg", degrees(dump_.bearing)}, {"radius_m", dump_.radius}});
+    search_.reset();
+    return;
+  }
+  poses_ = *poses;
+  search_.emplace(machine_, skyline, task_, poses_);
+}
+
+Joints Sequencer::curl(const Observation& o) {
+  if (search_ && !search_->done()) search_->step();
+  if (cut_) cut_->reach(o.angle);
+  if (trimming_) return trim(o);
+  const bool done = !follower_.active() || follower_.finished() || o.time_s - stage_s_ > 5.0 || forward(machine_, o.angle).bucket_attitude < curled + radians(6.0);
+  if (done && !trimmed_ && recent_.kg() > TruckFill::trim_share * site_.truck.target_kg - fill_.loaded_kg()) {
+    log_.event("trim", {{"time_s", o.time_s}, {"payload_kg", recent_.kg()}, {"loaded_kg", fill_.loaded_kg()}});
+    trimming_ = trimmed_ = true;
+    trim_since_s_ = o.time_s;
+    return {};
+  }
+  if (done && search_ && search_->done()) {
+    note_cut(o);
+    script_ = pass_script(machine_, task_, poses_, search_->thresholds());
+    script_.start();
+    script_s_ = -1.0;
+    emptied_ = false;
+    open_since_s_ = -1.0;
+    before_.reset();
+    after_.reset();
+    log_.event("script", {{"swing_start_boom_deg", degrees(search_->thresholds().swing_start_boom)}, {"hover_offset_deg", degrees(search_->thresholds().hover_offset)},
+                          {"truck_bearing_deg", degrees(dump_.bearing)}, {"bed_observed", dump_.observed}, {"clear", search_->clear()}, {"model_seconds", search_->seconds()}});
+    enter(Stage::pass, o);
+    return pass(o);
+  }
+  if (!follower_.active()) return {};
+  return follower_.step(machine_, arm_, o.angle[swing], curl_speed, o.angle, o.velocity);
+}
+
+// The last bucket would overload the truck: over the dig, lets go of what is too much, tilt by tilt, then curls again.
+Joints Sequencer::trim(const Observation& o) {
+  constexpr double tilt_rate = radians(12.0), longest_s = 12.0, steepest = radians(-75.0);
+  const double goal = site_.truck.target_kg - fill_.loaded_kg();
+  const double attitude = forward(machine_, o.angle).bucket_attitude;
+  if (recent_.kg() <= goal || o.time_s - trim_since_s_ > longest_s || attitude > steepest) {
+    trimming_ = false;
+    follower_.end();
+    return {};
+  }
+  return {0.0, 0.0, 0.0, tilt_rate};
+}
+
+}  // namespace berm::app
