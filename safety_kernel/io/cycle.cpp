@@ -53,16 +53,16 @@ void Cycle::take_scans(const CycleInputs& in, ScanBlocks& blocks) {
 }
 
 void Cycle::take_points(const CycleInputs& in) {
-  if (in.point_count == 0 || (!map_only_ && joints_.size() == 0)) return;
+  if (in.footprint_count == 0 || (!map_only_ && joints_.size() == 0)) return;
   const JointAngles angles = joints_.at(in.now_us).angles;
   const ImplementPose pose = self_.pose(angles);
   const Eigen::AngleAxisd to_upper(-angles.swing, Eigen::Vector3d::UnitZ());
-  for (int i = 0; i < in.point_count; ++i) {
-    const sk_point& p = in.point[i];
-    if (std::abs(p.x_mm) > SK_COORD_MAX_MM || std::abs(p.y_mm) > SK_COORD_MAX_MM) continue;
-    if (!map_only_ && self_.is_own(to_upper * (Eigen::Vector3d(p.x_mm, p.y_mm, p.z_mm) * 1e-3), pose)) continue;
-    const bool inside = sk_map_insert(&map_, sk_map_index(p.y_mm), sk_map_index(p.x_mm), p.z_mm, in.now_us, parameters_.generation_us);
-    if (inside) ++map_points_;
+  const auto own = [&](const sk_point& p) { return self_.is_own(to_upper * (Eigen::Vector3d(p.x_mm, p.y_mm, p.z_mm) * 1e-3), pose); };
+  for (int i = 0; i < in.footprint_count; ++i) {
+    Vlp16Footprint f = in.footprint[i];
+    f.left.z_mm = f.right.z_mm = std::clamp(f.left.z_mm, -SK_HEIGHT_MAX_MM, SK_HEIGHT_MAX_MM);
+    if (!map_only_ && own(f.left) && own(f.right)) continue;
+    if (sk_raster_segment(&map_, &f.left, &f.right, in.now_us, parameters_.generation_us) > 0) ++map_points_;
   }
 }
 

@@ -30,7 +30,7 @@ struct CycleInputs {
   static constexpr int kFrames = 512;
   static constexpr int kPackets = 64;
   static constexpr int kVlp16Packets = 512;
-  static constexpr int kPoints = kVlp16Packets * kVlp16MaxPoints;
+  static constexpr int kFootprints = kVlp16Packets * kVlp16MaxPoints;
 
   std::uint64_t cycle = 0;
   std::int64_t now_us = 0;
@@ -39,14 +39,14 @@ struct CycleInputs {
   berm_can_frame frame[kFrames];
   int packet_count = 0;
   berm_scan_packet packet[kPackets];
-  int point_count = 0;
-  sk_point point[kPoints];               // last returns of a VLP-16, base frame
+  int footprint_count = 0;
+  Vlp16Footprint footprint[kFootprints];  // last returns of a VLP-16, base frame
   bool app_connected = false;
   std::uint32_t app_connections = 0;     // since start
   std::uint8_t request[SK_REQUEST_BYTES] = {};  // private copy
   std::uint32_t cycle_cpu_us = 0;        // of the cycle before, for observers only
 
-  void clear() { frame_count = packet_count = point_count = 0; }
+  void clear() { frame_count = packet_count = footprint_count = 0; }
 };
 
 struct CycleOutputs {

@@ -15,6 +15,7 @@ constexpr std::int32_t kRangeLsbMm = 2;
 constexpr std::uint32_t kTurnCdeg = 36000;
 constexpr std::uint32_t kGapMaxCdeg = 200;  // between blocks; 0.1 to 0.4 degrees at 300 to 1200 rpm. A sector skipped by the sensor is wider
 constexpr std::uint32_t kGapDefaultCdeg = 20;
+constexpr std::uint32_t kHalfDivergenceMdeg = 86;  // 1.5 mrad: a beam is 3 mrad wide (VLP-16 manual, specifications)
 // Firing times in nanoseconds: a sequence fires its 16 lasers one by one; a block holds two sequences.
 constexpr std::uint32_t kSequenceNs = 55296, kLaserNs = 2304;
 constexpr double kPi = 3.14159265358979323846;
@@ -61,6 +62,7 @@ Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packe
     const std::uint8_t* p = bytes + kBlockBytes * static_cast<std::size_t>(block);
     const std::uint32_t azimuth_mdeg = u16(p + 2) * 10U;
     const std::uint32_t gap = gap_cdeg(bytes, block, step);
+    const std::uint32_t spread_mdeg = kHalfDivergenceMdeg + gap * 10U / 2U;  // two firings in a block
     for (int shot = 0; shot < 2 * kVlp16Channels; ++shot) {
       const std::uint8_t* record = p + 4 + 3 * shot;
       if (step == 2 && u16(record + kBlockBytes) > u16(record)) record += kBlockBytes;
@@ -69,20 +71,24 @@ Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packe
       const int laser = shot % kVlp16Channels;
       const std::uint32_t fired_ns = kSequenceNs * static_cast<std::uint32_t>(shot / kVlp16Channels) + kLaserNs * static_cast<std::uint32_t>(laser);
       const std::uint32_t turned_mdeg = gap * 10U * fired_ns / (2U * kSequenceNs);
-      packet.point[packet.count] = {kChannelOfLaser[laser], record[2], (azimuth_mdeg + turned_mdeg) % (kTurnCdeg * 10U), range_mm};
+      packet.point[packet.count] = {kChannelOfLaser[laser], record[2], (azimuth_mdeg + turned_mdeg) % (kTurnCdeg * 10U), spread_mdeg, range_mm};
       ++packet.count;
     }
   }
   return Vlp16Result::kOk;
 }
 
-void vlp16_project(const Vlp16Mount& mount, const Vlp16Return& point, std::int32_t (&point_mm)[3]) {
+Vlp16Footprint vlp16_project(const Vlp16Mount& mount, const Vlp16Return& point) {
   const double elevation = (2.0 * point.channel - 15.0) * kPi / 180.0;
-  const double heading = mount.yaw_rad - static_cast<double>(point.azimuth_mdeg) * 1e-3 * kPi / 180.0;
   const double level = point.range_mm * std::cos(elevation);
-  point_mm[0] = static_cast<std::int32_t>(std::lround(mount.x_m * 1e3 + level * std::cos(heading)));
-  point_mm[1] = static_cast<std::int32_t>(std::lround(mount.y_m * 1e3 + level * std::sin(heading)));
-  point_mm[2] = static_cast<std::int32_t>(std::ceil(mount.z_m * 1e3 + point.range_mm * std::sin(elevation)));
+  const std::int32_t z_mm = static_cast<std::int32_t>(std::ceil(mount.z_m * 1e3 + point.range_mm * std::sin(elevation)));
+  const auto edge = [&](double clockwise_mdeg) -> sk_point {
+    const double heading = mount.yaw_rad - clockwise_mdeg * 1e-3 * kPi / 180.0;
+    return {static_cast<std::int32_t>(std::lround(mount.x_m * 1e3 + level * std::cos(heading))),
+            static_cast<std::int32_t>(std::lround(mount.y_m * 1e3 + level * std::sin(heading))), z_mm};
+  };
+  const double azimuth_mdeg = point.azimuth_mdeg, spread_mdeg = point.spread_mdeg;
+  return {edge(azimuth_mdeg - spread_mdeg), edge(azimuth_mdeg + spread_mdeg)};
 }
 
 }  // namespace berm::kernel

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/scanline_raster.h"
+
 namespace berm::kernel {
 
 constexpr std::size_t kVlp16PacketBytes = 1206;
@@ -20,6 +22,7 @@ struct Vlp16Return {
   std::uint8_t channel;        // 0..15 by rising elevation: -15 + 2 * channel degrees
   std::uint8_t reflectivity;
   std::uint32_t azimuth_mdeg;  // 0..359999, interpolated to the channel's firing
+  std::uint32_t spread_mdeg;   // the return came from within +- this about azimuth_mdeg: half the beam's divergence and one firing's turn
   std::int32_t range_mm;
 };
 
@@ -36,7 +39,12 @@ struct Vlp16Mount {
 // All last returns of at least kVlp16RangeMinMm, in firing order. On any result but kOk packet is unchanged.
 Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packet& packet);
 
-// Base-frame point in millimetres, rounded up in z so that the map's height bounds it.
-void vlp16_project(const Vlp16Mount& mount, const Vlp16Return& point, std::int32_t (&point_mm)[3]);
+// Where a return may have come from: from edge to edge of the beam, in base-frame millimetres.
+struct Vlp16Footprint {
+  sk_point left, right;
+};
+
+// Heights are rounded up, so that the map's height bounds the return.
+Vlp16Footprint vlp16_project(const Vlp16Mount& mount, const Vlp16Return& point);
 
 }  // namespace berm::kernel

@@ -9,7 +9,10 @@ from berm_command import REAL_DATA, main, run
 
 FOLDER = REAL_DATA / "vlp16_dual_return"
 MOUNT_Z = 1.8
-LAST_TYPES = {5, 6, 10}  # the origin's codes: last weak, identical (one echo), last strongest
+# The origin's codes. It names the farther return of a pair "first" (4 weak, 9 strongest) and the nearer one "last" (5, 10); the packets say
+# otherwise, and this test holds both against them. 6: one echo only.
+ONE_ECHO, FARTHER, NEARER = {6}, {4, 9}, {5, 10}
+LASER_OF_CHANNEL = [0, 2, 4, 6, 8, 10, 12, 14, 1, 3, 5, 7, 9, 11, 13, 15]  # firing order of the elevations, lowest first (VLP-16 manual)
 RANGE_MIN = 0.4  # nearer returns are the sensor's own housing: the kernel drops them
 
 
@@ -32,6 +35,40 @@ def read_pcd(path):
     return [dict(zip(names, row.unpack_from(raw, at + i * row.size))) for i in range(int(head["POINTS"][0]))]
 
 
+def pairs_with_two_echoes(path):
+    """(laser, near, far) in steps of 2 mm -> azimuths in degrees, of every firing of the capture with two different returns."""
+    raw, at, found = path.read_bytes(), 24, {}
+    while at < len(raw):
+        size = struct.unpack_from("<I", raw, at + 8)[0]
+        data = raw[at + 16 + size - 1206:at + 16 + size]
+        at += 16 + size
+        for block in range(0, 1200, 200):
+            azimuth = struct.unpack_from("<H", data, block + 2)[0] / 100
+            for shot in range(32):
+                pair = [struct.unpack_from("<H", data, block + b + 4 + 3 * shot)[0] for b in (0, 100)]
+                if pair[0] != pair[1] and min(pair) > 0:
+                    found.setdefault(shot % 16, []).append((min(pair), max(pair), azimuth))
+    return found
+
+
+def the_origins_codes_mean_what_the_packets_say():
+    pairs = pairs_with_two_echoes(FOLDER / "vlp16_dual_return.pcap")
+    wrong = checked = 0
+    for p in read_pcd(FOLDER / "reference_sweep.pcd"):
+        if p["return_type"] not in FARTHER | NEARER:
+            continue
+        step, azimuth = p["distance"] / 0.002, math.degrees(p["azimuth"])
+        beside = [(abs(near - step) < 1.5, abs(far - step) < 1.5) for near, far, a in pairs.get(LASER_OF_CHANNEL[int(p["channel"])], [])
+                  if abs((a - azimuth + 180) % 360 - 180) < 0.45]
+        is_near, is_far = any(b[0] for b in beside), any(b[1] for b in beside)
+        if is_near == is_far:
+            continue  # another echo of a neighbouring firing has the same range
+        checked += 1
+        wrong += is_far != (p["return_type"] in FARTHER)
+    print(f"{checked} returns of pairs: {wrong} are not the farther (codes 4, 9) or nearer (5, 10) of their pair")
+    assert checked > 300 and wrong == 0
+
+
 def every_last_return_is_below_its_cell():
     out = pathlib.Path(tempfile.mkdtemp(prefix="berm-map-"))
     done = run("berm_map", FOLDER / "vlp16_dual_return.pcap", "--json", out / "map.json", "--picture", out / "map.svg", "--mount", f"0,0,{MOUNT_Z},0")
@@ -44,7 +81,7 @@ def every_last_return_is_below_its_cell():
     cells = {(math.floor(c["x_m"] / cell), math.floor(c["y_m"] / cell)): c["height_m"] for c in result["cells"]}
     points = read_pcd(FOLDER / "reference_sweep.pcd")
     print("fields:", sorted(points[0]), "points:", len(points), "return types:", sorted({p["return_type"] for p in points}))
-    last = [p for p in points if p["return_type"] in LAST_TYPES]
+    last = [p for p in points if p["return_type"] in ONE_ECHO | FARTHER]
     half = 15.6
     checked = above = missing = 0
     for p in last:
@@ -61,4 +98,4 @@ def every_last_return_is_below_its_cell():
     assert above == 0 and missing == 0
 
 
-main([every_last_return_is_below_its_cell], None if FOLDER.exists() else f"no recording at {FOLDER}")
+main([the_origins_codes_mean_what_the_packets_say, every_last_return_is_below_its_cell], None if FOLDER.exists() else f"no recording at {FOLDER}")

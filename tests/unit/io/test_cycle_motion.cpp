@@ -179,8 +179,8 @@ TEST(CycleMotion, MapOnlyNeverLeavesInitAndSendsNothing) {
     in->clear();
     in->cycle = static_cast<std::uint64_t>(k);
     in->now_us = k * 10000;
-    in->point[in->point_count++] = {1000, -2000, 740};  // within the own body's circle
-    in->point[in->point_count++] = {40000, 0, 0};       // out of the map
+    in->footprint[in->footprint_count++] = {{1000, -2000, 740}, {1010, -2000, 740}};  // within the own body's circle
+    in->footprint[in->footprint_count++] = {{40000, 0, 0}, {40000, 10, 0}};           // out of the map
     cycle->step(*in, *out);
     EXPECT_EQ(out->frames.count, 0);
     EXPECT_EQ(out->state.kernel_state, BERM_STATE_INIT);

@@ -173,14 +173,28 @@ TEST_F(Vlp16Recording, TruncatedAndForeignPacketsAreRefusedAndChangeNothing) {
 // verifies: SK-CY-53
 TEST(Vlp16, PointsStandWhereTheMountPutsThem) {
   const Vlp16Mount mount{1.0, 2.0, 3.0, kPi / 2};
-  std::int32_t at[3];
-  vlp16_project(mount, {8, 0, 0, 10000}, at);  // elevation 1 degree, azimuth 0: along the sensor's x, here base y
-  EXPECT_NEAR(at[0], 1000, 1);
-  EXPECT_NEAR(at[1], 2000 + 10000 * std::cos(kPi / 180), 1);
-  EXPECT_EQ(at[2], 3000 + static_cast<int>(std::ceil(10000 * std::sin(kPi / 180))));
-  vlp16_project(mount, {8, 0, 90000, 10000}, at);  // clockwise from above: to the sensor's right, here base x
-  EXPECT_NEAR(at[0], 1000 + 10000 * std::cos(kPi / 180), 1);
-  EXPECT_NEAR(at[1], 2000, 1);
+  const sk_point ahead = vlp16_project(mount, {8, 0, 0, 0, 10000}).left;  // elevation 1 degree, azimuth 0: along the sensor's x, here base y
+  EXPECT_NEAR(ahead.x_mm, 1000, 1);
+  EXPECT_NEAR(ahead.y_mm, 2000 + 10000 * std::cos(kPi / 180), 1);
+  EXPECT_EQ(ahead.z_mm, 3000 + static_cast<int>(std::ceil(10000 * std::sin(kPi / 180))));
+  const sk_point aside = vlp16_project(mount, {8, 0, 90000, 0, 10000}).right;  // clockwise from above: to the sensor's right, here base x
+  EXPECT_NEAR(aside.x_mm, 1000 + 10000 * std::cos(kPi / 180), 1);
+  EXPECT_NEAR(aside.y_mm, 2000, 1);
+}
+
+// verifies: SK-CY-54
+TEST(Vlp16, AFootprintIsAsWideAsTheBeamAndOneFiringsTurn) {
+  const Vlp16Footprint f = vlp16_project(Vlp16Mount{}, {8, 0, 0, 286, 10000});
+  EXPECT_NEAR(f.left.y_mm, 49.9, 1);  // 10 m, 0.286 degrees: half of 3 mrad and 0.2 degrees
+  EXPECT_NEAR(f.right.y_mm, -49.9, 1);
+  EXPECT_EQ(f.left.z_mm, f.right.z_mm);
+}
+
+// verifies: SK-CY-54
+TEST_F(Vlp16Recording, TheSpreadOfARecordedReturnIsThatOfTenTurnsASecond) {
+  Vlp16Packet packet{};
+  ASSERT_EQ(vlp16_decode(packets[10].data(), packets[10].size(), packet), Vlp16Result::kOk);
+  for (int i = 0; i < packet.count; ++i) EXPECT_NEAR(packet.point[i].spread_mdeg, 86 + 200, 15) << i;
 }
 
 }  // namespace
