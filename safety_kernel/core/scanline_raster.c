@@ -26,13 +26,31 @@ typedef struct sk_border { int32_t b_low, b_high, z_high; } sk_border;
   @   sk_over_line(dv, da, r0, u) && sk_over_line(dv, da, r1, u) ==> v <= u;
   @ lemma sk_bounded_below: \forall real dv, da, a, v, r0, r1, u; da > 0 && r0 <= a <= r1 && sk_on_line(dv, da, a, v) &&
   @   sk_under_line(dv, da, r0, u) && sk_under_line(dv, da, r1, u) ==> v >= u;
+  @ predicate sk_product_most(integer d, integer v, integer n) = d * v <= n;
+  @ predicate sk_product_least(integer d, integer v, integer n) = d * v >= n;
   @ lemma sk_smaller: \forall integer d, x, y; d > 0 && d * x < d * y + d ==> x <= y;
-  @ lemma sk_floor_between: \forall integer d, q, n, v, w; d > 0 && sk_is_floor(q, n, d) && d * v <= n <= d * w ==> v <= q <= w;
-  @ lemma sk_ceil_between: \forall integer d, q, n, v, w; d > 0 && sk_is_ceil(q, n, d) && d * v <= n <= d * w ==> v <= q <= w;
+  @ lemma sk_floor_at_least: \forall integer d, q, n, v; d > 0 && sk_is_floor(q, n, d) && sk_product_most(d, v, n) ==> v <= q;
+  @ lemma sk_floor_at_most: \forall integer d, q, n, v; d > 0 && sk_is_floor(q, n, d) && sk_product_least(d, v, n) ==> q <= v;
+  @ lemma sk_ceil_at_least: \forall integer d, q, n, v; d > 0 && sk_is_ceil(q, n, d) && sk_product_most(d, v, n) ==> v <= q;
+  @ lemma sk_ceil_at_most: \forall integer d, q, n, v; d > 0 && sk_is_ceil(q, n, d) && sk_product_least(d, v, n) ==> q <= v;
   @ lemma sk_whole: \forall integer a, b; (real)(a * b) == sk_times(a, b);
   @ lemma sk_ceil_over: \forall integer dv, da, r, u; da * u >= dv * r ==> sk_over_line(dv, da, r, u);
   @ lemma sk_floor_under: \forall integer dv, da, r, u; da * u <= dv * r ==> sk_under_line(dv, da, r, u);
   @ lemma sk_fraction_on: \forall real dv, da, t; sk_on_line(dv, da, sk_times(t, da), sk_times(t, dv));
+  @ lemma sk_fraction_within: \forall real t, d; 0 <= t <= 1 && d >= 0 ==> 0 <= sk_times(t, d) <= d;
+  @ lemma sk_at_run: \forall integer v0, v1, d; \forall real t; d == v1 - v0 ==> sk_at(v0, v1, t) == v0 + sk_times(t, d);
+  @ // along a segment: level, below its higher end, and the same from its other end
+  @ lemma sk_level: \forall integer v; \forall real t; sk_at(v, v, t) == v;
+  @ lemma sk_below_higher_end: \forall integer v0, v1; \forall real t; 0 <= t <= 1 ==> sk_at(v0, v1, t) <= sk_most(v0, v1);
+  @ lemma sk_from_other_end: \forall integer v0, v1; \forall real t; sk_at(v0, v1, t) == sk_at(v1, v0, 1 - t);
+  @ lemma sk_crosses_turned: \forall sk_point p, q; \forall real t; \forall integer iy, ix;
+  @   sk_crosses(p, q, t, iy, ix) ==> sk_crosses(q, p, 1 - t, iy, ix);
+  @ lemma sk_covers_turned{L}: \forall sk_height_map *m; \forall sk_point p, q; \forall integer now;
+  @   sk_covers{L}(m, q, p, now) ==> sk_covers{L}(m, p, q, now);
+  @ lemma sk_raises_turned{A, B}: \forall sk_height_map *m; \forall sk_point p, q; \forall integer now;
+  @   sk_only_raises{A, B}(m, q, p, now) ==> sk_only_raises{A, B}(m, p, q, now);
+  @ // the cells over one coordinate: that which holds it, and the one below where it is a border
+  @ predicate sk_first_or_last(integer i, integer v) = sk_cell_low(i) <= v <= sk_cell_low(i) + SK_CELL_MM;
   @
   @ predicate sk_coordinate_in_range(integer v) = -SK_COORD_MAX_MM <= v <= SK_COORD_MAX_MM;
   @ predicate sk_height_in_range(integer z) = -SK_HEIGHT_MAX_MM <= z <= SK_HEIGHT_MAX_MM;
@@ -74,7 +92,8 @@ static int32_t sk_scale_down(int64_t dv, int64_t run, int64_t da)
   /*@ assert dv >= 0 ==> 0 <= dv * run <= dv * da; */
   /*@ assert dv <= 0 ==> dv * da <= dv * run <= 0; */
   q = sk_floor_div(dv * run, da);
-  /*@ assert da * sk_least(0, dv) <= dv * run <= da * sk_most(0, dv); */
+  /*@ assert dv >= 0 ==> sk_product_most(da, 0, dv * run) && sk_product_least(da, dv, dv * run); */
+  /*@ assert dv <= 0 ==> sk_product_most(da, dv, dv * run) && sk_product_least(da, 0, dv * run); */
   /*@ assert sk_least(0, dv) <= q <= sk_most(0, dv); */
   return (int32_t)q;
 }
@@ -90,7 +109,8 @@ static int32_t sk_scale_up(int64_t dv, int64_t run, int64_t da)
   /*@ assert dv >= 0 ==> 0 <= dv * run <= dv * da; */
   /*@ assert dv <= 0 ==> dv * da <= dv * run <= 0; */
   q = sk_ceil_div(dv * run, da);
-  /*@ assert da * sk_least(0, dv) <= dv * run <= da * sk_most(0, dv); */
+  /*@ assert dv >= 0 ==> sk_product_most(da, 0, dv * run) && sk_product_least(da, dv, dv * run); */
+  /*@ assert dv <= 0 ==> sk_product_most(da, dv, dv * run) && sk_product_least(da, 0, dv * run); */
   /*@ assert sk_least(0, dv) <= q <= sk_most(0, dv); */
   return (int32_t)q;
 }
@@ -216,9 +236,19 @@ static int32_t sk_raise_point(sk_height_map *m, sk_point p, sk_point q, int64_t 
   int32_t last = sk_map_index(p.x_mm);
   int32_t count = sk_raise_span(m, true, first, p.y_mm, p.y_mm, z, now_us, generation_us);
   if (first < last) { count = count + sk_raise_span(m, true, last, p.y_mm, p.y_mm, z, now_us, generation_us); }
+  /*@ assert two_columns: \forall integer i; sk_first_or_last(i, p.x_mm) ==> i == first || i == last; */
+  /*@ assert cells: \forall integer iy, ix; sk_in_map(iy, ix) && sk_first_or_last(ix, p.x_mm) && sk_first_or_last(iy, p.y_mm) ==>
+    @   m->height_mm[iy][ix] >= z && m->seen_us[iy][ix] == now_us; */
+  /*@ assert over: \forall real t; \forall integer iy, ix; sk_crosses(p, q, t, iy, ix) ==>
+    @   sk_first_or_last(ix, p.x_mm) && sk_first_or_last(iy, p.y_mm) && sk_at(p.z_mm, q.z_mm, t) <= z; */
   return count;
 }
 
+/*@ requires sk_point_fits(p) && sk_point_fits(q) && p.x_mm < q.x_mm;
+  @ assigns \nothing;
+  @ ensures sk_course_fits(\result) && \result.along_x == true && \result.a0 == p.x_mm && \result.b0 == p.y_mm && \result.z0 == p.z_mm;
+  @ ensures \result.da == q.x_mm - p.x_mm && \result.db == q.y_mm - p.y_mm && \result.dz == q.z_mm - p.z_mm;
+  @*/
 static sk_course sk_course_x(sk_point p, sk_point q)
 {
   sk_course s;
@@ -232,6 +262,11 @@ static sk_course sk_course_x(sk_point p, sk_point q)
   return s;
 }
 
+/*@ requires sk_point_fits(p) && sk_point_fits(q) && p.y_mm < q.y_mm;
+  @ assigns \nothing;
+  @ ensures sk_course_fits(\result) && \result.along_x == false && \result.a0 == p.y_mm && \result.b0 == p.x_mm && \result.z0 == p.z_mm;
+  @ ensures \result.da == q.y_mm - p.y_mm && \result.db == q.x_mm - p.x_mm && \result.dz == q.z_mm - p.z_mm;
+  @*/
 static sk_course sk_course_y(sk_point p, sk_point q)
 {
   sk_course s;
@@ -245,25 +280,83 @@ static sk_course sk_course_y(sk_point p, sk_point q)
   return s;
 }
 
+/* The two walks: what a course covers, its segment covers. */
+/*@ requires \valid(m) && now_us >= 0 && generation_us > 0 && sk_point_fits(p) && sk_point_fits(q) && p.x_mm < q.x_mm;
+  @ assigns m->height_mm[..][..], m->previous_mm[..][..], m->began_us[..][..], m->seen_us[..][..];
+  @ ensures 0 <= \result;
+  @ ensures covers: sk_covers(m, p, q, now_us);
+  @ ensures only: sk_only_raises{Pre, Post}(m, p, q, now_us);
+  @*/
+static int32_t sk_raise_along_x(sk_height_map *m, sk_point p, sk_point q, int64_t now_us, int32_t generation_us)
+{
+  sk_course s = sk_course_x(p, q);
+  int32_t count = sk_raise_course(m, s, now_us, generation_us);
+  /*@ assert within: \forall real t; 0 <= t <= 1 ==> 0 <= sk_times(t, s.da) <= s.da; */
+  /*@ assert on: \forall real t; sk_on_line(s.db, s.da, sk_times(t, s.da), sk_times(t, s.db)) &&
+    @   sk_on_line(s.dz, s.da, sk_times(t, s.da), sk_times(t, s.dz)); */
+  /*@ assert same_a: \forall real t; sk_at(p.x_mm, q.x_mm, t) == s.a0 + sk_times(t, s.da); */
+  /*@ assert same_b: \forall real t; sk_at(p.y_mm, q.y_mm, t) == s.b0 + sk_times(t, s.db); */
+  /*@ assert same_z: \forall real t; sk_at(p.z_mm, q.z_mm, t) == s.z0 + sk_times(t, s.dz); */
+  /*@ assert over: \forall real t; \forall integer iy, ix; sk_crosses(p, q, t, iy, ix) ==>
+    @   sk_course_over(s, sk_times(t, s.da), sk_times(t, s.db), sk_times(t, s.dz), ix, iy); */
+  return count;
+}
+
+/*@ requires \valid(m) && now_us >= 0 && generation_us > 0 && sk_point_fits(p) && sk_point_fits(q) && p.y_mm < q.y_mm;
+  @ assigns m->height_mm[..][..], m->previous_mm[..][..], m->began_us[..][..], m->seen_us[..][..];
+  @ ensures 0 <= \result;
+  @ ensures covers: sk_covers(m, p, q, now_us);
+  @ ensures only: sk_only_raises{Pre, Post}(m, p, q, now_us);
+  @*/
+static int32_t sk_raise_along_y(sk_height_map *m, sk_point p, sk_point q, int64_t now_us, int32_t generation_us)
+{
+  sk_course s = sk_course_y(p, q);
+  int32_t count = sk_raise_course(m, s, now_us, generation_us);
+  /*@ assert within: \forall real t; 0 <= t <= 1 ==> 0 <= sk_times(t, s.da) <= s.da; */
+  /*@ assert on: \forall real t; sk_on_line(s.db, s.da, sk_times(t, s.da), sk_times(t, s.db)) &&
+    @   sk_on_line(s.dz, s.da, sk_times(t, s.da), sk_times(t, s.dz)); */
+  /*@ assert same_a: \forall real t; sk_at(p.y_mm, q.y_mm, t) == s.a0 + sk_times(t, s.da); */
+  /*@ assert same_b: \forall real t; sk_at(p.x_mm, q.x_mm, t) == s.b0 + sk_times(t, s.db); */
+  /*@ assert same_z: \forall real t; sk_at(p.z_mm, q.z_mm, t) == s.z0 + sk_times(t, s.dz); */
+  /*@ assert over: \forall real t; \forall integer iy, ix; sk_crosses(p, q, t, iy, ix) ==>
+    @   sk_course_over(s, sk_times(t, s.da), sk_times(t, s.db), sk_times(t, s.dz), iy, ix); */
+  return count;
+}
+
+/*@ assigns \nothing;
+  @ ensures \result == true <==> sk_point_fits(p);
+  @*/
 static bool sk_point_ok(sk_point p)
 {
   return -SK_COORD_MAX_MM <= p.x_mm && p.x_mm <= SK_COORD_MAX_MM && -SK_COORD_MAX_MM <= p.y_mm && p.y_mm <= SK_COORD_MAX_MM &&
          -SK_HEIGHT_MAX_MM <= p.z_mm && p.z_mm <= SK_HEIGHT_MAX_MM;
 }
 
+/*@ requires sk_coordinate_in_range(a) && sk_coordinate_in_range(b);
+  @ assigns \nothing;
+  @ ensures 0 <= \result && (\result == 0 <==> a == b);
+  @*/
 static int32_t sk_distance(int32_t a, int32_t b)
 {
   return a > b ? a - b : b - a;
 }
 
+/* Along the longer axis, so that few columns have many rows, from the lower end. */
+/*@ requires \valid(m) && now_us >= 0 && generation_us > 0 && sk_point_fits(p) && sk_point_fits(q);
+  @ requires apart: p.x_mm != q.x_mm || p.y_mm != q.y_mm;
+  @ assigns m->height_mm[..][..], m->previous_mm[..][..], m->began_us[..][..], m->seen_us[..][..];
+  @ ensures 0 <= \result;
+  @ ensures covers: sk_covers(m, p, q, now_us);
+  @ ensures only: sk_only_raises{Pre, Post}(m, p, q, now_us);
+  @*/
 static int32_t sk_raise_ordered(sk_height_map *m, sk_point p, sk_point q, int64_t now_us, int32_t generation_us)
 {
-  if (sk_distance(p.x_mm, q.x_mm) >= sk_distance(p.y_mm, q.y_mm)) {
-    if (p.x_mm < q.x_mm) { return sk_raise_course(m, sk_course_x(p, q), now_us, generation_us); }
-    return sk_raise_course(m, sk_course_x(q, p), now_us, generation_us);
-  }
-  if (p.y_mm < q.y_mm) { return sk_raise_course(m, sk_course_y(p, q), now_us, generation_us); }
-  return sk_raise_course(m, sk_course_y(q, p), now_us, generation_us);
+  int32_t away_x = sk_distance(p.x_mm, q.x_mm);
+  int32_t away_y = sk_distance(p.y_mm, q.y_mm);
+  if (p.x_mm < q.x_mm && away_x >= away_y) { return sk_raise_along_x(m, p, q, now_us, generation_us); }
+  if (q.x_mm < p.x_mm && away_x >= away_y) { return sk_raise_along_x(m, q, p, now_us, generation_us); }
+  if (p.y_mm < q.y_mm) { return sk_raise_along_y(m, p, q, now_us, generation_us); }
+  return sk_raise_along_y(m, q, p, now_us, generation_us);
 }
 
 int32_t sk_raster_segment(sk_height_map *m, const sk_point *p, const sk_point *q, int64_t now_us, int32_t generation_us)
