@@ -188,7 +188,9 @@ class LoadRun {
         say(fmt::format("{:7.1f} s  truck {} is full", recorder_.time_s(), event.value("truck", 1)));
       } else if (name == "stopped") {
         say(fmt::format("{:7.1f} s  the kernel stopped the machine: {}", recorder_.time_s(), event.value("reason", "?")));
-      } else if (name == "resumed") {
+      } else if (name == "held") {
+        say(fmt::format("{:7.1f} s  the app holds back: {}", recorder_.time_s(), held_by(event)));
+      } else if (name == "resumed" || name == "released") {
         say(fmt::format("{:7.1f} s  moving again", recorder_.time_s()));
       }
       result_.app_events.push_back(std::move(event));

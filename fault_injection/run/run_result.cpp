@@ -55,7 +55,44 @@ std::string stops_text(const RunResult& r) {
   return text;
 }
 
+// The app's own holds, each over when it says "released" or the run ends.
+struct AppHold { double from_s, seconds; std::string by; };
+
+std::vector<AppHold> app_holds(const RunResult& r) {
+  std::vector<AppHold> holds;
+  bool open = false;
+  const double end_s = r.truth.value("simulated_seconds", 0.0);
+  for (const auto& event : r.app_events) {
+    const std::string name = event.value("event", "");
+    const double time_s = event.value("time_s", 0.0);
+    if (name == "held") {
+      holds.push_back({time_s, end_s - time_s, held_by(event)});
+      open = true;
+    } else if (name == "released" && open) {
+      const double seconds = event.value("held_s", 0.0);
+      holds.back() = {time_s - seconds, seconds, holds.back().by};
+      open = false;
+    }
+  }
+  return holds;
+}
+
+std::string holds_text(const std::vector<AppHold>& holds) {
+  if (holds.empty()) return "none of more than 1 s";
+  std::vector<std::string> each;
+  for (const auto& hold : holds)
+    if (each.size() < 5) each.push_back(fmt::format("{:.1f} s from {:.1f} s, {}", hold.seconds, hold.from_s, hold.by));
+  return fmt::format("{} ({}{})", holds.size(), fmt::join(each, "; "), holds.size() > each.size() ? "; ..." : "");
+}
+
 }  // namespace
+
+std::string held_by(const json& held) {
+  const std::string what = held.value("by", "?");
+  if (!held.contains("bearing_deg")) return what;
+  const std::string place = fmt::format("{} at bearing {:.0f} deg, {:.1f} m", what, held.value("bearing_deg", 0.0), held.value("distance_m", 0.0));
+  return held.contains("height_m") ? fmt::format("{}, height {:.1f} m", place, held.value("height_m", 0.0)) : place;
+}
 
 json flat_json(const RunResult& r) {
   json out;
@@ -73,6 +110,9 @@ json flat_json(const RunResult& r) {
   out["contacts"] = r.contacts;
   out["closest_approach_m"] = r.truth.contains("closest_approach_m") ? r.truth["closest_approach_m"] : json(nullptr);
   out["kernel_stops"] = r.stops;
+  std::vector<double> hold_seconds;
+  for (const auto& hold : app_holds(r)) hold_seconds.push_back(hold.seconds);
+  out["app_hold_seconds"] = hold_seconds;
   out["kernel_faults"] = r.kernel_faults;
   for (const char* name : {"cycle_us_p50", "cycle_us_p99", "cycle_us_max"}) out[name] = r.kernel.contains(name) ? r.kernel[name] : json(nullptr);
   out["simulated_seconds"] = r.truth.value("simulated_seconds", 0.0);
@@ -125,6 +165,7 @@ std::string summary_text(const RunResult& r) {
     row("closest approach", fmt::format("{:.2f} m{}", j["closest_approach_m"].get<double>(),
                                         r.truth.contains("closest_approach_what") && r.truth["closest_approach_what"].is_string() ? fmt::format(" ({})", r.truth["closest_approach_what"].get<std::string>()) : ""));
   row("kernel stops", stops_text(r));
+  row("held by the app", holds_text(app_holds(r)));
   row("kernel faults", r.kernel_faults == 0 ? "none" : fmt::format("{} (first: {})", r.kernel_faults, r.first_fault));
   if (j["cycle_us_p50"].is_number())
     row("kernel cycle, CPU", fmt::format("median {} us, p99 {} us, maximum {} us", j["cycle_us_p50"].dump(), j["cycle_us_p99"].dump(), j["cycle_us_max"].dump()));

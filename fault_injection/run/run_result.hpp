@@ -27,6 +27,8 @@ struct RunResult {
   std::vector<std::string> notes;           // things a person should know
 };
 
+// What an app's event "held" names: what stands in the way, and where.
+std::string held_by(const nlohmann::json& held);
 // The documented flat object.
 nlohmann::json flat_json(const RunResult& result);
 // What a person reads.

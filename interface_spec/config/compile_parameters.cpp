@@ -81,7 +81,7 @@ void compile_rules(const MachineFile& m, const SiteFile& site, berm_parameters& 
   p.dig_zones = static_cast<std::int32_t>(site.dig_zone.size());
   for (std::size_t i = 0; i < site.dig_zone.size(); ++i) {  // inwards
     const auto& z = site.dig_zone[i];
-    p.dig_zone[i] = {up(z.x_low, kMilli), up(z.y_low, kMilli), down(z.x_high, kMilli), down(z.y_high, kMilli), up(z.floor, kMilli)};
+    p.dig_zone[i] = {up(z.x_low, kMilli), up(z.y_low, kMilli), down(z.x_high, kMilli), down(z.y_high, kMilli), up(z.floor, kMilli), down(z.ceiling, kMilli)};
   }
 }
 

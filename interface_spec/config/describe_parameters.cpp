@@ -74,7 +74,7 @@ void rules(const berm_parameters& p, Listing& out) {
   out.row("dig_swing_limit_urad_s", p.dig_swing_limit_urad_s);
   for (int i = 0; i < std::clamp(p.dig_zones, 0, BERM_DIG_ZONES); ++i) {
     const berm_dig_zone& z = p.dig_zone[i];
-    out.row(fmt::format("dig_zone[{}]", i), fmt::format("x {}..{} y {}..{} floor {} mm", z.x_low_mm, z.x_high_mm, z.y_low_mm, z.y_high_mm, z.floor_mm));
+    out.row(fmt::format("dig_zone[{}]", i), fmt::format("x {}..{} y {}..{} floor {} ceiling {} mm", z.x_low_mm, z.x_high_mm, z.y_low_mm, z.y_high_mm, z.floor_mm, z.ceiling_mm));
   }
   out.row("request_age_us", p.request_age_us);
   out.row("request_hold_us", p.request_hold_us);

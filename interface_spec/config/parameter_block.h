@@ -36,7 +36,7 @@ typedef struct berm_scanner_mount {               /* head in the upper body's fr
   int32_t pan_rate_max_urad_s;
 } berm_scanner_mount;
 
-typedef struct berm_dig_zone { int32_t x_low_mm, y_low_mm, x_high_mm, y_high_mm, floor_mm; } berm_dig_zone; /* base frame */
+typedef struct berm_dig_zone { int32_t x_low_mm, y_low_mm, x_high_mm, y_high_mm, floor_mm, ceiling_mm; } berm_dig_zone; /* base frame */
 
 typedef struct berm_parameters {
   int32_t magic, version, size, cell_mm;

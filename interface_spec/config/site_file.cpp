@@ -14,7 +14,8 @@ DigZoneFile read_zone(StrictTable table) {
   constexpr double kLeastSide = 0.01;
   const auto x = table.interval("x", -15.0, 15.0, kLeastSide);
   const auto y = table.interval("y", -15.0, 15.0, kLeastSide);
-  zone = {x[0], x[1], y[0], y[1], table.number("floor", -15.0, 5.0)};
+  const double floor = table.number("floor", -15.0, 5.0);
+  zone = {x[0], x[1], y[0], y[1], floor, table.number("ceiling", floor + kLeastSide, 10.0)};
   table.finish();
   return zone;
 }

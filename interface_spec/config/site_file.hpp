@@ -7,7 +7,7 @@
 
 namespace berm::config {
 
-struct DigZoneFile { double x_low, x_high, y_low, y_high, floor; };
+struct DigZoneFile { double x_low, x_high, y_low, y_high, floor, ceiling; };
 
 struct TruckPlaceFile {            // the inside of the bed of a parked truck
   std::array<double, 2> centre;

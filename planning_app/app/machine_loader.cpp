@@ -36,7 +36,7 @@ MachineModel machine_model(const config::MachineFile& file) {
 
 SiteModel site_model(const config::SiteFile& file) {
   SiteModel s;
-  for (const config::DigZoneFile& z : file.dig_zone) s.dig_zones.push_back({z.x_low, z.y_low, z.x_high, z.y_high, z.floor});
+  for (const config::DigZoneFile& z : file.dig_zone) s.dig_zones.push_back({z.x_low, z.y_low, z.x_high, z.y_high, z.floor, z.ceiling});
   const config::TruckPlaceFile& t = file.truck;
   s.truck = {t.centre[0], t.centre[1], t.yaw, t.length, t.width, t.height, t.wall_top, t.target_kg};
   s.dig_swing_left = std::max(file.dig.swing[0], file.dig.swing[1]);

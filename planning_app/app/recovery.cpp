@@ -8,6 +8,7 @@ namespace {
 
 constexpr double patience = 2.0;        // s before a retreat
 constexpr double rescan_after = 0.5;    // s
+constexpr double rescan_every = 6.0;    // s; the kernel's map forgets, and who stood in the way may have left
 constexpr double one_way = 4.0;         // s of creeping in one direction before the next is tried
 constexpr double creep_share = 0.9;
 constexpr double range_room = radians(8.0);
@@ -45,19 +46,23 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
       advice.resumed = true;
       advice.moved = moved_;
     }
-    stopped_ = moved_ = rescanned_ = false;
+    stopped_ = moved_ = false;
     return advice;
   }
   advice.in_charge = true;
   if (!stopped_) {
     stopped_ = true;
     since_s_ = o.time_s;
+    next_rescan_s_ = since_s_ + rescan_after;
     if (o.kernel_state == BERM_STATE_STOPPING || o.kernel_state == BERM_STATE_STOPPED || o.kernel_state == BERM_STATE_FAULT)
       log.event("stopped", {{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}});
   }
   if (!by_ground(o.stop_reason)) return advice;
   const double blocked = o.time_s - since_s_;
-  if (blocked > rescan_after && !rescanned_) advice.rescan = rescanned_ = true;
+  if (o.time_s > next_rescan_s_) {
+    advice.rescan = true;
+    next_rescan_s_ = o.time_s + rescan_every;
+  }
   if (blocked > patience) {
     advice.velocity = retreat(o, blocked - patience);
     moved_ = true;

@@ -26,8 +26,8 @@ private:
   MachineModel machine_;
   bool stopped_ = false;
   bool moved_ = false;
-  bool rescanned_ = false;
   double since_s_ = 0.0;
+  double next_rescan_s_ = 0.0;
 };
 
 }  // namespace berm::app

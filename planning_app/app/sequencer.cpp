@@ -200,6 +200,7 @@ Joints Sequencer::slowed(const Observation& o, const Joints& wanted) {
   const Joints allowed = guarded(machine_, *skyline_, arm_.predicted(o.angle, o.velocity), wanted);
   const bool held = std::all_of(allowed.begin(), allowed.end(), [](double v) { return v == 0.0; });
   if (!held || held_since_s_ < 0.0) {
+    if (looked_) log_.event("released", {{"time_s", o.time_s}, {"held_s", o.time_s - held_since_s_}});
     held_since_s_ = held ? o.time_s : -1.0;
     looked_ = false;
     return allowed;

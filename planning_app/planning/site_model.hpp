@@ -5,7 +5,7 @@
 
 namespace berm::app {
 
-struct DigZone { double x_low = 0.0, y_low = 0.0, x_high = 0.0, y_high = 0.0, floor = 0.0; };
+struct DigZone { double x_low = 0.0, y_low = 0.0, x_high = 0.0, y_high = 0.0, floor = 0.0, ceiling = 0.0; };
 
 struct TruckBed {                 // inside of the bed
   double centre_x = 0.0, centre_y = 0.0;

@@ -28,13 +28,24 @@ void from_bed(const TruckBed& bed, const BedPoint& p, double& x, double& y) {
   y = bed.centre_y + p.u * s + p.v * c;
 }
 
-bool in_dig_zone(const SiteModel& site, double x, double y) {
+namespace {
+
+bool in_zone(const DigZone& z, double x, double y) {
   // The kernel excepts whole cells of its map only.
   constexpr double cell = 0.3, rounding = 1e-6;
   const double x_low = std::floor(x / cell) * cell, y_low = std::floor(y / cell) * cell;
-  return std::any_of(site.dig_zones.begin(), site.dig_zones.end(), [&](const DigZone& z) {
-    return x_low > z.x_low - rounding && x_low + cell < z.x_high + rounding && y_low > z.y_low - rounding && y_low + cell < z.y_high + rounding;
-  });
+  return x_low > z.x_low - rounding && x_low + cell < z.x_high + rounding && y_low > z.y_low - rounding && y_low + cell < z.y_high + rounding;
+}
+
+// Soil that may be touched: what stands higher than the zone's ceiling is no soil, and what is unseen may be anything.
+bool diggable(const SiteModel& site, double x, double y, double top) {
+  return std::any_of(site.dig_zones.begin(), site.dig_zones.end(), [&](const DigZone& z) { return in_zone(z, x, y) && top <= z.ceiling; });
+}
+
+}  // namespace
+
+bool in_dig_zone(const SiteModel& site, double x, double y) {
+  return std::any_of(site.dig_zones.begin(), site.dig_zones.end(), [&](const DigZone& z) { return in_zone(z, x, y); });
 }
 
 std::size_t Skyline::slot(double bearing, int bin) {
@@ -71,7 +82,7 @@ Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Groun
           const double x = r * c - across * s, y = r * s + across * c;
           const double z = top(x, y);
           highest = std::max(highest, z);
-          if (!in_dig_zone(site, x, y)) highest_outside = std::max(highest_outside, z);
+          if (!diggable(site, x, y, z)) highest_outside = std::max(highest_outside, z);
         }
       all_[static_cast<std::size_t>(b * LowerEdge::bins + bin)] = highest;
       outside_dig_zone_[static_cast<std::size_t>(b * LowerEdge::bins + bin)] = highest_outside;

@@ -256,6 +256,15 @@ static bool sk_is_current(const sk_height_map *m, const sk_clearance_rules *r, i
   return seen_us >= 0 && seen_us <= r->now_us && seen_us >= r->now_us - r->fresh_us;
 }
 
+/*@ requires \valid_read(m) && \valid_read(r) && sk_rules_fit(r) && sk_in_map(iy, ix);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_known(m, r, iy, ix);
+  @*/
+static bool sk_is_known(const sk_height_map *m, const sk_clearance_rules *r, int32_t iy, int32_t ix)
+{
+  return sk_is_current(m, r, iy, ix) || (r->dig_stale && m->seen_us[iy][ix] >= 0);
+}
+
 /*@ requires \valid_read(m) && \valid_read(r) && sk_rules_fit(r) && \valid_read(p) && sk_plane_fits(p) && sk_in_map(iy, ix);
   @ assigns \nothing;
   @ ensures \result == true <==> sk_column_below(m, r, p, iy, ix);
@@ -300,21 +309,26 @@ static bool sk_is_in_zone(const berm_dig_zone *zone, int32_t iy, int32_t ix)
   return zone->x_low_mm <= x && x + SK_CELL_MM <= zone->x_high_mm && zone->y_low_mm <= y && y + SK_CELL_MM <= zone->y_high_mm;
 }
 
-/* A cell that is not separated, by the dig rule: clear, below the floor, or a collision when the rule does not apply. */
+/* A cell that is not separated, by the dig rule: clear, below the floor, or a collision when the rule does not apply. A cell in two zones may be dug
+ * when either allows it. */
 /*@ requires \valid_read(s) && sk_counts_fit(s) && \valid_read(r) && sk_rules_fit(r) && sk_in_map(iy, ix) && sk_is_lowest(s, 2, z_low_mm);
+  @ requires \valid_read(m);
   @ assigns \nothing;
   @ ensures \result == SK_CLEAR || \result == SK_BLOCKED_FLOOR || \result == SK_BLOCKED_COLLISION;
-  @ ensures \result == SK_CLEAR <==> sk_dig_exempt(s, r, iy, ix);
+  @ ensures \result == SK_CLEAR <==> sk_dig_exempt(m, s, r, iy, ix);
   @ ensures \result == SK_BLOCKED_FLOOR ==> sk_below_floor(s, r, iy, ix);
   @*/
-static int32_t sk_dig_verdict(const sk_slice *s, const sk_clearance_rules *r, int32_t z_low_mm, int32_t iy, int32_t ix)
+static int32_t sk_dig_verdict(const sk_height_map *m, const sk_slice *s, const sk_clearance_rules *r, int32_t z_low_mm, int32_t iy, int32_t ix)
 {
+  bool known = sk_is_known(m, r, iy, ix);
+  int32_t top_mm = sk_map_top(m, iy, ix);
   int32_t verdict = SK_BLOCKED_COLLISION;
   int32_t i;
   (void)s;
   if (!r->dig_allowed) { return SK_BLOCKED_COLLISION; }
   /*@ loop invariant 0 <= i <= r->dig_zones;
-    @ loop invariant \forall integer j; 0 <= j < i && sk_cell_in_zone(&r->dig_zone[j], iy, ix) ==> z_low_mm < r->dig_zone[j].floor_mm;
+    @ loop invariant \forall integer j; 0 <= j < i && sk_cell_in_zone(&r->dig_zone[j], iy, ix) ==>
+    @   z_low_mm < r->dig_zone[j].floor_mm || !sk_diggable(m, r, j, iy, ix);
     @ loop invariant verdict == SK_BLOCKED_COLLISION || verdict == SK_BLOCKED_FLOOR;
     @ loop invariant verdict == SK_BLOCKED_FLOOR ==> sk_below_floor(s, r, iy, ix);
     @ loop assigns i, verdict;
@@ -322,8 +336,8 @@ static int32_t sk_dig_verdict(const sk_slice *s, const sk_clearance_rules *r, in
     @*/
   for (i = 0; i < r->dig_zones; i++) {
     if (sk_is_in_zone(&r->dig_zone[i], iy, ix)) {
-      if (z_low_mm >= r->dig_zone[i].floor_mm) { return SK_CLEAR; }
-      verdict = SK_BLOCKED_FLOOR;
+      if (z_low_mm < r->dig_zone[i].floor_mm) { verdict = SK_BLOCKED_FLOOR; }
+      else if (known && top_mm <= r->dig_zone[i].ceiling_mm) { return SK_CLEAR; }
     }
   }
   return verdict;
@@ -378,7 +392,7 @@ static int32_t sk_cell_verdict(const sk_height_map *m, const sk_slice *s, int32_
     return SK_BLOCKED_UNKNOWN;
   }
   if (sk_is_separated(m, s, k, r, t, iy, ix)) { return SK_CLEAR; }
-  verdict = sk_dig_verdict(s, r, z_low_mm, iy, ix);
+  verdict = sk_dig_verdict(m, s, r, z_low_mm, iy, ix);
   if (verdict != SK_BLOCKED_COLLISION) { return verdict; }
   return sk_contact_verdict(m, r, iy, ix);
 }

@@ -36,6 +36,7 @@ typedef struct sk_clearance_rules {
   bool dig_allowed;            /* swing speed bound is under the dig limit (decided by the caller from the reach box) */
   int32_t dig_zones;
   berm_dig_zone dig_zone[BERM_DIG_ZONES];
+  bool dig_stale;              /* the dig-zone rule takes stale cells as they were last seen: for creeping out of a pit that the bucket hides */
 } sk_clearance_rules;
 
 enum {
@@ -98,9 +99,15 @@ typedef struct sk_clearance_result { int32_t verdict; int32_t iy, ix; int32_t ce
   @   \at(zone->x_low_mm, L) <= sk_cell_low(ix) && sk_cell_low(ix) + SK_CELL_MM <= \at(zone->x_high_mm, L) &&
   @   \at(zone->y_low_mm, L) <= sk_cell_low(iy) && sk_cell_low(iy) + SK_CELL_MM <= \at(zone->y_high_mm, L);
   @ predicate sk_slice_above{L}(sk_slice *s, integer z) = \forall integer i; 0 <= i < \at(s->vertices, L) ==> \at(s->vertex_mm[i][2], L) >= z;
-  @ predicate sk_dig_exempt{L}(sk_slice *s, sk_clearance_rules *r, integer iy, integer ix) = \at(r->dig_allowed, L) == true &&
+  @ predicate sk_known{L}(sk_height_map *m, sk_clearance_rules *r, integer iy, integer ix) =
+  @   sk_current{L}(m, r, iy, ix) || (\at(r->dig_stale, L) == true && 0 <= \at(m->seen_us[iy][ix], L));
+  @ // known, and no higher than soil is in this zone: a person who stands there is not soil
+  @ predicate sk_diggable{L}(sk_height_map *m, sk_clearance_rules *r, integer i, integer iy, integer ix) =
+  @   sk_known{L}(m, r, iy, ix) && sk_top{L}(m, iy, ix) <= \at(r->dig_zone[i].ceiling_mm, L);
+  @ predicate sk_dig_exempt{L}(sk_height_map *m, sk_slice *s, sk_clearance_rules *r, integer iy, integer ix) =
+  @   \at(r->dig_allowed, L) == true &&
   @   \exists integer i; 0 <= i < \at(r->dig_zones, L) && sk_cell_in_zone{L}(&r->dig_zone[i], iy, ix) &&
-  @     sk_slice_above{L}(s, \at(r->dig_zone[i].floor_mm, L));
+  @     sk_slice_above{L}(s, \at(r->dig_zone[i].floor_mm, L)) && sk_diggable{L}(m, r, i, iy, ix);
   @ predicate sk_below_floor{L}(sk_slice *s, sk_clearance_rules *r, integer iy, integer ix) = \at(r->dig_allowed, L) == true &&
   @   \exists integer i; 0 <= i < \at(r->dig_zones, L) && sk_cell_in_zone{L}(&r->dig_zone[i], iy, ix) &&
   @     !sk_slice_above{L}(s, \at(r->dig_zone[i].floor_mm, L));
@@ -109,7 +116,7 @@ typedef struct sk_clearance_result { int32_t verdict; int32_t iy, ix; int32_t ce
   @ // a cell of the slice is clear, plane k being the one chosen for it
   @ predicate sk_cell_clear{L}(sk_height_map *m, sk_slice *s, sk_clearance_rules *r, integer k, integer iy, integer ix) =
   @   (sk_own_body{L}(r, iy, ix) ==> \at(s->link, L) == 1) &&
-  @   (!sk_own_body{L}(r, iy, ix) ==> sk_separated{L}(m, s, r, k, iy, ix) || sk_dig_exempt{L}(s, r, iy, ix));
+  @   (!sk_own_body{L}(r, iy, ix) ==> sk_separated{L}(m, s, r, k, iy, ix) || sk_dig_exempt{L}(m, s, r, iy, ix));
   @ // why it is not
   @ predicate sk_blocked_because{L}(sk_height_map *m, sk_slice *s, sk_clearance_rules *r, integer iy, integer ix, integer verdict) =
   @   (verdict == SK_BLOCKED_COLLISION && sk_current{L}(m, r, iy, ix)) ||
@@ -139,8 +146,9 @@ bool sk_slice_rectangle(const sk_slice *s, sk_rectangle *out);
  * fresh_us ago, or in the future) is a column without a top: only a vertical plane (nz == 0) separates it. nz < 0 is never accepted. A slice with
  * a cell outside the map is BLOCKED_UNKNOWN.
  * Own body: a cell with all four corners within own_body_radius is clear for the boom and BLOCKED_UNKNOWN for stick and bucket, whatever it holds.
- * Dig-zone rule: a cell whose square lies wholly inside a dig zone needs no separation when dig_allowed and every vertex of the slice is at or above the
- * zone's floor; not separated and below the floor it is BLOCKED_FLOOR.
+ * Dig-zone rule: a cell whose square lies wholly inside a dig zone needs no separation when dig_allowed, every vertex of the slice is at or above the
+ * zone's floor, and the cell is observed, fresh (or dig_stale) and no higher than the zone's ceiling; not separated and below the floor it is
+ * BLOCKED_FLOOR.
  * out->verdict is SK_CLEAR only if every plane that is used has every vertex strictly on its positive side and every cell of the rectangle passes;
  * then, and where no cell is to blame, iy = ix = -1; else they name the first blocked cell, row by row. On anything malformed (counts, ranges,
  * link) the verdict is SK_BLOCKED_INVALID. */

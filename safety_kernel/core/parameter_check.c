@@ -196,27 +196,36 @@ static bool zones_bounds_ok(const berm_parameters *p)
   return true;
 }
 
+/*@ requires \valid_read(z);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_zone_heights_ok(z);
+  @*/
+static bool zone_floor_below_ceiling(const berm_dig_zone *z)
+{
+  return -SK_HEIGHT_MAX_MM <= z->floor_mm && z->floor_mm < z->ceiling_mm && z->ceiling_mm <= SK_HEIGHT_MAX_MM;
+}
+
 /*@ requires \valid_read(p) && sk_rule_dig_zone_count(p);
   @ assigns \nothing;
-  @ ensures \result == true <==> sk_rule_dig_zone_floor(p);
+  @ ensures \result == true <==> sk_rule_dig_zone_heights(p);
   @*/
-static bool zone_floors_ok(const berm_parameters *p)
+static bool zone_heights_ok(const berm_parameters *p)
 {
   int32_t k;
   /*@ loop invariant 0 <= k <= p->dig_zones;
-    @ loop invariant \forall integer i; 0 <= i < k ==> sk_within(p->dig_zone[i].floor_mm, -SK_HEIGHT_MAX_MM, SK_HEIGHT_MAX_MM);
+    @ loop invariant \forall integer i; 0 <= i < k ==> sk_zone_heights_ok(&p->dig_zone[i]);
     @ loop assigns k;
     @ loop variant p->dig_zones - k;
     @*/
   for (k = 0; k < p->dig_zones; k++) {
-    if (!sk_is_within(p->dig_zone[k].floor_mm, -SK_HEIGHT_MAX_MM, SK_HEIGHT_MAX_MM)) { return false; }
+    if (!zone_floor_below_ceiling(&p->dig_zone[k])) { return false; }
   }
   return true;
 }
 
 /*@ requires \valid_read(p);
   @ assigns \nothing;
-  @ ensures codes: \result == SK_RULE_NONE || SK_RULE_MARGIN <= \result <= SK_RULE_DIG_ZONE_FLOOR;
+  @ ensures codes: \result == SK_RULE_NONE || SK_RULE_MARGIN <= \result <= SK_RULE_DIG_ZONE_HEIGHTS;
   @ ensures whole: \result == SK_RULE_NONE <==> sk_map_rules_ok(p);
   @ ensures why_margin: \result == SK_RULE_MARGIN ==> !sk_rule_margin(p);
   @ ensures why_fresh: \result == SK_RULE_FRESH ==> !sk_rule_fresh(p);
@@ -224,7 +233,7 @@ static bool zone_floors_ok(const berm_parameters *p)
   @ ensures why_dig_swing_limit: \result == SK_RULE_DIG_SWING_LIMIT ==> !sk_rule_dig_swing_limit(p);
   @ ensures why_dig_zone_count: \result == SK_RULE_DIG_ZONE_COUNT ==> !sk_rule_dig_zone_count(p);
   @ ensures why_dig_zone_bounds: \result == SK_RULE_DIG_ZONE_BOUNDS ==> !sk_rule_dig_zone_bounds(p);
-  @ ensures why_dig_zone_floor: \result == SK_RULE_DIG_ZONE_FLOOR ==> !sk_rule_dig_zone_floor(p);
+  @ ensures why_dig_zone_heights: \result == SK_RULE_DIG_ZONE_HEIGHTS ==> !sk_rule_dig_zone_heights(p);
   @*/
 static int32_t check_map(const berm_parameters *p)
 {
@@ -234,7 +243,7 @@ static int32_t check_map(const berm_parameters *p)
   if (!sk_is_within(p->dig_swing_limit_urad_s, 0, p->velocity_max_urad_s[0])) { return SK_RULE_DIG_SWING_LIMIT; }
   if (!sk_is_within(p->dig_zones, 0, BERM_DIG_ZONES)) { return SK_RULE_DIG_ZONE_COUNT; }
   if (!zones_bounds_ok(p)) { return SK_RULE_DIG_ZONE_BOUNDS; }
-  if (!zone_floors_ok(p)) { return SK_RULE_DIG_ZONE_FLOOR; }
+  if (!zone_heights_ok(p)) { return SK_RULE_DIG_ZONE_HEIGHTS; }
   return SK_RULE_NONE;
 }
 

@@ -57,7 +57,7 @@ SK_BEGIN
   @ ensures why_dig_swing_limit: \result == SK_RULE_DIG_SWING_LIMIT ==> !sk_rule_dig_swing_limit(p);
   @ ensures why_dig_zone_count: \result == SK_RULE_DIG_ZONE_COUNT ==> !sk_rule_dig_zone_count(p);
   @ ensures why_dig_zone_bounds: \result == SK_RULE_DIG_ZONE_BOUNDS ==> !sk_rule_dig_zone_bounds(p);
-  @ ensures why_dig_zone_floor: \result == SK_RULE_DIG_ZONE_FLOOR ==> !sk_rule_dig_zone_floor(p);
+  @ ensures why_dig_zone_heights: \result == SK_RULE_DIG_ZONE_HEIGHTS ==> !sk_rule_dig_zone_heights(p);
   @ ensures why_request_age: \result == SK_RULE_REQUEST_AGE ==> !sk_rule_request_age(p);
   @ ensures why_request_hold: \result == SK_RULE_REQUEST_HOLD ==> !sk_rule_request_hold(p);
   @ ensures why_request_silent: \result == SK_RULE_REQUEST_SILENT ==> !sk_rule_request_silent(p);

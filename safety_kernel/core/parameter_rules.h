@@ -22,7 +22,7 @@ enum {
   SK_RULE_SCANNER_POSITION = 35, SK_RULE_SCANNER_PAN = 36, SK_RULE_SCANNER_PAN_RATE = 37, SK_RULE_SCANNER_SILENT = 38,
   SK_RULE_SPURIOUS_RANGE = 39, SK_RULE_RANGE_LIMITS = 40, SK_RULE_SELF_MARGIN = 41,
   SK_RULE_MARGIN = 42, SK_RULE_FRESH = 43, SK_RULE_GENERATION = 44, SK_RULE_DIG_SWING_LIMIT = 45,
-  SK_RULE_DIG_ZONE_COUNT = 46, SK_RULE_DIG_ZONE_BOUNDS = 47, SK_RULE_DIG_ZONE_FLOOR = 48,
+  SK_RULE_DIG_ZONE_COUNT = 46, SK_RULE_DIG_ZONE_BOUNDS = 47, SK_RULE_DIG_ZONE_HEIGHTS = 48,
   SK_RULE_REQUEST_AGE = 49, SK_RULE_REQUEST_HOLD = 50, SK_RULE_REQUEST_SILENT = 51,
   SK_RULE_STATE_FRAME_AGE = 52, SK_RULE_MACHINE_STATE_AGE = 53, SK_RULE_OPERATOR_AGE = 54, SK_RULE_CYCLE = 55,
   SK_RULE_STANDSTILL_SPEED = 56, SK_RULE_STANDSTILL_TIME = 57,
@@ -140,17 +140,17 @@ enum {
   @
   @ // map and clearance
   @ predicate sk_zone_bounds_ok(berm_dig_zone *z) = -15000 <= z->x_low_mm < z->x_high_mm <= 15000 && -15000 <= z->y_low_mm < z->y_high_mm <= 15000;
+  @ predicate sk_zone_heights_ok(berm_dig_zone *z) = -SK_HEIGHT_MAX_MM <= z->floor_mm < z->ceiling_mm <= SK_HEIGHT_MAX_MM;
   @ predicate sk_rule_margin(berm_parameters *p) = sk_within(p->margin_mm, 0, 3000);
   @ predicate sk_rule_fresh(berm_parameters *p) = sk_within(p->fresh_us, 1, 600000000);
   @ predicate sk_rule_generation(berm_parameters *p) = sk_within(p->generation_us, 1, p->fresh_us);
   @ predicate sk_rule_dig_swing_limit(berm_parameters *p) = sk_within(p->dig_swing_limit_urad_s, 0, p->velocity_max_urad_s[0]);
   @ predicate sk_rule_dig_zone_count(berm_parameters *p) = sk_within(p->dig_zones, 0, BERM_DIG_ZONES);
   @ predicate sk_rule_dig_zone_bounds(berm_parameters *p) = \forall integer i; 0 <= i < p->dig_zones ==> sk_zone_bounds_ok(&p->dig_zone[i]);
-  @ predicate sk_rule_dig_zone_floor(berm_parameters *p) = \forall integer i; 0 <= i < p->dig_zones ==>
-  @   sk_within(p->dig_zone[i].floor_mm, -SK_HEIGHT_MAX_MM, SK_HEIGHT_MAX_MM);
+  @ predicate sk_rule_dig_zone_heights(berm_parameters *p) = \forall integer i; 0 <= i < p->dig_zones ==> sk_zone_heights_ok(&p->dig_zone[i]);
   @ predicate sk_map_rules_ok(berm_parameters *p) =
   @   sk_rule_margin(p) && sk_rule_fresh(p) && sk_rule_generation(p) && sk_rule_dig_swing_limit(p) && sk_rule_dig_zone_count(p) &&
-  @   sk_rule_dig_zone_bounds(p) && sk_rule_dig_zone_floor(p);
+  @   sk_rule_dig_zone_bounds(p) && sk_rule_dig_zone_heights(p);
   @
   @ // times; hold within 50 ms and latched stop within 500 ms are promised, so nobody may configure more
   @ predicate sk_rule_request_age(berm_parameters *p) = sk_within(p->request_age_us, 1, 500000);

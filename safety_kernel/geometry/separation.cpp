@@ -94,9 +94,9 @@ public:
 
   bool boom() const noexcept { return boom_; }
 
-  bool dig_zone(int32_t x, int32_t y) const noexcept {
+  bool dig_zone(int32_t x, int32_t y, int32_t top) const noexcept {
     for (int i = 0; i < zones_; ++i)
-      if (x >= zone_[i].x_low_mm && x + SK_CELL_MM <= zone_[i].x_high_mm && y >= zone_[i].y_low_mm && y + SK_CELL_MM <= zone_[i].y_high_mm) return true;
+      if (top <= zone_[i].ceiling_mm && x >= zone_[i].x_low_mm && x + SK_CELL_MM <= zone_[i].x_high_mm && y >= zone_[i].y_low_mm && y + SK_CELL_MM <= zone_[i].y_high_mm) return true;
     return false;
   }
 
@@ -142,7 +142,7 @@ bool choose_planes(const sk_height_map& map, const sk_slice& slice, const sk_cle
       const bool own = over_body && exceptions.own_body(x, y);
       if (observed && !own && top <= under) continue; // nearly always
       if (own && exceptions.boom()) continue;
-      if (exceptions.dig_zone(x, y)) continue;
+      if ((observed || (rules.dig_stale && seen_us >= 0)) && exceptions.dig_zone(x, y, static_cast<int32_t>(top - rules.margin_mm))) continue;
       const bool has_top = observed && !own && top <= SK_COORD_MAX_MM;
       const int plane = search.find(x, y, has_top ? static_cast<int32_t>(std::max<int64_t>(top, -SK_COORD_MAX_MM)) : 0, has_top);
       if (plane == 0) return false;

@@ -72,9 +72,11 @@ void MotionCheck::note_cell(const sk_height_map& map, const sk_slice& slice, con
   verdict.blocked_height_mm = inside && map.seen_us[result.iy][result.ix] >= 0 ? sk_map_top(&map, result.iy, result.ix) : 0;
 }
 
-std::uint8_t MotionCheck::clear(const MotionQuery& query, const sk_height_map& map, const sk_reach_box& box, SliceSet& slices, MotionVerdict& verdict) {
+std::uint8_t MotionCheck::clear(const MotionQuery& query, const sk_height_map& map, const sk_reach_box& box, SliceSet& slices, bool creeping,
+                                MotionVerdict& verdict) {
   if (!build_slices(parameters_, box, slices)) return BERM_STOP_INTERNAL;
   rules_.now_us = query.now_us;
+  rules_.dig_stale = creeping;  // else a bucket that stood in a pit, which hides the ground before it, could never leave
   rules_.dig_allowed = box.speed_urad_s[BERM_SWING] <= parameters_.dig_swing_limit_urad_s;
   for (int s = 0; s < slices.count; ++s) {
     const sk_slice& slice = slices.slice[s];
@@ -104,7 +106,7 @@ std::uint8_t MotionCheck::creep(const MotionQuery& query, const sk_height_map& m
   }
   sk_reach_box box{};
   if (!reach(query, SK_REACH_COMMANDED, low, high, box) || !joints_within(box, low, high)) return BERM_STOP_JOINT_RANGE;
-  return clear(query, map, box, creep_slices_, verdict);
+  return clear(query, map, box, creep_slices_, true, verdict);
 }
 
 void MotionCheck::check(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
@@ -120,7 +122,7 @@ void MotionCheck::check(const MotionQuery& query, const sk_height_map& map, Moti
     verdict.reason = BERM_STOP_JOINT_RANGE;
     build_slices(parameters_, verdict.box, any_slices_);  // for observers only
   } else {
-    verdict.reason = clear(query, map, verdict.box, any_slices_, verdict);
+    verdict.reason = clear(query, map, verdict.box, any_slices_, false, verdict);
   }
   if (verdict.reason == BERM_STOP_NONE) {
     verdict.permission = Permission::kFull;

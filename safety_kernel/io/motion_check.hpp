@@ -53,12 +53,12 @@ class MotionCheck {
   // Box for mode; false where it cannot be bounded (speed or reach beyond the braking table).
   bool reach(const MotionQuery& query, int mode, const std::int32_t* low_urad_s, const std::int32_t* high_urad_s, sk_reach_box& box) const;
   bool joints_within(const sk_reach_box& box, const std::int32_t* low_urad_s, const std::int32_t* high_urad_s) const;
-  std::uint8_t clear(const MotionQuery& query, const sk_height_map& map, const sk_reach_box& box, SliceSet& slices, MotionVerdict& verdict);
+  std::uint8_t clear(const MotionQuery& query, const sk_height_map& map, const sk_reach_box& box, SliceSet& slices, bool creeping, MotionVerdict& verdict);
   std::uint8_t creep(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
   void note_cell(const sk_height_map& map, const sk_slice& slice, const sk_clearance_result& result, MotionVerdict& verdict) const;
 
   const berm_parameters& parameters_;
-  sk_clearance_rules rules_;
+  sk_clearance_rules rules_{};
   SliceSet any_slices_;
   SliceSet creep_slices_;
   sk_choice choice_;

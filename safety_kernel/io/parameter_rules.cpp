@@ -55,7 +55,7 @@ constexpr const char* kText[] = {
     "dig_swing_limit_urad_s: within 0..velocity_max of the swing",
     "dig_zones: 0 to 4",
     "dig_zone: low below high, within +-15000 mm",
-    "dig_zone floor_mm: within +-20000",
+    "dig_zone floor_mm below ceiling_mm, both within +-20000",
     "request_age_us: within 1..500000",
     "request_hold_us: within 1..50000",
     "request_silent_us: within request_hold_us..500000",

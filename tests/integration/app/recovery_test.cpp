@@ -39,7 +39,7 @@ TEST(Recovery, HoldsLooksAgainThenRetreatsAtCreepSpeed) {
     swung_away = swung_away || advice.velocity[swing] < 0.0;
     ASSERT_LE(advice.velocity[swing], 0.0) << "toward what blocks";
   }
-  EXPECT_EQ(rescans, 1);
+  EXPECT_EQ(rescans, 2);  // after 0.5 s, and again 6 s later
   EXPECT_TRUE(raised);
   EXPECT_TRUE(swung_away);
   Observation o = stopped(12.0, BERM_STOP_NONE);

@@ -52,6 +52,7 @@ TEST(Compile, DecimalsThatAreWholeStayWhole) {
   EXPECT_EQ(p.acceleration_max_urad_s2[2], 2900000);
   EXPECT_EQ(p.brake_time_us[0][3][7], 4335000);
   EXPECT_EQ(p.dig_zone[0].floor_mm, -3400);
+  EXPECT_EQ(p.dig_zone[0].ceiling_mm, 1100);
   EXPECT_EQ(p.dig_zone[0].x_low_mm, 3900);
 }
 
@@ -116,6 +117,7 @@ void expect_places_safe(const MachineFile& m, const SiteFile& site, const berm_p
     expect_up(zone.y_low * 1e3, p.dig_zone[i].y_low_mm, "zone y_low");
     expect_down(zone.y_high * 1e3, p.dig_zone[i].y_high_mm, "zone y_high");
     expect_up(zone.floor * 1e3, p.dig_zone[i].floor_mm, "zone floor");
+    expect_down(zone.ceiling * 1e3, p.dig_zone[i].ceiling_mm, "zone ceiling");
   }
 }
 
@@ -134,7 +136,7 @@ void disturb(MachineFile& m, SiteFile& site, std::mt19937_64& random) {
   KernelFile& k = m.kernel;
   shake(k.cycle, k.margin, k.fresh, k.generation, k.dig_swing_limit, k.scanner_silent, k.spurious_range, k.range_min, k.range_max, k.self_margin, k.request_age,
         k.request_hold, k.request_silent, k.state_frame_age, k.machine_state_age, k.operator_age, k.standstill_speed, k.standstill);
-  for (DigZoneFile& zone : site.dig_zone) shake(zone.x_low, zone.x_high, zone.y_low, zone.y_high, zone.floor);
+  for (DigZoneFile& zone : site.dig_zone) shake(zone.x_low, zone.x_high, zone.y_low, zone.y_high, zone.floor, zone.ceiling);
 }
 
 // verifies: IF-CF-10, IF-CF-11, IF-CF-12, IF-CF-13

@@ -18,6 +18,7 @@ TEST(SiteFileTest, TheDefaultInSiUnits) {
   EXPECT_DOUBLE_EQ(site.dig_zone[0].y_low, -4.2);
   EXPECT_DOUBLE_EQ(site.dig_zone[0].y_high, 4.2);
   EXPECT_DOUBLE_EQ(site.dig_zone[0].floor, -3.4);
+  EXPECT_DOUBLE_EQ(site.dig_zone[0].ceiling, 1.1);
   EXPECT_DOUBLE_EQ(site.truck.centre[1], 6.75);
   EXPECT_DOUBLE_EQ(site.truck.target_kg, 18000.0);
   EXPECT_DOUBLE_EQ(site.dig.swing[0], radians(12.0));

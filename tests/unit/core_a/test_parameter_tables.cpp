@@ -125,7 +125,7 @@ TEST_F(ParameterTables, WhatIsNotCountedIsNotLookedAt) {
   EXPECT_EQ(check(), last == BERM_PARTS - 1 ? SK_RULE_PART_LINK : SK_RULE_NONE);
   p = ok;
   p.dig_zones = 0;
-  p.dig_zone[0] = {0, 0, -1, -1, kMax32};
+  p.dig_zone[0] = {0, 0, -1, -1, kMax32, 0};
   EXPECT_EQ(check(), SK_RULE_NONE);
 }
 
@@ -189,19 +189,21 @@ TEST_F(ParameterTables, DigZones) {
     const auto with = [&](berm_dig_zone z) {
       p = ok;
       p.dig_zones = BERM_DIG_ZONES;
-      for (berm_dig_zone& each : p.dig_zone) each = {-15000, -15000, 15000, 15000, -20000};
+      for (berm_dig_zone& each : p.dig_zone) each = {-15000, -15000, 15000, 15000, -20000, 20000};
       p.dig_zone[i] = z;
       return check();
     };
-    EXPECT_EQ(with({-1, -1, 0, 0, 20000}), SK_RULE_NONE);
-    EXPECT_EQ(with({-15001, -1, 0, 0, 0}), SK_RULE_DIG_ZONE_BOUNDS);
-    EXPECT_EQ(with({-1, -15001, 0, 0, 0}), SK_RULE_DIG_ZONE_BOUNDS);
-    EXPECT_EQ(with({-1, -1, 15001, 0, 0}), SK_RULE_DIG_ZONE_BOUNDS);
-    EXPECT_EQ(with({-1, -1, 0, 15001, 0}), SK_RULE_DIG_ZONE_BOUNDS);
-    EXPECT_EQ(with({0, -1, 0, 0, 0}), SK_RULE_DIG_ZONE_BOUNDS);
-    EXPECT_EQ(with({-1, 0, 0, 0, 0}), SK_RULE_DIG_ZONE_BOUNDS);
-    EXPECT_EQ(with({-1, -1, 0, 0, -20001}), SK_RULE_DIG_ZONE_FLOOR);
-    EXPECT_EQ(with({-1, -1, 0, 0, 20001}), SK_RULE_DIG_ZONE_FLOOR);
+    EXPECT_EQ(with({-1, -1, 0, 0, 19999, 20000}), SK_RULE_NONE);
+    EXPECT_EQ(with({-15001, -1, 0, 0, 0, 1}), SK_RULE_DIG_ZONE_BOUNDS);
+    EXPECT_EQ(with({-1, -15001, 0, 0, 0, 1}), SK_RULE_DIG_ZONE_BOUNDS);
+    EXPECT_EQ(with({-1, -1, 15001, 0, 0, 1}), SK_RULE_DIG_ZONE_BOUNDS);
+    EXPECT_EQ(with({-1, -1, 0, 15001, 0, 1}), SK_RULE_DIG_ZONE_BOUNDS);
+    EXPECT_EQ(with({0, -1, 0, 0, 0, 1}), SK_RULE_DIG_ZONE_BOUNDS);
+    EXPECT_EQ(with({-1, 0, 0, 0, 0, 1}), SK_RULE_DIG_ZONE_BOUNDS);
+    EXPECT_EQ(with({-1, -1, 0, 0, -20001, 0}), SK_RULE_DIG_ZONE_HEIGHTS);
+    EXPECT_EQ(with({-1, -1, 0, 0, 20001, 20002}), SK_RULE_DIG_ZONE_HEIGHTS);
+    EXPECT_EQ(with({-1, -1, 0, 0, 0, 20001}), SK_RULE_DIG_ZONE_HEIGHTS);
+    EXPECT_EQ(with({-1, -1, 0, 0, 500, 500}), SK_RULE_DIG_ZONE_HEIGHTS);
   }
 }
 

@@ -172,7 +172,7 @@ TEST_F(SeparationUnit, SoilInADigZoneNeedsNoPlaneAboveTheFloor) {
     for (int32_t y : {-100, 100, 350}) raise(x, y, 1500);
   EXPECT_FALSE(choose());
   rules.dig_zones = 1;
-  rules.dig_zone[0] = {4000, -4000, 9000, 4000, 900};
+  rules.dig_zone[0] = {4000, -4000, 9000, 4000, 900, 20000};
   EXPECT_FALSE(choose()); // not allowed at this speed
   rules.dig_allowed = true;
   EXPECT_TRUE(choose());
