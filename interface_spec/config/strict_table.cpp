@@ -54,6 +54,10 @@ double StrictTable::checked(const std::string& key, const toml::value& value, do
 
 double StrictTable::number(const std::string& key, double low, double high) { return checked(key, at(key), low, high); }
 
+double StrictTable::number_or(const std::string& key, double low, double high, double fallback) {
+  return has(key) ? number(key, low, high) : fallback;
+}
+
 double StrictTable::degrees(const std::string& key, double low_deg, double high_deg) { return radians(number(key, low_deg, high_deg)); }
 
 std::int64_t StrictTable::integer(const std::string& key, std::int64_t low, std::int64_t high) {
@@ -62,6 +66,12 @@ std::int64_t StrictTable::integer(const std::string& key, std::int64_t low, std:
   const std::int64_t x = value.as_integer();
   if (x < low || x > high) fail(key, fmt::format("{} is outside {} .. {}", x, low, high));
   return x;
+}
+
+bool StrictTable::flag(const std::string& key) {
+  const toml::value& value = at(key);
+  if (!value.is_boolean()) fail(key, "must be true or false");
+  return value.as_boolean();
 }
 
 std::string StrictTable::text(const std::string& key) {

@@ -24,8 +24,10 @@ class StrictTable {
 
   bool has(const std::string& key) const;
   double number(const std::string& key, double low, double high);           // integers are taken too
+  double number_or(const std::string& key, double low, double high, double fallback);
   double degrees(const std::string& key, double low_deg, double high_deg);  // gives radians
   std::int64_t integer(const std::string& key, std::int64_t low, std::int64_t high);
+  bool flag(const std::string& key);
   std::string text(const std::string& key);
   std::string choice(const std::string& key, const std::vector<std::string>& allowed);
   std::vector<double> numbers(const std::string& key, std::size_t count, double low, double high);
@@ -45,6 +47,7 @@ class StrictTable {
   std::vector<StrictTable> tables(const std::string& key);                  // [[key]]; none when absent
   void finish() const;                                                      // an unknown key is an error
   [[noreturn]] void fail(const std::string& key, const std::string& reason) const;
+  const std::string& file() const { return file_; }
 
  private:
   StrictTable(std::string file, std::string path, toml::value value);
