@@ -17,6 +17,7 @@ SvgPanel::SvgPanel(double x0, double y0, double x1, double y1, double left, doub
     : x0_(x0), y0_(y0), x1_(x1), y1_(y1), left_(left), top_(top), scale_(scale) {}
 
 void SvgPanel::rectangle(double x, double y, double width, double height, const std::string& style) {
+  if (x >= x1_ || x + width <= x0_ || y >= y1_ || y + height <= y0_) return;
   body_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" style=\"{}\"/>\n", px(x), py(y + height), width * scale_,
                        height * scale_, style);
 }
@@ -103,7 +104,8 @@ void write_svg(const std::string& path, double width, double height, const std::
 std::string height_colour(double height_m, double low_m, double high_m) {
   struct Stop { double at, r, g, b; };
   static constexpr std::array<Stop, 5> stops{{{0.0, 38, 70, 83}, {0.3, 88, 129, 87}, {0.55, 222, 184, 135}, {0.8, 200, 110, 60}, {1.0, 255, 245, 235}}};
-  const double t = std::clamp((height_m - low_m) / std::max(high_m - low_m, 1e-6), 0.0, 1.0);
+  constexpr double kSteps = 40;  // as the colour bar: neighbours of nearly the same height become one rectangle
+  const double t = std::round(kSteps * std::clamp((height_m - low_m) / std::max(high_m - low_m, 1e-6), 0.0, 1.0)) / kSteps;
   std::size_t i = 1;
   while (i + 1 < stops.size() && t > stops[i].at) ++i;
   const auto& a = stops[i - 1];
