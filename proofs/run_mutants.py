@@ -52,7 +52,7 @@ def copy_of_core(folder, name):
 
 
 def prove_function(core, file, function, env, timeout_s):
-    return wp_session.prove(core, Path(file).stem, env, timeout_s, core.parent, [function])
+    return wp_session.prove(core, Path(file).stem, env, timeout_s, core.parent, ["-wp-fct", function])
 
 
 def run_control(pair, env, timeout_s, folder):

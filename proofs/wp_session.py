@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parent.parent
 CORE = ROOT / "safety_kernel" / "core"
 TOOLS = ("frama-c", "why3", "cvc4", "z3", "gcc")
 READING = ["-machdep", "gcc_x86_64", "-c11"]
-RULES = ["-wp", "-wp-rte", "-wp-prover", "cvc4,z3", "-wp-par", "1", "-warn-unsigned-overflow", "-warn-signed-downcast"]
+RULES = ["-wp", "-wp-rte", "-wp-prover", "cvc4,z3", "-wp-par", "1", "-wp-cache", "none", "-warn-unsigned-overflow", "-warn-signed-downcast"]
 FILE_LIMIT_S = 3600
 QUICK_S = 6  # nearly all goals take less than 2 s; a prover that cannot settle a goal then costs only this
 
@@ -109,24 +109,42 @@ def assumptions(core, unit):
 
 
 def prove_file(core, unit, env, timeout_s, folder):
-    """First with a short limit a goal; what that leaves unproved (a hard goal, a slow machine) once more with the whole one, where the
-    goals proved a moment ago are taken from a cache that this run began empty."""
-    cache = Path(tempfile.mkdtemp(prefix=f"cache-{unit}-", dir=folder))
-    out = prove(core, unit, env, min(QUICK_S, timeout_s), folder, cache=cache)
-    if not out.unproved or timeout_s <= QUICK_S:
+    """First with a short limit a goal; then what holds an unproved goal (a hard one, a slow machine) once more with the whole limit."""
+    out = prove(core, unit, env, min(QUICK_S, timeout_s), folder)
+    if not out.unproved or out.errors or timeout_s <= QUICK_S:
         return out
-    again = prove(core, unit, env, timeout_s, folder, cache=cache)
-    again.seconds += out.seconds
-    return again
+    unproved = [f for f in out.functions if f["proved"] < f["goals"]]
+    functions = [f["name"] for f in unproved if f["kind"] == "function"]
+    lemmas = [f["name"] for f in unproved if f["kind"] != "function"]
+    if functions:
+        out = merged(out, prove(core, unit, env, timeout_s, folder, ["-wp-fct", ",".join(functions)]), functions)
+    if lemmas:
+        out = merged(out, prove(core, unit, env, timeout_s, folder, ["-wp-prop", "@lemma"]), lemmas)
+    return out
 
 
-def prove(core, unit, env, timeout_s, folder, only_functions=None, cache=None):
+def merged(first, again, functions):
+    """The first outcome with these functions (or groups of lemmas) as they came out the second time."""
+    second = {f["name"]: f for f in again.functions}
+    out = Outcome(first.unit, seconds=first.seconds + again.seconds, provers=first.provers, errors=first.errors + again.errors, unproved=[])
+    for f in first.functions:
+        redone = second.get(f["name"]) if f["name"] in functions else f
+        if redone is None or redone["goals"] != f["goals"]:
+            out.errors.append(f"function {f['name']} has other goals when it is proved by itself")
+            redone = f
+        out.functions.append(redone)
+    out.goals, out.proved = sum(f["goals"] for f in out.functions), sum(f["proved"] for f in out.functions)
+    out.unproved = again.unproved if out.proved < out.goals else []
+    for prover, count in again.provers.items():
+        out.provers[prover] = out.provers.get(prover, 0) + count
+    return out
+
+
+def prove(core, unit, env, timeout_s, folder, restriction=()):
     out = Outcome(unit)
     report = Path(folder) / f"{unit}.json"
-    command = ["frama-c", *READING, *include_options(core), f"{unit}.c", *RULES, "-wp-timeout", str(timeout_s), "-wp-report-json", str(report),
-               *(["-wp-cache", "update", "-wp-cache-dir", str(cache)] if cache else ["-wp-cache", "none"])]
-    if only_functions:
-        command += ["-wp-fct", ",".join(only_functions)]
+    command = ["frama-c", *READING, *include_options(core), f"{unit}.c", *RULES, "-wp-timeout", str(timeout_s), "-wp-report-json", str(report)]
+    command += restriction
     begin = time.monotonic()
     try:
         done = subprocess.run(command, timeout=FILE_LIMIT_S, **at(core, env))
@@ -157,7 +175,7 @@ def read_report(report, out):
     for group in ("wp:functions", "wp:axiomatics"):
         for name, goals in report.get(group, {}).items():
             entries = [g.get("wp:main", {}) for key, g in goals.items() if not key.startswith("wp:")]
-            out.functions.append({"name": name, "goals": sum(e.get("total", 0) for e in entries), "proved": sum(e.get("valid", 0) for e in entries)})
+            out.functions.append({"name": name, "kind": group.removeprefix("wp:").removesuffix("s"), "goals": sum(e.get("total", 0) for e in entries), "proved": sum(e.get("valid", 0) for e in entries)})
     for prover, counts in report.get("wp:global", {}).items():
         if prover != "wp:main":
             out.provers[prover] = counts.get("valid", 0)
