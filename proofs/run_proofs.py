@@ -24,7 +24,7 @@ def arguments():
     p.add_argument("--only", metavar="UNIT", action="append", help="prove this file of the core only (name without .c; may be repeated)")
     p.add_argument("--json", metavar="FILE", help='write {"goals","proved","skipped","seconds","functions":[{"name","goals","proved"}]}')
     p.add_argument("--record", action="store_true", help="write the goal counts to goals.json; refused when anything is unproved")
-    p.add_argument("--timeout", metavar="S", type=int, default=30, help="seconds for each prover and goal (default 30)")
+    p.add_argument("--timeout", metavar="S", type=int, default=60, help="seconds for each prover and goal (default 60)")
     a = p.parse_args()
     if not 1 <= a.timeout <= 600:
         p.error("--timeout: 1 to 600 seconds")
@@ -106,7 +106,7 @@ def main():
             print(f"{unit:<20} {out.goals if out.goals is not None else '-':>5} goals {out.proved if out.proved is not None else '-':>5} proved {out.seconds:7.1f} s", flush=True)
             return unit, out
 
-        longest_first = sorted(units, key=lambda u: -recorded.get(u, 0))
+        longest_first = sorted(units, key=lambda u: -recorded.get(u, 1 << 20))
         with ThreadPoolExecutor(FILES_AT_A_TIME) as pool:
             outcomes.update(dict(pool.map(one, longest_first)))
         check_sources(every, units, env, outcomes)

@@ -1,5 +1,5 @@
 #include "clearance.h"
-#include "rounding.h"
+#include "least_most.h"
 
 enum { SK_PLANE_UNTRIED = 0, SK_PLANE_HOLDS = 1, SK_PLANE_FAILS = 2 };
 

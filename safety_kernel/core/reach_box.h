@@ -11,7 +11,7 @@
  * Assumed: a joint is never faster than velocity_max, speeds up by no more than acceleration_max, and stops as the braking table says. */
 #ifndef SK_REACH_BOX_H
 #define SK_REACH_BOX_H
-#include "rounding.h"
+#include "least_most.h"
 #include "config/parameter_block.h"
 SK_BEGIN
 

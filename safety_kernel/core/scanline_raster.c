@@ -16,9 +16,6 @@ typedef struct sk_border { int32_t b_low, b_high, z_high; } sk_border;
   @ lemma sk_falling: \forall real s, r0, r1; s <= 0 && r0 <= r1 ==> sk_times(s, r0) >= sk_times(s, r1);
   @ lemma sk_amid: \forall real s, r, r0, r1; r0 <= r <= r1 ==> (sk_times(s, r0) <= sk_times(s, r) <= sk_times(s, r1) ||
   @   sk_times(s, r1) <= sk_times(s, r) <= sk_times(s, r0));
-  @ predicate sk_on_line(real dv, real da, real a, real v) = sk_times(da, v) == sk_times(dv, a);
-  @ predicate sk_over_line(real dv, real da, real a, real v) = sk_times(da, v) >= sk_times(dv, a);
-  @ predicate sk_under_line(real dv, real da, real a, real v) = sk_times(da, v) <= sk_times(dv, a);
   @ lemma sk_still_over: \forall real dv, da, v, w, r; da > 0 && w >= v && sk_over_line(dv, da, r, v) ==> sk_over_line(dv, da, r, w);
   @ lemma sk_still_under: \forall real dv, da, v, w, r; da > 0 && w <= v && sk_under_line(dv, da, r, v) ==> sk_under_line(dv, da, r, w);
   @ // a bound at both ends of a piece is a bound on the piece
@@ -26,16 +23,6 @@ typedef struct sk_border { int32_t b_low, b_high, z_high; } sk_border;
   @   sk_over_line(dv, da, r0, u) && sk_over_line(dv, da, r1, u) ==> v <= u;
   @ lemma sk_bounded_below: \forall real dv, da, a, v, r0, r1, u; da > 0 && r0 <= a <= r1 && sk_on_line(dv, da, a, v) &&
   @   sk_under_line(dv, da, r0, u) && sk_under_line(dv, da, r1, u) ==> v >= u;
-  @ predicate sk_product_most(integer d, integer v, integer n) = d * v <= n;
-  @ predicate sk_product_least(integer d, integer v, integer n) = d * v >= n;
-  @ lemma sk_smaller: \forall integer d, x, y; d > 0 && d * x < d * y + d ==> x <= y;
-  @ lemma sk_floor_at_least: \forall integer d, q, n, v; d > 0 && sk_is_floor(q, n, d) && sk_product_most(d, v, n) ==> v <= q;
-  @ lemma sk_floor_at_most: \forall integer d, q, n, v; d > 0 && sk_is_floor(q, n, d) && sk_product_least(d, v, n) ==> q <= v;
-  @ lemma sk_ceil_at_least: \forall integer d, q, n, v; d > 0 && sk_is_ceil(q, n, d) && sk_product_most(d, v, n) ==> v <= q;
-  @ lemma sk_ceil_at_most: \forall integer d, q, n, v; d > 0 && sk_is_ceil(q, n, d) && sk_product_least(d, v, n) ==> q <= v;
-  @ lemma sk_whole: \forall integer a, b; (real)(a * b) == sk_times(a, b);
-  @ lemma sk_ceil_over: \forall integer dv, da, r, u; da * u >= dv * r ==> sk_over_line(dv, da, r, u);
-  @ lemma sk_floor_under: \forall integer dv, da, r, u; da * u <= dv * r ==> sk_under_line(dv, da, r, u);
   @ lemma sk_fraction_on: \forall real dv, da, t; sk_on_line(dv, da, sk_times(t, da), sk_times(t, dv));
   @ lemma sk_fraction_within: \forall real t, d; 0 <= t <= 1 && d >= 0 ==> 0 <= sk_times(t, d) <= d;
   @ lemma sk_at_run: \forall integer v0, v1, d; \forall real t; d == v1 - v0 ==> sk_at(v0, v1, t) == v0 + sk_times(t, d);
@@ -58,6 +45,8 @@ typedef struct sk_border { int32_t b_low, b_high, z_high; } sk_border;
   @   sk_coordinate_in_range(s.b0) && sk_coordinate_in_range(s.b0 + s.db) && sk_height_in_range(s.z0) && sk_height_in_range(s.z0 + s.dz);
   @ logic integer sk_column_of(integer along_x, integer iy, integer ix) = along_x != 0 ? ix : iy;
   @ logic integer sk_row_of(integer along_x, integer iy, integer ix) = along_x != 0 ? iy : ix;
+  @ logic integer sk_along(integer along_x, sk_point p) = along_x != 0 ? p.x_mm : p.y_mm;
+  @ logic integer sk_across(integer along_x, sk_point p) = along_x != 0 ? p.y_mm : p.x_mm;
   @ // the part of a course inside a column, measured from the course's start
   @ logic integer sk_entry(sk_course s, integer column) = sk_most(0, sk_cell_low(column) - s.a0);
   @ logic integer sk_exit(sk_course s, integer column) = sk_least(s.da, sk_cell_low(column) + SK_CELL_MM - s.a0);
@@ -80,40 +69,6 @@ typedef struct sk_border { int32_t b_low, b_high, z_high; } sk_border;
   @     sk_cell_meets(sk_row_of(s.along_x, iy, ix), s.b0, s.b0 + s.db) && sk_raised_over{A, B}(m, iy, ix, now));
   @ predicate sk_in_column(integer along_x, integer iy, integer ix, integer column) = sk_in_map(iy, ix) && sk_column_of(along_x, iy, ix) == column;
   @*/
-
-/*@ requires 0 < da <= 2 * SK_COORD_MAX_MM && 0 <= run <= da && -2 * SK_COORD_MAX_MM <= dv <= 2 * SK_COORD_MAX_MM;
-  @ assigns \nothing;
-  @ ensures sk_under_line(dv, da, run, \result);
-  @ ensures sk_least(0, dv) <= \result <= sk_most(0, dv);
-  @*/
-static int32_t sk_scale_down(int64_t dv, int64_t run, int64_t da)
-{
-  int64_t q;
-  /*@ assert dv >= 0 ==> 0 <= dv * run <= dv * da; */
-  /*@ assert dv <= 0 ==> dv * da <= dv * run <= 0; */
-  q = sk_floor_div(dv * run, da);
-  /*@ assert dv >= 0 ==> sk_product_most(da, 0, dv * run) && sk_product_least(da, dv, dv * run); */
-  /*@ assert dv <= 0 ==> sk_product_most(da, dv, dv * run) && sk_product_least(da, 0, dv * run); */
-  /*@ assert sk_least(0, dv) <= q <= sk_most(0, dv); */
-  return (int32_t)q;
-}
-
-/*@ requires 0 < da <= 2 * SK_COORD_MAX_MM && 0 <= run <= da && -2 * SK_COORD_MAX_MM <= dv <= 2 * SK_COORD_MAX_MM;
-  @ assigns \nothing;
-  @ ensures sk_over_line(dv, da, run, \result);
-  @ ensures sk_least(0, dv) <= \result <= sk_most(0, dv);
-  @*/
-static int32_t sk_scale_up(int64_t dv, int64_t run, int64_t da)
-{
-  int64_t q;
-  /*@ assert dv >= 0 ==> 0 <= dv * run <= dv * da; */
-  /*@ assert dv <= 0 ==> dv * da <= dv * run <= 0; */
-  q = sk_ceil_div(dv * run, da);
-  /*@ assert dv >= 0 ==> sk_product_most(da, 0, dv * run) && sk_product_least(da, dv, dv * run); */
-  /*@ assert dv <= 0 ==> sk_product_most(da, dv, dv * run) && sk_product_least(da, 0, dv * run); */
-  /*@ assert sk_least(0, dv) <= q <= sk_most(0, dv); */
-  return (int32_t)q;
-}
 
 /*@ requires sk_course_fits(s) && 0 <= run <= s.da;
   @ assigns \nothing;
@@ -244,82 +199,45 @@ static int32_t sk_raise_point(sk_height_map *m, sk_point p, sk_point q, int64_t 
   return count;
 }
 
-/*@ requires sk_point_fits(p) && sk_point_fits(q) && p.x_mm < q.x_mm;
+/*@ requires sk_point_fits(p) && sk_point_fits(q) && sk_along(along_x, p) < sk_along(along_x, q);
   @ assigns \nothing;
-  @ ensures sk_course_fits(\result) && \result.along_x == true && \result.a0 == p.x_mm && \result.b0 == p.y_mm && \result.z0 == p.z_mm;
-  @ ensures \result.da == q.x_mm - p.x_mm && \result.db == q.y_mm - p.y_mm && \result.dz == q.z_mm - p.z_mm;
+  @ ensures sk_course_fits(\result) && \result.along_x == along_x && \result.a0 == sk_along(along_x, p) && \result.b0 == sk_across(along_x, p);
+  @ ensures \result.da == sk_along(along_x, q) - sk_along(along_x, p) && \result.db == sk_across(along_x, q) - sk_across(along_x, p);
+  @ ensures \result.z0 == p.z_mm && \result.dz == q.z_mm - p.z_mm;
   @*/
-static sk_course sk_course_x(sk_point p, sk_point q)
+static sk_course sk_course_of(bool along_x, sk_point p, sk_point q)
 {
   sk_course s;
-  s.along_x = true;
-  s.a0 = p.x_mm;
-  s.b0 = p.y_mm;
+  s.along_x = along_x;
+  s.a0 = along_x ? p.x_mm : p.y_mm;
+  s.b0 = along_x ? p.y_mm : p.x_mm;
   s.z0 = p.z_mm;
-  s.da = q.x_mm - p.x_mm;
-  s.db = q.y_mm - p.y_mm;
+  s.da = along_x ? q.x_mm - p.x_mm : q.y_mm - p.y_mm;
+  s.db = along_x ? q.y_mm - p.y_mm : q.x_mm - p.x_mm;
   s.dz = q.z_mm - p.z_mm;
   return s;
 }
 
-/*@ requires sk_point_fits(p) && sk_point_fits(q) && p.y_mm < q.y_mm;
-  @ assigns \nothing;
-  @ ensures sk_course_fits(\result) && \result.along_x == false && \result.a0 == p.y_mm && \result.b0 == p.x_mm && \result.z0 == p.z_mm;
-  @ ensures \result.da == q.y_mm - p.y_mm && \result.db == q.x_mm - p.x_mm && \result.dz == q.z_mm - p.z_mm;
-  @*/
-static sk_course sk_course_y(sk_point p, sk_point q)
-{
-  sk_course s;
-  s.along_x = false;
-  s.a0 = p.y_mm;
-  s.b0 = p.x_mm;
-  s.z0 = p.z_mm;
-  s.da = q.y_mm - p.y_mm;
-  s.db = q.x_mm - p.x_mm;
-  s.dz = q.z_mm - p.z_mm;
-  return s;
-}
-
-/* The two walks: what a course covers, its segment covers. */
-/*@ requires \valid(m) && now_us >= 0 && generation_us > 0 && sk_point_fits(p) && sk_point_fits(q) && p.x_mm < q.x_mm;
+/* What a course covers, its segment covers. */
+/*@ requires \valid(m) && now_us >= 0 && generation_us > 0 && sk_point_fits(p) && sk_point_fits(q);
+  @ requires sk_along(along_x, p) < sk_along(along_x, q);
   @ assigns m->height_mm[..][..], m->previous_mm[..][..], m->began_us[..][..], m->seen_us[..][..];
   @ ensures 0 <= \result;
   @ ensures covers: sk_covers(m, p, q, now_us);
   @ ensures only: sk_only_raises{Pre, Post}(m, p, q, now_us);
   @*/
-static int32_t sk_raise_along_x(sk_height_map *m, sk_point p, sk_point q, int64_t now_us, int32_t generation_us)
+static int32_t sk_raise_along(sk_height_map *m, bool along_x, sk_point p, sk_point q, int64_t now_us, int32_t generation_us)
 {
-  sk_course s = sk_course_x(p, q);
+  sk_course s = sk_course_of(along_x, p, q);
   int32_t count = sk_raise_course(m, s, now_us, generation_us);
   /*@ assert within: \forall real t; 0 <= t <= 1 ==> 0 <= sk_times(t, s.da) <= s.da; */
   /*@ assert on: \forall real t; sk_on_line(s.db, s.da, sk_times(t, s.da), sk_times(t, s.db)) &&
     @   sk_on_line(s.dz, s.da, sk_times(t, s.da), sk_times(t, s.dz)); */
-  /*@ assert same_a: \forall real t; sk_at(p.x_mm, q.x_mm, t) == s.a0 + sk_times(t, s.da); */
-  /*@ assert same_b: \forall real t; sk_at(p.y_mm, q.y_mm, t) == s.b0 + sk_times(t, s.db); */
+  /*@ assert same_a: \forall real t; sk_at(sk_along(along_x, p), sk_along(along_x, q), t) == s.a0 + sk_times(t, s.da); */
+  /*@ assert same_b: \forall real t; sk_at(sk_across(along_x, p), sk_across(along_x, q), t) == s.b0 + sk_times(t, s.db); */
   /*@ assert same_z: \forall real t; sk_at(p.z_mm, q.z_mm, t) == s.z0 + sk_times(t, s.dz); */
   /*@ assert over: \forall real t; \forall integer iy, ix; sk_crosses(p, q, t, iy, ix) ==>
-    @   sk_course_over(s, sk_times(t, s.da), sk_times(t, s.db), sk_times(t, s.dz), ix, iy); */
-  return count;
-}
-
-/*@ requires \valid(m) && now_us >= 0 && generation_us > 0 && sk_point_fits(p) && sk_point_fits(q) && p.y_mm < q.y_mm;
-  @ assigns m->height_mm[..][..], m->previous_mm[..][..], m->began_us[..][..], m->seen_us[..][..];
-  @ ensures 0 <= \result;
-  @ ensures covers: sk_covers(m, p, q, now_us);
-  @ ensures only: sk_only_raises{Pre, Post}(m, p, q, now_us);
-  @*/
-static int32_t sk_raise_along_y(sk_height_map *m, sk_point p, sk_point q, int64_t now_us, int32_t generation_us)
-{
-  sk_course s = sk_course_y(p, q);
-  int32_t count = sk_raise_course(m, s, now_us, generation_us);
-  /*@ assert within: \forall real t; 0 <= t <= 1 ==> 0 <= sk_times(t, s.da) <= s.da; */
-  /*@ assert on: \forall real t; sk_on_line(s.db, s.da, sk_times(t, s.da), sk_times(t, s.db)) &&
-    @   sk_on_line(s.dz, s.da, sk_times(t, s.da), sk_times(t, s.dz)); */
-  /*@ assert same_a: \forall real t; sk_at(p.y_mm, q.y_mm, t) == s.a0 + sk_times(t, s.da); */
-  /*@ assert same_b: \forall real t; sk_at(p.x_mm, q.x_mm, t) == s.b0 + sk_times(t, s.db); */
-  /*@ assert same_z: \forall real t; sk_at(p.z_mm, q.z_mm, t) == s.z0 + sk_times(t, s.dz); */
-  /*@ assert over: \forall real t; \forall integer iy, ix; sk_crosses(p, q, t, iy, ix) ==>
-    @   sk_course_over(s, sk_times(t, s.da), sk_times(t, s.db), sk_times(t, s.dz), iy, ix); */
+    @   sk_course_over(s, sk_times(t, s.da), sk_times(t, s.db), sk_times(t, s.dz), sk_column_of(along_x, iy, ix), sk_row_of(along_x, iy, ix)); */
   return count;
 }
 
@@ -353,10 +271,10 @@ static int32_t sk_raise_ordered(sk_height_map *m, sk_point p, sk_point q, int64_
 {
   int32_t away_x = sk_distance(p.x_mm, q.x_mm);
   int32_t away_y = sk_distance(p.y_mm, q.y_mm);
-  if (p.x_mm < q.x_mm && away_x >= away_y) { return sk_raise_along_x(m, p, q, now_us, generation_us); }
-  if (q.x_mm < p.x_mm && away_x >= away_y) { return sk_raise_along_x(m, q, p, now_us, generation_us); }
-  if (p.y_mm < q.y_mm) { return sk_raise_along_y(m, p, q, now_us, generation_us); }
-  return sk_raise_along_y(m, q, p, now_us, generation_us);
+  if (p.x_mm < q.x_mm && away_x >= away_y) { return sk_raise_along(m, true, p, q, now_us, generation_us); }
+  if (q.x_mm < p.x_mm && away_x >= away_y) { return sk_raise_along(m, true, q, p, now_us, generation_us); }
+  if (p.y_mm < q.y_mm) { return sk_raise_along(m, false, p, q, now_us, generation_us); }
+  return sk_raise_along(m, false, q, p, now_us, generation_us);
 }
 
 int32_t sk_raster_segment(sk_height_map *m, const sk_point *p, const sk_point *q, int64_t now_us, int32_t generation_us)

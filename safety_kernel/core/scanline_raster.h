@@ -3,13 +3,12 @@
 #ifndef SK_SCANLINE_RASTER_H
 #define SK_SCANLINE_RASTER_H
 #include "height_map.h"
-#include "rounding.h"
+#include "line_scale.h"
 SK_BEGIN
 
 typedef struct sk_point { int32_t x_mm, y_mm, z_mm; } sk_point;
 
 /*@ // the real coordinate at fraction t of the way from v0 to v1
-  @ logic real sk_times(real a, real b) = a * b;
   @ logic real sk_at(integer v0, integer v1, real t) = v0 + sk_times(t, v1 - v0);
   @ // the closed cell i along an axis holds the coordinate
   @ predicate sk_cell_holds(integer i, real v) = sk_cell_low(i) <= v <= sk_cell_low(i) + SK_CELL_MM;
