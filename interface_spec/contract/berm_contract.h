@@ -134,6 +134,8 @@ typedef struct berm_state {
   uint8_t stop_reason;                               /* BERM_STOP_* now in force, BERM_STOP_NONE in RUN */
   uint8_t stop_category;                             /* 0 or 1 while stopping or stopped, 2 while merely held, 255 in RUN */
   int32_t commanded_urad_s[BERM_JOINTS];             /* what was sent to the machine */
+  int32_t permitted_low_urad_s[BERM_JOINTS];         /* a request within, given in this cycle, would have gone out as it was; zero when held */
+  int32_t permitted_high_urad_s[BERM_JOINTS];
   int32_t reach_low_urad[BERM_JOINTS];               /* reach box of this cycle */
   int32_t reach_high_urad[BERM_JOINTS];
   int32_t blocked_x_mm;                              /* centre of the first blocking cell, when stop_reason is 1..4 */
@@ -173,6 +175,8 @@ typedef struct berm_decision {
   int32_t joint_velocity_urad_s[BERM_JOINTS];
   int32_t requested_urad_s[BERM_JOINTS];
   int32_t commanded_urad_s[BERM_JOINTS];
+  int32_t permitted_low_urad_s[BERM_JOINTS];
+  int32_t permitted_high_urad_s[BERM_JOINTS];
   int32_t reach_low_urad[BERM_JOINTS];
   int32_t reach_high_urad[BERM_JOINTS];
   uint32_t request_sequence;
@@ -224,9 +228,9 @@ typedef struct berm_state_segment {
 BERM_STATIC_ASSERT(sizeof(berm_request) == 64, "request layout");
 BERM_STATIC_ASSERT(offsetof(berm_request, crc32) == sizeof(berm_request) - 4, "the CRC is the last field");
 BERM_STATIC_ASSERT(sizeof(berm_request_segment) == 128, "request segment layout");
-BERM_STATIC_ASSERT(sizeof(berm_state) == 208, "state layout");
+BERM_STATIC_ASSERT(sizeof(berm_state) == 240, "state layout");
 BERM_STATIC_ASSERT(sizeof(berm_scan_block) == 40 + BERM_SCAN_BLOCK_SAMPLES * 18, "scan block layout");
-BERM_STATIC_ASSERT(sizeof(berm_decision) == 144, "decision layout");
+BERM_STATIC_ASSERT(sizeof(berm_decision) == 176, "decision layout");
 BERM_STATIC_ASSERT(sizeof(berm_slice) == 8 + BERM_SLICE_VERTICES * 12, "slice layout");
 BERM_STATIC_ASSERT(sizeof(berm_state_segment) == 64 + sizeof(berm_state) + BERM_DECISION_RING * sizeof(berm_decision) +
                    BERM_SCAN_RING * sizeof(berm_scan_block) + BERM_SLICE_SNAPSHOT * sizeof(berm_slice) + BERM_MAP_CELLS * BERM_MAP_CELLS * 5,

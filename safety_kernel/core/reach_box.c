@@ -15,12 +15,7 @@ int32_t sk_brake_row(const berm_parameters *p, int32_t reach_mm)
 }
 
 /* What is at or below this speed is covered by the column's entry. */
-/*@ requires 0 <= velocity_max_urad_s && 0 <= column < BERM_BRAKE_SPEEDS;
-  @ assigns \nothing;
-  @ ensures \result == sk_column_speed_of(velocity_max_urad_s, column);
-  @ ensures \result <= velocity_max_urad_s;
-  @*/
-static int32_t sk_column_speed(int32_t velocity_max_urad_s, int32_t column)
+int32_t sk_column_speed(int32_t velocity_max_urad_s, int32_t column)
 {
   int64_t product = (int64_t)velocity_max_urad_s * column;
   /*@ assert 0 <= velocity_max_urad_s * column <= velocity_max_urad_s * (BERM_BRAKE_SPEEDS - 1); */
@@ -58,21 +53,13 @@ int32_t sk_brake_angle(const berm_parameters *p, int32_t joint, int32_t row, int
   return angle;
 }
 
-/*@ requires \valid_read(p);
-  @ assigns \nothing;
-  @ ensures \result == true <==> sk_times_fit(p);
-  @*/
-static bool sk_times_ok(const berm_parameters *p)
+bool sk_times_ok(const berm_parameters *p)
 {
   return p->state_latency_us >= 0 && p->state_latency_us <= SK_REACH_LATENCY_MAX_US && p->cycle_us >= 0 &&
          p->cycle_us <= SK_REACH_LATENCY_MAX_US && p->command_latency_us >= 0 && p->command_latency_us <= SK_REACH_LATENCY_MAX_US;
 }
 
-/*@ requires \valid_read(p) && 0 <= joint < SK_JOINTS;
-  @ assigns \nothing;
-  @ ensures \result == true <==> sk_limits_fit(p, joint);
-  @*/
-static bool sk_limits_ok(const berm_parameters *p, int32_t joint)
+bool sk_limits_ok(const berm_parameters *p, int32_t joint)
 {
   return p->velocity_max_urad_s[joint] >= 0 && p->velocity_max_urad_s[joint] <= SK_REACH_SPEED_MAX_URAD_S &&
          p->acceleration_max_urad_s2[joint] > 0 && p->acceleration_max_urad_s2[joint] <= SK_REACH_ACCELERATION_MAX_URAD_S2 &&

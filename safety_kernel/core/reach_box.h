@@ -94,6 +94,26 @@ enum {
   @   \at(out->speed_urad_s[j], A) == \at(out->speed_urad_s[j], B);
   @*/
 
+/* Shared with the governor. */
+/*@ requires 0 <= velocity_max_urad_s && 0 <= column < BERM_BRAKE_SPEEDS;
+  @ assigns \nothing;
+  @ ensures \result == sk_column_speed_of(velocity_max_urad_s, column);
+  @ ensures \result <= velocity_max_urad_s;
+  @*/
+int32_t sk_column_speed(int32_t velocity_max_urad_s, int32_t column);
+
+/*@ requires \valid_read(p);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_times_fit(p);
+  @*/
+bool sk_times_ok(const berm_parameters *p);
+
+/*@ requires \valid_read(p) && 0 <= joint < SK_JOINTS;
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_limits_fit(p, joint);
+  @*/
+bool sk_limits_ok(const berm_parameters *p, int32_t joint);
+
 /* Row of the braking table for a reach: the first with brake_reach_mm[row] >= reach_mm, or -1 when there is none. */
 /*@ requires \valid_read(p);
   @ assigns \nothing;

@@ -40,6 +40,8 @@ void Cycle::report_state(const CycleInputs& in, berm_state& state) const {
     state.joint_angle_urad[j] = picture.angle.angle_urad[j];
     state.joint_velocity_urad_s[j] = picture.velocity.velocity_urad_s[j];
     state.commanded_urad_s[j] = sent_urad_s_[j];
+    state.permitted_low_urad_s[j] = verdict_.permitted_low_urad_s[j];
+    state.permitted_high_urad_s[j] = verdict_.permitted_high_urad_s[j];
     state.reach_low_urad[j] = verdict_.box.low_urad[j];
     state.reach_high_urad[j] = verdict_.box.high_urad[j];
   }
@@ -72,6 +74,8 @@ void Cycle::report_decision(const CycleInputs& in, berm_decision& decision) cons
     decision.joint_velocity_urad_s[j] = picture.velocity.velocity_urad_s[j];
     decision.requested_urad_s[j] = requested_urad_s_[j];
     decision.commanded_urad_s[j] = sent_urad_s_[j];
+    decision.permitted_low_urad_s[j] = verdict_.permitted_low_urad_s[j];
+    decision.permitted_high_urad_s[j] = verdict_.permitted_high_urad_s[j];
     decision.reach_low_urad[j] = verdict_.box.low_urad[j];
     decision.reach_high_urad[j] = verdict_.box.high_urad[j];
   }

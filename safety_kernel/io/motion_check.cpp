@@ -27,10 +27,6 @@ std::int32_t cell_centre_mm(std::int32_t index) { return SK_MAP_ORIGIN_MM + inde
 
 }  // namespace
 
-std::int32_t limited_command(std::int32_t requested_urad_s, std::int32_t limit_urad_s) {
-  return std::clamp(requested_urad_s, -limit_urad_s, limit_urad_s) / kCommandStepUradS * kCommandStepUradS;
-}
-
 MotionCheck::MotionCheck(const berm_parameters& parameters) : parameters_(parameters), rules_{}, choice_{} {
   rules_.fresh_us = parameters.fresh_us;
   rules_.margin_mm = parameters.margin_mm;
@@ -72,6 +68,17 @@ void MotionCheck::note_cell(const sk_height_map& map, const sk_slice& slice, con
   verdict.blocked_height_mm = inside && map.seen_us[result.iy][result.ix] >= 0 ? sk_map_top(&map, result.iy, result.ix) : 0;
 }
 
+std::uint8_t MotionCheck::clear_slice(const sk_height_map& map, const sk_slice& slice, sk_clearance_result& result, MotionVerdict& verdict) {
+  rules_.own_body_radius_mm = slice.link == BERM_BOOM ? own_and_rim_radius_mm(parameters_) : 0;  // the map has the columns
+  // The search may fail or be wrong: what it chose is only a claim, which the core checks.
+  choose_planes(map, slice, rules_, choice_);
+  result = sk_clearance_result{};
+  sk_clear_slice(&map, &slice, &choice_, &rules_, &result);
+  ++verdict.slices;
+  verdict.cells += result.cells;
+  return result.verdict == SK_CLEAR ? static_cast<std::uint8_t>(BERM_STOP_NONE) : reason_of(result.verdict);
+}
+
 std::uint8_t MotionCheck::clear(const MotionQuery& query, const sk_height_map& map, const sk_reach_box& box, SliceSet& slices, bool creeping,
                                 MotionVerdict& verdict) {
   if (!build_slices(parameters_, box, slices)) return BERM_STOP_INTERNAL;
@@ -79,75 +86,146 @@ std::uint8_t MotionCheck::clear(const MotionQuery& query, const sk_height_map& m
   rules_.dig_stale = creeping;  // else a bucket that stood in a pit, which hides the ground before it, could never leave
   rules_.dig_allowed = box.speed_urad_s[BERM_SWING] <= parameters_.dig_swing_limit_urad_s;
   for (int s = 0; s < slices.count; ++s) {
-    const sk_slice& slice = slices.slice[s];
-    rules_.own_body_radius_mm = slice.link == BERM_BOOM ? own_and_rim_radius_mm(parameters_) : 0;  // the map has the columns
-    // The search may fail or be wrong: what it chose is only a claim, which the core checks.
-    choose_planes(map, slice, rules_, choice_);
-    sk_clearance_result result{};
-    sk_clear_slice(&map, &slice, &choice_, &rules_, &result);
-    ++verdict.slices;
-    verdict.cells += result.cells;
-    if (result.verdict != SK_CLEAR) {
-      if (!verdict.has_cell) note_cell(map, slice, result, verdict);
-      return reason_of(result.verdict);
-    }
+    sk_clearance_result result;
+    const std::uint8_t reason = clear_slice(map, slices.slice[s], result, verdict);
+    if (reason == BERM_STOP_NONE) continue;
+    if (!verdict.has_cell) note_cell(map, slices.slice[s], result, verdict);
+    return reason;
   }
   return slices.count > 0 ? BERM_STOP_NONE : BERM_STOP_INTERNAL;
 }
 
-std::uint8_t MotionCheck::creep(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
-  std::int32_t low[4], high[4];
-  for (int j = 0; j < SK_JOINTS; ++j) {
-    const std::int32_t limit = parameters_.creep_velocity_urad_s[j];
-    if (std::abs(query.velocity_urad_s[j]) > limit) return verdict.reason;
-    verdict.command_urad_s[j] = limited_command(query.requested_urad_s[j], limit);
-    low[j] = std::min(query.under_way_low_urad_s[j], verdict.command_urad_s[j]);
-    high[j] = std::max(query.under_way_high_urad_s[j], verdict.command_urad_s[j]);
-  }
-  sk_reach_box box{};
-  if (!reach(query, SK_REACH_COMMANDED, low, high, box) || !joints_within(box, low, high)) return BERM_STOP_JOINT_RANGE;
-  return clear(query, map, box, creep_slices_, true, verdict);
-}
-
-void MotionCheck::check(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
-  verdict = MotionVerdict{};
-  // Any command: at once in either direction.
-  std::int32_t low[4], high[4];
+std::uint8_t MotionCheck::any_command(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
+  std::int32_t low[4], high[4];  // at once in either direction
   for (int j = 0; j < SK_JOINTS; ++j) {
     high[j] = parameters_.velocity_max_urad_s[j];
     low[j] = -high[j];
   }
   any_slices_.count = 0;
-  if (!reach(query, SK_REACH_ANY, low, high, verdict.box) || !joints_within(verdict.box, low, high)) {
-    verdict.reason = BERM_STOP_JOINT_RANGE;
-    build_slices(parameters_, verdict.box, any_slices_);  // for observers only
-  } else {
-    verdict.reason = clear(query, map, verdict.box, any_slices_, false, verdict);
+  if (reach(query, SK_REACH_ANY, low, high, verdict.box) && joints_within(verdict.box, low, high)) return clear(query, map, verdict.box, any_slices_, false, verdict);
+  build_slices(parameters_, verdict.box, any_slices_);  // for observers only
+  return BERM_STOP_JOINT_RANGE;
+}
+
+std::int64_t MotionCheck::room_ahead(const MotionQuery& query, const sk_height_map& map, std::int64_t wanted_urad, MotionVerdict& verdict) {
+  const bool up = query.requested_urad_s[BERM_SWING] > 0;
+  const std::int64_t angle = query.angle_urad[BERM_SWING];
+  const std::int64_t certified = up ? verdict.box.high_urad[BERM_SWING] : verdict.box.low_urad[BERM_SWING];
+  const std::int64_t range = up ? parameters_.joint_high_urad[BERM_SWING] : parameters_.joint_low_urad[BERM_SWING];
+  const std::int64_t wanted = up ? std::min(angle + wanted_urad, range) : std::max(angle - wanted_urad, range);
+  const std::int64_t from = std::min(certified, wanted), to = std::max(certified, wanted);
+  if (up ? wanted <= certified : wanted >= certified) return std::llabs(wanted - angle);
+  sk_reach_box ahead = verdict.box;
+  ahead.low_urad[BERM_SWING] = static_cast<std::int32_t>(from);
+  ahead.high_urad[BERM_SWING] = static_cast<std::int32_t>(to);
+  if (!build_slices(parameters_, ahead, other_slices_)) return std::llabs(certified - angle);
+  const std::int32_t intervals = other_slices_.count / parameters_.parts;
+  for (std::int32_t near = 0; near < intervals; ++near) {
+    for (std::int32_t part = 0; part < parameters_.parts; ++part) {
+      const std::int32_t interval = up ? near : intervals - 1 - near;
+      sk_clearance_result result;
+      if (clear_slice(map, other_slices_.slice[part * intervals + interval], result, verdict) == BERM_STOP_NONE) continue;
+      return std::llabs(certified - angle) + (to - from) * near / intervals;
+    }
   }
-  if (verdict.reason == BERM_STOP_NONE) {
-    verdict.permission = Permission::kFull;
-    for (int j = 0; j < SK_JOINTS; ++j) verdict.command_urad_s[j] = limited_command(query.requested_urad_s[j], parameters_.velocity_max_urad_s[j]);
-    return;
+  return std::llabs(wanted - angle);
+}
+
+void MotionCheck::govern_swing(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
+  const std::int32_t requested = query.requested_urad_s[BERM_SWING];
+  const std::int32_t row = sk_brake_row(&parameters_, any_slices_.max_reach_mm);
+  std::int32_t level = 0;  // that the request needs
+  while (level + 1 < SK_GOVERNOR_LEVELS && sk_governor_speed(&parameters_, BERM_SWING, level) < std::abs(requested)) ++level;
+  if (requested == 0 || level == 0) return;
+  const std::int64_t wanted_urad = sk_governor_room(&parameters_, BERM_SWING, row, level);
+  const std::int64_t room_urad = wanted_urad < 0 ? 0 : room_ahead(query, map, wanted_urad, verdict);
+  const std::int32_t found = sk_governor_level(&parameters_, BERM_SWING, row, room_urad);
+  if (found >= level) return;
+  const std::int32_t speed = sk_governor_speed(&parameters_, BERM_SWING, found);
+  (requested > 0 ? verdict.permitted_high_urad_s : verdict.permitted_low_urad_s)[BERM_SWING] = requested > 0 ? speed : -speed;
+}
+
+MotionCheck::Commands MotionCheck::commands(const MotionQuery& query, std::int32_t percent, bool creeping) const {
+  Commands c{};
+  for (int j = 0; j < SK_JOINTS; ++j) {
+    const std::int32_t limit = creeping ? parameters_.creep_velocity_urad_s[j] : parameters_.velocity_max_urad_s[j];
+    const auto slowed = static_cast<std::int32_t>(static_cast<std::int64_t>(query.requested_urad_s[j]) * percent / 100);
+    c.send_urad_s[j] = sk_governor_clamp(slowed, -limit, limit);
+    c.low_urad_s[j] = std::min(query.under_way_low_urad_s[j], c.send_urad_s[j]);
+    c.high_urad_s[j] = std::max(query.under_way_high_urad_s[j], c.send_urad_s[j]);
   }
-  MotionVerdict recovery = verdict;
-  recovery.has_cell = false;
-  const std::uint8_t blocked = creep(query, map, recovery);
-  verdict.slices = recovery.slices;
-  verdict.cells = recovery.cells;
-  if (blocked == BERM_STOP_NONE) {
-    verdict.permission = Permission::kCreep;
-    std::copy(recovery.command_urad_s, recovery.command_urad_s + 4, verdict.command_urad_s);
-    return;
+  return c;
+}
+
+std::uint8_t MotionCheck::these_commands(const MotionQuery& query, const sk_height_map& map, const Commands& c, bool creeping, MotionVerdict& verdict) {
+  sk_reach_box box{};
+  if (!reach(query, SK_REACH_COMMANDED, c.low_urad_s, c.high_urad_s, box) || !joints_within(box, c.low_urad_s, c.high_urad_s)) return BERM_STOP_JOINT_RANGE;
+  const std::uint8_t reason = clear(query, map, box, other_slices_, creeping, verdict);
+  if (reason != BERM_STOP_NONE) return reason;
+  verdict.box = box;
+  for (int j = 0; j < SK_JOINTS; ++j) {
+    verdict.command_urad_s[j] = c.send_urad_s[j];
+    verdict.permitted_low_urad_s[j] = std::min(0, c.send_urad_s[j]);
+    verdict.permitted_high_urad_s[j] = std::max(0, c.send_urad_s[j]);
   }
-  verdict.permission = Permission::kHeld;
-  if (!recovery.has_cell) return;
+  return BERM_STOP_NONE;
+}
+
+// Not every command is clear: the request itself, slowed request, creeping.
+bool MotionCheck::some_commands(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
+  constexpr std::int32_t shares_percent[] = {100, 50, 25};
+  bool asked = false, slow = true;
+  for (int j = 0; j < SK_JOINTS; ++j) {
+    asked = asked || query.requested_urad_s[j] != 0;
+    slow = slow && std::abs(query.velocity_urad_s[j]) <= parameters_.creep_velocity_urad_s[j];
+  }
+  MotionVerdict trial = verdict;
+  std::uint8_t blocked = verdict.reason;
+  for (const std::int32_t percent : shares_percent) {
+    trial.has_cell = false;
+    if (!asked) break;
+    if (these_commands(query, map, commands(query, percent, false), false, trial) != BERM_STOP_NONE) continue;
+    trial.permission = Permission::kGoverned;
+    trial.reason = verdict.reason;
+    verdict = trial;
+    return true;
+  }
+  trial.has_cell = false;
+  if (slow) blocked = these_commands(query, map, commands(query, 100, true), true, trial);
+  if (slow && blocked == BERM_STOP_NONE) {
+    trial.permission = Permission::kCreep;
+    trial.reason = verdict.reason;
+    verdict = trial;
+    return true;
+  }
+  verdict.slices = trial.slices;
+  verdict.cells = trial.cells;
+  if (!trial.has_cell) return false;
   // What blocks even the creeping is the nearer cause.
   verdict.reason = blocked;
   verdict.has_cell = true;
-  verdict.blocked_x_mm = recovery.blocked_x_mm;
-  verdict.blocked_y_mm = recovery.blocked_y_mm;
-  verdict.blocked_height_mm = recovery.blocked_height_mm;
-  verdict.blocked_link = recovery.blocked_link;
+  verdict.blocked_x_mm = trial.blocked_x_mm;
+  verdict.blocked_y_mm = trial.blocked_y_mm;
+  verdict.blocked_height_mm = trial.blocked_height_mm;
+  verdict.blocked_link = trial.blocked_link;
+  return false;
+}
+
+void MotionCheck::check(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
+  verdict = MotionVerdict{};
+  verdict.reason = any_command(query, map, verdict);
+  if (verdict.reason != BERM_STOP_NONE) {
+    if (!some_commands(query, map, verdict)) verdict.permission = Permission::kHeld;
+    return;
+  }
+  verdict.permission = Permission::kFull;
+  for (int j = 0; j < SK_JOINTS; ++j) {
+    verdict.permitted_high_urad_s[j] = parameters_.velocity_max_urad_s[j];
+    verdict.permitted_low_urad_s[j] = -parameters_.velocity_max_urad_s[j];
+  }
+  govern_swing(query, map, verdict);
+  for (int j = 0; j < SK_JOINTS; ++j)
+    verdict.command_urad_s[j] = sk_governor_clamp(query.requested_urad_s[j], verdict.permitted_low_urad_s[j], verdict.permitted_high_urad_s[j]);
 }
 
 }  // namespace berm::kernel

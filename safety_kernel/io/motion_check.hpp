@@ -1,7 +1,8 @@
-// Whether motion is permitted in this cycle: the reach box, the volume swept over it, and its clearance against the map.
+// What motion is permitted in this cycle: the reach box, the volume swept over it, its clearance against the map, and the governor.
 //
-// Any command clear: the request goes out. Else recovery: a machine slower than the creep speeds may creep on commands whose own box is
-// clear. Else the machine is held, with what blocked.
+// Any command clear: the request goes out, its swing cut to the speed for which there is room ahead. Else the request, whole or slowed, if the
+// box of the commands sent and still under way and this one is clear. Else recovery: a machine slower than the creep speeds may creep, by the
+// same rule. Else the machine is held, with what blocked.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +10,13 @@
 #include "config/parameter_block.h"
 #include "contract/berm_contract.h"
 #include "core/clearance.h"
+#include "core/governor.h"
 #include "core/reach_box.h"
 #include "geometry/swept_slices.hpp"
 
 namespace berm::kernel {
 
-enum class Permission { kFull, kCreep, kHeld };
+enum class Permission { kFull, kGoverned, kCreep, kHeld };
 
 struct MotionQuery {
   std::int64_t now_us;
@@ -29,16 +31,13 @@ struct MotionVerdict {
   Permission permission;
   std::uint8_t reason;                // BERM_STOP_*: why not every command is permitted; NONE with kFull
   std::int32_t command_urad_s[4];     // what may be sent
-  sk_reach_box box;                   // for any command
+  std::int32_t permitted_low_urad_s[4], permitted_high_urad_s[4];  // a request within goes out as it is; around zero
+  sk_reach_box box;                   // that was certified; for any command when held
   std::int32_t slices, cells;         // checked
   bool has_cell;                      // the next five are set
   std::int32_t blocked_x_mm, blocked_y_mm, blocked_height_mm;
   std::uint32_t blocked_link;
 };
-
-// Commands on the bus have this step; what is sent is cut to it towards zero, so that no rounding exceeds what was checked.
-constexpr std::int32_t kCommandStepUradS = 500;
-std::int32_t limited_command(std::int32_t requested_urad_s, std::int32_t limit_urad_s);
 
 class MotionCheck {
  public:
@@ -50,17 +49,29 @@ class MotionCheck {
   const SliceSet& slices() const { return any_slices_; }
 
  private:
+  struct Commands {
+    std::int32_t send_urad_s[4];
+    std::int32_t low_urad_s[4], high_urad_s[4];  // with those under way
+  };
+
   // Box for mode; false where it cannot be bounded (speed or reach beyond the braking table).
   bool reach(const MotionQuery& query, int mode, const std::int32_t* low_urad_s, const std::int32_t* high_urad_s, sk_reach_box& box) const;
   bool joints_within(const sk_reach_box& box, const std::int32_t* low_urad_s, const std::int32_t* high_urad_s) const;
+  std::uint8_t clear_slice(const sk_height_map& map, const sk_slice& slice, sk_clearance_result& result, MotionVerdict& verdict);
   std::uint8_t clear(const MotionQuery& query, const sk_height_map& map, const sk_reach_box& box, SliceSet& slices, bool creeping, MotionVerdict& verdict);
-  std::uint8_t creep(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
+  std::uint8_t any_command(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
+  // Room (urad from the measured angle) that is clear in the swing's direction of the request, as far as the box and wanted reach.
+  std::int64_t room_ahead(const MotionQuery& query, const sk_height_map& map, std::int64_t wanted_urad, MotionVerdict& verdict);
+  void govern_swing(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
+  Commands commands(const MotionQuery& query, std::int32_t percent, bool creeping) const;
+  std::uint8_t these_commands(const MotionQuery& query, const sk_height_map& map, const Commands& commands, bool creeping, MotionVerdict& verdict);
+  bool some_commands(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
   void note_cell(const sk_height_map& map, const sk_slice& slice, const sk_clearance_result& result, MotionVerdict& verdict) const;
 
   const berm_parameters& parameters_;
   sk_clearance_rules rules_{};
   SliceSet any_slices_;
-  SliceSet creep_slices_;
+  SliceSet other_slices_;  // of the room ahead, or of the commands that were tried
   sk_choice choice_;
 };
 

@@ -58,7 +58,7 @@ constexpr double kCurled = -135.8 * kPi / 180;  // -136 degrees is the end
 constexpr double kMiddle = -40.0 * kPi / 180;
 
 // verifies: SK-CY-22
-TEST(CycleMotion, AJointNearItsLimitCreepsBackAndNotOut) {
+TEST(CycleMotion, AJointNearItsLimitMovesBackAndNotOut) {
   CycleRig rig;
   ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, kStartLimit));
   rig.machine.angle_rad[kBucket] = kCurled;
@@ -69,8 +69,8 @@ TEST(CycleMotion, AJointNearItsLimitCreepsBackAndNotOut) {
   rig.wanted_urad_s[kBucket] = 200000;
   ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, 60)) << "reason " << int(rig.state().stop_reason);
   EXPECT_GT(rig.state().commanded_urad_s[kBucket], 0);
-  EXPECT_LE(rig.state().commanded_urad_s[kBucket], rig.parameters.creep_velocity_urad_s[kBucket]);
-  // Stays in RUN all the way out of the limit: recovery does not flicker.
+  EXPECT_EQ(rig.state().permitted_low_urad_s[kBucket], 0);
+  // Stays in RUN all the way out of the limit: it does not flicker.
   for (int i = 0; i < 400; ++i) {
     rig.step();
     ASSERT_EQ(rig.state().kernel_state, BERM_STATE_RUN) << "cycle " << i << " reason " << int(rig.state().stop_reason);
@@ -95,11 +95,11 @@ TEST(CycleMotion, AStillMachineInABlockedPlaceIsHeldButNotCountedAsStopped) {
 
 // verifies: SK-CY-24
 TEST(CycleMotion, CommandsAreCutToTheStepOfTheBusTowardsZero) {
-  EXPECT_EQ(limited_command(1499, 100000), 1000);
-  EXPECT_EQ(limited_command(-1499, 100000), -1000);
-  EXPECT_EQ(limited_command(400, 100000), 0);
-  EXPECT_EQ(limited_command(100700, 100700), 100500);
-  EXPECT_EQ(limited_command(-900000, 100700), -100500);
+  EXPECT_EQ(sk_governor_clamp(1499, -100000, 100000), 1000);
+  EXPECT_EQ(sk_governor_clamp(-1499, -100000, 100000), -1000);
+  EXPECT_EQ(sk_governor_clamp(400, -100000, 100000), 0);
+  EXPECT_EQ(sk_governor_clamp(100700, -100700, 100700), 100500);
+  EXPECT_EQ(sk_governor_clamp(-900000, -100700, 100700), -100500);
 }
 
 // verifies: SK-CY-30

@@ -1,0 +1,64 @@
+/* Governor: the speed that a joint may be commanded, from the room that is clear ahead of it. It only ever lowers a command; that motion is
+ * permitted at all is decided by the clearance of the reach box. */
+#ifndef SK_GOVERNOR_H
+#define SK_GOVERNOR_H
+#include "reach_box.h"
+SK_BEGIN
+
+#define SK_GOVERNOR_LEVELS BERM_BRAKE_SPEEDS /* level k: the speed of column k of the braking table; the last is unlimited */
+#define SK_COMMAND_STEP_URAD_S 500           /* commands on the bus have this step */
+
+/*@ logic integer sk_governor_column(integer level) = level + 1 < BERM_BRAKE_SPEEDS ? level + 1 : BERM_BRAKE_SPEEDS - 1;
+  @ logic integer sk_twice_way(integer time_us, integer speed) = sk_per_million(2 * time_us * speed);
+  @ // room that a level needs ahead: twice the latency's way and the stop angle, of the next faster column
+  @ logic integer sk_room_of{L}(berm_parameters *p, integer joint, integer row, integer level) =
+  @   \at(p->angle_error_urad[joint], L) + \at(p->brake_angle_urad[joint][row][sk_governor_column(level)], L) +
+  @   sk_twice_way(sk_reach_time_of{L}(p), sk_column_speed_of(\at(p->velocity_max_urad_s[joint], L), sk_governor_column(level)));
+  @ predicate sk_governor_fits{L}(berm_parameters *p, integer joint, integer row) = 0 <= joint < SK_JOINTS && 0 <= row < BERM_BRAKE_REACHES &&
+  @   sk_times_fit{L}(p) && sk_limits_fit{L}(p, joint) &&
+  @   \forall integer k; 0 <= k < BERM_BRAKE_SPEEDS ==> 0 <= \at(p->brake_angle_urad[joint][row][k], L) <= SK_BRAKE_ANGLE_MAX_URAD;
+  @*/
+
+/* Room (urad, from the measured angle) that the level needs, so that a joint told to slow down when its room falls below it need not be
+ * stopped: the reach box of the next column and one latency more. -1 where an argument or parameter is out of its range. */
+/*@ requires \valid_read(p);
+  @ assigns \nothing;
+  @ ensures invalid: \result == -1 <==> !(0 <= level < SK_GOVERNOR_LEVELS && sk_governor_fits(p, joint, row));
+  @ ensures room: \result != -1 ==> \result == sk_room_of(p, joint, row, level) && 0 <= \result;
+  @*/
+int64_t sk_governor_room(const berm_parameters *p, int32_t joint, int32_t row, int32_t level);
+
+/* The highest level all of whose lower levels, and itself, find their room; 0 needs none. */
+/*@ requires \valid_read(p);
+  @ assigns \nothing;
+  @ ensures range: 0 <= \result < SK_GOVERNOR_LEVELS;
+  @ ensures found: \forall integer k; 1 <= k <= \result ==> sk_governor_fits(p, joint, row) && sk_room_of(p, joint, row, k) <= clear_urad;
+  @ ensures highest: \result + 1 < SK_GOVERNOR_LEVELS && sk_governor_fits(p, joint, row) ==> sk_room_of(p, joint, row, \result + 1) > clear_urad;
+  @*/
+int32_t sk_governor_level(const berm_parameters *p, int32_t joint, int32_t row, int64_t clear_urad);
+
+/* Speed (urad/s) that a level permits: that of its column less twice the speed error, so that the measured speed stays in the column; the last
+ * level velocity_max. Never less than the creep velocity. 0 where level, joint or parameters are out of range. */
+/*@ requires \valid_read(p);
+  @ assigns \nothing;
+  @ ensures range: 0 <= \result;
+  @ ensures last: 0 <= joint < SK_JOINTS && level == SK_GOVERNOR_LEVELS - 1 && sk_limits_fit(p, joint) ==> \result == p->velocity_max_urad_s[joint];
+  @ ensures column: 0 <= joint < SK_JOINTS && 0 <= level < SK_GOVERNOR_LEVELS - 1 && sk_limits_fit(p, joint) ==> \result == sk_most(
+  @   sk_column_speed_of(p->velocity_max_urad_s[joint], level) - 2 * p->velocity_error_urad_s[joint], sk_most(0, p->creep_velocity_urad_s[joint]));
+  @ ensures invalid: !(0 <= joint < SK_JOINTS && 0 <= level < SK_GOVERNOR_LEVELS) || !sk_limits_fit(p, joint) ==> \result == 0;
+  @*/
+int32_t sk_governor_speed(const berm_parameters *p, int32_t joint, int32_t level);
+
+/* The request cut to low..high (low <= 0 <= high, else 0) and to the bus's step towards zero: what is sent is never more than was checked. */
+/*@ assigns \nothing;
+  @ ensures never_more: sk_least(0, requested_urad_s) <= \result <= sk_most(0, requested_urad_s);
+  @ ensures within: low_urad_s <= 0 <= high_urad_s ==> low_urad_s <= \result <= high_urad_s;
+  @ ensures nothing: !(low_urad_s <= 0 <= high_urad_s) ==> \result == 0;
+  @ ensures step: \exists integer k; \result == SK_COMMAND_STEP_URAD_S * k;
+  @ ensures whole: low_urad_s <= requested_urad_s <= high_urad_s && low_urad_s <= 0 <= high_urad_s ==>
+  @   requested_urad_s - SK_COMMAND_STEP_URAD_S < \result < requested_urad_s + SK_COMMAND_STEP_URAD_S;
+  @*/
+int32_t sk_governor_clamp(int32_t requested_urad_s, int32_t low_urad_s, int32_t high_urad_s);
+
+SK_END
+#endif
