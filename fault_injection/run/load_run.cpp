@@ -123,6 +123,7 @@ class LoadRun {
     app_.start(app);
     wait_for_app();
     recorder_.connect(folder_.file("kernel.sock"));
+    if (options_.realtime) recorder_.count_from_first_decision();
     recorder_.open_journal(out_ + "/journal.jsonl");
 
     ChildOptions plant;
@@ -157,12 +158,24 @@ class LoadRun {
       recorder_.poll(0.0);
       take_app_lines();
       take_plant_lines();
+      tell_of_init();
       inject();
     }
     recorder_.poll(0.0);
     take_app_lines();
     take_plant_lines();
     result_.wall_seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+  }
+
+  // A kernel that waits for a sensor says nothing by itself.
+  void tell_of_init() {
+    constexpr double kPatience_s = 5.0;
+    if (recorder_.decisions() == 0) return;
+    const bool waits = recorder_.last().kernel_state == BERM_STATE_INIT;
+    if (waits && init_since_s_ < 0.0) init_since_s_ = recorder_.time_s();
+    if (!waits || init_told_ || recorder_.time_s() - init_since_s_ < kPatience_s) return;
+    init_told_ = true;
+    say(fmt::format("{:7.1f} s  the kernel still waits to hear every sensor, the machine and the panel", recorder_.time_s()));
   }
 
   void inject() {
@@ -268,7 +281,8 @@ class LoadRun {
   ChildProcess kernel_, app_, plant_;
   Recorder recorder_;
   RunResult result_;
-  bool injected_ = false;
+  bool injected_ = false, init_told_ = false;
+  double init_since_s_ = -1.0;
 };
 
 }  // namespace

@@ -109,11 +109,12 @@ void Recorder::poll(double seconds) {
 }
 
 void Recorder::take(const berm_decision& d) {
+  if (decisions_ == 0 && from_first_) origin_us_ = d.time_us;
   if (decisions_ > 0 && last_.kernel_state == BERM_STATE_RUN && d.kernel_state != BERM_STATE_RUN && d.stop_reason != BERM_STOP_NONE) {
     const std::string reason = stop_reason_name(d.stop_reason);
     ++stops_[reason];
     const bool has_place = d.stop_reason >= BERM_STOP_COLLISION_PREDICTED && d.stop_reason <= BERM_STOP_DIG_FLOOR;
-    stop_events_.push_back({static_cast<double>(d.time_us) * 1e-6, reason, has_place, d.blocked_x_mm * 1e-3, d.blocked_y_mm * 1e-3, d.blocked_height_mm * 1e-3});
+    stop_events_.push_back({seconds(d), reason, has_place, d.blocked_x_mm * 1e-3, d.blocked_y_mm * 1e-3, d.blocked_height_mm * 1e-3});
   }
   if (d.kernel_state == BERM_STATE_FAULT && (decisions_ == 0 || last_.kernel_state != BERM_STATE_FAULT)) {
     ++faults_;
@@ -122,7 +123,7 @@ void Recorder::take(const berm_decision& d) {
   const double speed = d.joint_velocity_urad_s[BERM_SWING] * 1e-6;
   if (std::abs(speed) > std::abs(fastest_.swing_speed_rad_s) + 0.01) snapshot_slices(speed);
   if (d.cycle % kPathEvery == 0) {
-    BucketPoint point{static_cast<double>(d.time_us) * 1e-6, {}, d.kernel_state};
+    BucketPoint point{seconds(d), {}, d.kernel_state};
     for (int j = 0; j < BERM_JOINTS; ++j) point.angle_rad[static_cast<std::size_t>(j)] = d.joint_angle_urad[j] * 1e-6;
     path_.push_back(point);
   }

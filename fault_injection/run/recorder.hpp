@@ -51,7 +51,9 @@ class Recorder {
   // The swept volume at the moment of the fastest swing so far.
   const SliceSnapshot& fastest_swing() const { return fastest_; }
   const std::vector<BucketPoint>& path() const { return path_; }
-  double time_s() const { return static_cast<double>(last_.time_us) * 1e-6; }
+  // Of the newest decision. In real time the kernel's clock began before the run: times then count from the first decision.
+  double time_s() const { return seconds(last_); }
+  void count_from_first_decision() { from_first_ = true; }
   const berm_decision& last() const { return last_; }
   std::uint64_t decisions() const { return decisions_; }
   std::uint64_t lost() const { return lost_; }
@@ -61,6 +63,7 @@ class Recorder {
   std::string first_fault() const { return first_fault_; }
 
  private:
+  double seconds(const berm_decision& d) const { return static_cast<double>(d.time_us - origin_us_) * 1e-6; }
   void take(const berm_decision& d);
   void snapshot_slices(double speed);
 
@@ -70,6 +73,8 @@ class Recorder {
   std::uint32_t next_ = 0;
   std::uint64_t decisions_ = 0;
   std::uint64_t lost_ = 0;
+  bool from_first_ = false;
+  std::int64_t origin_us_ = 0;
   berm_decision last_{};
   std::map<std::string, int> stops_;
   std::vector<StopEvent> stop_events_;

@@ -14,7 +14,7 @@ public:
   // What the next pass should bring: the remainder spread evenly over the fewest passes of at most full_bucket_kg; never beyond the overload limit.
   double next_goal_kg(double full_bucket_kg) const;
 
-  static constexpr double full_share = 0.975;
+  static constexpr double full_share = 0.96;   // a last bucket for less than this would overload it rather
   static constexpr double overload_share = 1.03;
   static constexpr double trim_share = 1.02;      // a bucket that would bring more than this lets some of it go first
 

@@ -76,7 +76,7 @@ void PlantRun::advance(double t) {
   soil_ = world_.step(t, kCycle, dynamics_.state(), before);
   std::vector<berm_scan_packet> packets;
   world_.scan(t, kCycle, before, dynamics_.state(), pan_before, pan_, packets);
-  scans_.send(packets);
+  scans_.send(packets, epoch_us_);
   const auto& speed = dynamics_.state().velocity;
   const bool still = std::all_of(speed.begin(), speed.end(), [](double v) { return std::abs(v) < kStandstillSpeed; });
   standing_cycles_ = still ? standing_cycles_ + 1 : 0;
@@ -179,6 +179,7 @@ void PlantRun::run() {
   world_.write_terrain(options_.out + "/terrain_start.csv");
   timespec next{};
   clock_gettime(CLOCK_MONOTONIC, &next);
+  if (options_.realtime) epoch_us_ = static_cast<std::uint64_t>(next.tv_sec) * 1'000'000 + static_cast<std::uint64_t>(next.tv_nsec) / 1000;
   std::string reason;
   double t = 0.0;
   while (reason.empty()) {

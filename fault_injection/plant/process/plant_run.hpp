@@ -68,6 +68,7 @@ class PlantRun {
 
   std::uint64_t cycle_ = 0;
   double now_ = 0.0;                  // time of the newest cycle
+  std::uint64_t epoch_us_ = 0;        // in real time: the monotonic clock, which the kernel reads too, when the run began
   PanState pan_;
   DigForces soil_;
   bool parked_ = false, leaving_ = false;

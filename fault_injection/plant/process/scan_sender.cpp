@@ -28,9 +28,10 @@ ScanSender::~ScanSender() {
   if (fd_ >= 0) close(fd_);
 }
 
-void ScanSender::send(const std::vector<berm_scan_packet>& packets) {
+void ScanSender::send(std::vector<berm_scan_packet>& packets, std::uint64_t epoch_us) {
   std::array<std::uint8_t, BERM_SCAN_PACKET_MAX_BYTES> bytes{};
-  for (const berm_scan_packet& packet : packets) {
+  for (berm_scan_packet& packet : packets) {
+    packet.time_us += epoch_us;
     const std::size_t n = berm_scan_encode(&packet, bytes.data());
     if (n == 0) throw std::runtime_error("the world made a scan packet with a field out of range");
     // nobody may be listening (a kernel that died): the error of the datagram before is reported here and is no fault of this one

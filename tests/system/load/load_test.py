@@ -5,10 +5,11 @@ import os
 import pathlib
 import shutil
 import subprocess
+import tempfile
 import threading
 import time
 
-from berm_command import BIN, load, main
+from berm_command import BIN, ROOT, load, main
 
 FIELDS = {"seed", "trucks_loaded", "passes", "pass_seconds", "target_kg", "payload_kg", "spill_fraction", "load_centre_offset_m",
           "load_height_stddev_m", "contacts", "closest_approach_m", "kernel_stops", "kernel_faults", "cycle_us_p50", "cycle_us_p99",
@@ -105,4 +106,20 @@ def app_holds_no_machine_descriptor():
         assert link.startswith(("socket:[", "pipe:[", "/dev/null", "/memfd:")) or fd in "012", f"the app holds {fd} -> {link}"
 
 
-main([loads_one_truck, same_seed_same_trace, app_holds_no_machine_descriptor])
+def real_time_gets_under_way():
+    """The kernel's own clock: it must take the scanners' packets and leave INIT (how well it keeps time is the machine's matter)."""
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
+    scenario = folder / "short.toml"
+    text = (ROOT / "fault_injection" / "scenarios" / "bench.toml").read_text()
+    assert "max_time_s = 1800.0" in text
+    scenario.write_text(text.replace("max_time_s = 1800.0", "max_time_s = 8.0"))
+    _, result, out, _ = load("--scenario", scenario, "--realtime")
+    assert result["end_reason"] == "time limit" and result["contacts"] == 0, result
+    with open(out / "trace.csv", newline="") as file:
+        states = {row["stop_state"] for row in csv.DictReader(file)}
+    assert states - {"0"}, "the kernel never left INIT"
+    shutil.rmtree(out)
+    shutil.rmtree(folder)
+
+
+main([loads_one_truck, same_seed_same_trace, app_holds_no_machine_descriptor, real_time_gets_under_way])

@@ -6,12 +6,12 @@ namespace {
 
 using berm::app::TruckFill;
 
-TEST(TruckFill, FullFromNinetySevenAndAHalfPercentOn) {
+TEST(TruckFill, FullFromNinetySixPercentOn) {
   TruckFill fill(18000.0);
-  for (int i = 0; i < 11; ++i) fill.add_pass(1590.0, 0.0);
-  EXPECT_FALSE(fill.full());  // 17 490
-  fill.add_pass(80.0, 0.0);
-  EXPECT_TRUE(fill.full());   // 17 570
+  for (int i = 0; i < 11; ++i) fill.add_pass(1569.0, 0.0);
+  EXPECT_FALSE(fill.full());  // 17 259
+  fill.add_pass(30.0, 0.0);
+  EXPECT_TRUE(fill.full());   // 17 289
   EXPECT_EQ(fill.passes(), 12);
 }
 
