@@ -11,6 +11,7 @@ set(kernel_rooms core geometry io)
 set(app_rooms motion planning perception app)
 set(plant_rooms plant)
 set(run_rooms plant run map)
+set(validate_rooms plant run validate io)
 
 set(violations 0)
 set(files_read 0)
@@ -59,6 +60,8 @@ check_folder(planning_app "${app_rooms};${interface_rooms}" "CGAL/")
 check_folder(fault_injection/plant "${plant_rooms};${interface_rooms}" "")
 check_folder(fault_injection/run "${run_rooms};${interface_rooms}" "")
 check_folder(fault_injection/map "${run_rooms};${interface_rooms}" "")
+# Joins plant and kernel in one process, for speed.
+check_folder(fault_injection/validate "${validate_rooms};${interface_rooms}" "")
 
 if(violations GREATER 0)
   message(FATAL_ERROR "include_rules: ${violations} forbidden include(s)")

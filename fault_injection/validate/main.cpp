@@ -1,0 +1,132 @@
+// ./berm validate: the validation sweep of leger-1998 section 2.5, whole instead of partitioned.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <mutex>
+#include <thread>
+
+#include "config/compile_parameters.hpp"
+#include "config/strict_table.hpp"
+#include "run/parameter_file.hpp"
+#include "run/svg.hpp"
+#include "validate/report.hpp"
+#include "validate/trial_run.hpp"
+
+namespace berm::validate {
+namespace {
+
+constexpr double loaded_kg = 1800.0;  // the heaviest that the machine file's prisms and braking table are made for
+
+struct Options {
+  int runs = 200, only = -1, jobs = 0;
+  std::uint64_t seed = 1;
+  std::string machine = "zx200", json, picture, trace;
+};
+
+Bench make_bench(const std::string& machine) {
+  Bench bench;
+  bench.machine = config::load_machine_file(run::find_machine(machine));
+  config::SiteFile site = config::load_site_file(run::find_site("bench"));
+  site.dig_zone.clear();
+  bench.parameters = config::compile_parameters(bench.machine, site);
+  bench.profile = plant::load_plant_profile(BERM_PLANT_PROFILES "/" + bench.machine.name + "_plant.toml");
+  return bench;
+}
+
+void run_all(const Bench& bench, const Options& options, const SwingLimits& limits, Sweep& sweep) {
+  const auto begin = std::chrono::steady_clock::now();
+  sweep.results.resize(static_cast<std::size_t>(options.runs));
+  std::atomic<int> next = 0, done = 0;
+  std::mutex printing;
+  const bool progress = isatty(STDERR_FILENO) != 0;
+  const auto work = [&] {
+    for (int run = next++; run < options.runs; run = next++) {
+      sweep.results[static_cast<std::size_t>(run)] = run_trial(bench, draw_trial(options.seed, run, bench.profile.shape, limits), {});
+      const int finished = ++done;
+      const std::lock_guard lock(printing);
+      const TrialResult& r = sweep.results[static_cast<std::size_t>(run)];
+      if (r.outcome == Outcome::miss) fmt::print(stderr, "MISS in run {}: {}\n", run, r.why);
+      if (progress) fmt::print(stderr, "\r{} of {} runs", finished, options.runs);
+      else if (finished % 500 == 0) fmt::print(stderr, "{} of {} runs\n", finished, options.runs);
+    }
+  };
+  std::vector<std::thread> workers;
+  for (int i = 1; i < options.jobs; ++i) workers.emplace_back(work);
+  work();
+  for (auto& worker : workers) worker.join();
+  if (progress) fmt::print(stderr, "\n");
+  sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void tell_one(const TrialResult& r) {
+  const auto motion = [](const char* name, const Motion& m) {
+    fmt::print("  {:<8} {}{}{}, {:.2f} s, {:.2f} m from the obstacle, {:.2f} m above ground\n", name, m.contact ? "CONTACT" : m.arrived ? "arrived" : "did not arrive", m.governed ? ", slowed" : "",
+               m.stopped ? fmt::format(", stopped (reason {})", m.stop_reason) : "", m.seconds, m.closest_m, m.ground_gap_m);
+  };
+  fmt::print("run {}: {}\n", r.trial.run, describe(r.trial));
+  motion("kernel", r.kernel);
+  motion("nominal", r.nominal);
+  fmt::print("  {}\n", r.outcome == Outcome::right ? "right" : r.outcome == Outcome::miss ? "MISS: " + r.why : "needless stop: " + r.why);
+}
+
+int run(int argc, char** argv) {
+  Options options;
+  CLI::App app{"Thousands of swings past an obstacle of drawn size and place, judged by the oracle: misses, needless stops, time lost. Exit 0: no miss, and at most 0.5 % of needless stops."};
+  app.add_option("--runs", options.runs, "number of runs")->check(CLI::Range(1, 10000000))->capture_default_str();
+  app.add_option("--seed", options.seed, "seed of every draw")->capture_default_str();
+  app.add_option("--only", options.only, "this one run, in detail")->check(CLI::Range(0, 10000000));
+  app.add_option("--trace", options.trace, "with --only: CSV of the kernel's motion");
+  app.add_option("--machine", options.machine, "machine, name or file")->capture_default_str();
+  app.add_option("--jobs", options.jobs, "threads (0: one a core)")->check(CLI::Range(0, 1024))->capture_default_str();
+  app.add_option("--json", options.json, "result for scripts");
+  app.add_option("--picture", options.picture, "SVG of the obstacles by outcome");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    std::string what = error.what();
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    fmt::print(stderr, "berm validate: {} (see --help)\n", what);
+    return 2;
+  }
+  if (!options.trace.empty() && options.only < 0) {
+    fmt::print(stderr, "berm validate: --trace needs --only\n");
+    return 2;
+  }
+  if (options.jobs == 0) options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const Bench bench = make_bench(options.machine);
+  const SwingLimits limits{bench.machine.joint[0].velocity_max, loaded_kg, bench.machine.own_body_radius};
+  if (options.only >= 0) {
+    const TrialResult result = run_trial(bench, draw_trial(options.seed, options.only, bench.profile.shape, limits), options.trace);
+    tell_one(result);
+    return result.outcome == Outcome::right ? 0 : 1;
+  }
+  Sweep sweep;
+  sweep.seed = options.seed;
+  run_all(bench, options, limits, sweep);
+  const auto result = flat_json(sweep);
+  fmt::print("{}", summary_text(sweep));
+  if (!options.json.empty()) run::write_text_file(options.json, result.dump(1) + "\n");
+  if (!options.picture.empty()) write_picture(options.picture, sweep);
+  const bool held = result["misses"] == 0 && result["needless_stops"].get<double>() <= 0.005 * options.runs;
+  return held ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace berm::validate
+
+int main(int argc, char** argv) {
+  try {
+    return berm::validate::run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "berm validate: {}\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,168 @@
+#include "validate/trial_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+
+#include "plant/machine/kinematics.hpp"
+#include "plant/machine/machine_controller.hpp"
+#include "plant/machine/pan_servo.hpp"
+#include "plant/machine/state_frames.hpp"
+#include "validate/commander.hpp"
+#include "validate/supervisor.hpp"
+
+namespace berm::validate {
+
+namespace {
+
+constexpr double cycle_s = 0.01;
+constexpr double longest_survey_s = 10.0, longest_motion_s = 30.0, stopped_for_s = 1.5;
+constexpr double still = 0.004;           // rad/s
+constexpr double needless_beyond_m = 0.25;
+
+// Machine, world, commander and whoever supervises, in one loop of virtual time: the plant's own parts, in the order of its process.
+class Loop {
+ public:
+  Loop(const Bench& bench, const Trial& trial, std::unique_ptr<Supervisor> supervisor)
+      : trial_(trial), supervisor_(std::move(supervisor)), world_(world_of(trial), bench.profile.shape, seed_of(trial), 0),
+        dynamics_(bench.profile.dynamics, bench.profile.shape, seed_of(trial), {trial.from, {}}), controller_(bench.profile), frames_(bench.profile, seed_of(trial)),
+        servo_{plant::PanServo(bench.profile.shape.scanner[0]), plant::PanServo(bench.profile.shape.scanner[1])},
+        commander_(bench.machine, trial, std::max(plant::reach(bench.profile.shape, {trial.from, {}}), plant::reach(bench.profile.shape, {trial.to, {}})), supervisor_->needs_scans()) {}
+
+  Motion run(std::FILE* trace) {
+    Motion motion;
+    motion.closest_m = motion.ground_gap_m = 1e9;
+    double began_s = 0.0, still_s = 0.0;
+    const double end_s = longest_survey_s + longest_motion_s;
+    for (double t = cycle_s; t < end_s; t = static_cast<double>(++cycle_) * cycle_s) {
+      advance(t);
+      const berm_state& state = supervisor_->state();
+      judge(t, motion);
+      if (trace != nullptr) write_row(trace, t);
+      if (motion.contact) break;
+      if (!motion.began) {
+        motion.began = commander_.swinging();
+        began_s = t;
+        if (!motion.began && t > longest_survey_s) break;
+        continue;
+      }
+      motion.seconds = t - began_s;
+      if (motion.seconds > longest_motion_s) break;
+      if (state.kernel_state != BERM_STATE_RUN && !motion.stopped) {
+        motion.stopped = true;
+        motion.stop_reason = state.stop_reason;
+      }
+      for (int j = 0; j < 4; ++j) motion.governed = motion.governed || std::abs(state.commanded_urad_s[j]) + 1000 < std::abs(asked_.joint_velocity_urad_s[j]);
+      if (commander_.arrived(state)) {
+        motion.arrived = true;
+        break;
+      }
+      const auto& speed = dynamics_.state().velocity;
+      const bool rests = std::all_of(speed.begin(), speed.end(), [](double v) { return std::fabs(v) < still; });
+      still_s = rests && state.kernel_state != BERM_STATE_RUN ? still_s + cycle_s : 0.0;
+      if (still_s > stopped_for_s) break;
+    }
+    return motion;
+  }
+
+ private:
+  static std::uint64_t seed_of(const Trial& trial) { return trial.seed * 1000003U + static_cast<std::uint64_t>(trial.run); }
+
+  void advance(double t) {
+    now_ = t - cycle_s;
+    controller_.decide(now_, resting_);
+    const plant::JointState before = dynamics_.state();
+    const plant::PanState pan_before = pan_;
+    dynamics_.step(cycle_s, controller_.drive(), controller_.command(), plant::DigForces{}, trial_.payload_kg);
+    for (std::size_t i = 0; i < servo_.size(); ++i) {
+      const plant::PanGoal goal = controller_.pan(i, now_, servo_[i].angle());
+      servo_[i].step(cycle_s, goal.goal, goal.rate);
+      pan_.angle[i] = servo_[i].angle();
+      pan_.velocity[i] = servo_[i].velocity();
+    }
+    world_.step(t, cycle_s, dynamics_.state(), before);
+    std::vector<berm_scan_packet> packets;
+    if (supervisor_->needs_scans()) world_.scan(t, cycle_s, before, dynamics_.state(), pan_before, pan_, packets);
+    const auto& speed = dynamics_.state().velocity;
+    resting_ = std::all_of(speed.begin(), speed.end(), [](double v) { return std::fabs(v) < still; });
+
+    plant::MachineSnapshot snapshot;
+    snapshot.joints = dynamics_.state();
+    snapshot.payload_kg = trial_.payload_kg;
+    snapshot.pilot_unlocked = controller_.pilot_unlocked();
+    snapshot.panel.run = true;
+    const bool has_request = cycle_ > 1;
+    if (has_request) asked_ = commander_.answer(supervisor_->state());
+    for (const auto& frame : supervisor_->step(cycle_, frames_.frames(cycle_, snapshot), packets, has_request ? &asked_ : nullptr)) controller_.receive(frame, t);
+  }
+
+  void judge(double t, Motion& motion) {
+    const plant::OracleVerdict verdict = world_.judge(t, dynamics_.state());
+    motion.closest_m = std::min(motion.closest_m, verdict.closest_m);
+    motion.ground_gap_m = std::min(motion.ground_gap_m, verdict.ground_gap_m);
+    if (verdict.contact && !motion.contact) motion.touched = verdict.what;
+    motion.contact = motion.contact || verdict.contact;
+  }
+
+  void write_row(std::FILE* trace, double t) {
+    const berm_state& s = supervisor_->state();
+    const plant::JointState& q = dynamics_.state();
+    fmt::print(trace, "{:.2f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{},{},{},{},{},{},{}\n", t, q.angle[0], q.angle[1], q.angle[2], q.angle[3], q.velocity[0], asked_.joint_velocity_urad_s[0],
+               s.commanded_urad_s[0], s.kernel_state, s.stop_reason, s.blocked_x_mm, s.blocked_y_mm, s.blocked_height_mm);
+  }
+
+  const Trial& trial_;
+  std::unique_ptr<Supervisor> supervisor_;
+  plant::World world_;
+  plant::JointDynamics dynamics_;
+  plant::MachineController controller_;
+  plant::StateFrames frames_;
+  std::array<plant::PanServo, 2> servo_;
+  Commander commander_;
+  plant::PanState pan_;
+  berm_request asked_{};
+  std::uint64_t cycle_ = 1;
+  double now_ = 0.0;
+  bool resting_ = true;
+};
+
+void judge(const Bench& bench, TrialResult& result) {
+  const Motion &kernel = result.kernel, &nominal = result.nominal;
+  const double kept = std::min(nominal.closest_m, nominal.ground_gap_m), margin = bench.parameters.margin_mm * 1e-3;
+  if (kernel.contact) {
+    result.outcome = Outcome::miss;
+    result.why = "touched: " + kernel.touched;
+  } else if (!kernel.arrived && nominal.arrived && !nominal.contact && kept > margin + needless_beyond_m) {
+    result.outcome = Outcome::needless_stop;
+    result.why = !kernel.began ? fmt::format("never began, reason {}", kernel.stop_reason)
+                               : fmt::format("{}, reason {}; the nominal motion keeps {:.2f} m", kernel.stopped ? "stopped" : "did not arrive", kernel.stop_reason, kept);
+  } else if (kernel.stopped && nominal.arrived && !nominal.contact && kept > margin + needless_beyond_m) {
+    result.outcome = Outcome::needless_stop;
+    result.why = fmt::format("stopped on the way, reason {}; the nominal motion keeps {:.2f} m", kernel.stop_reason, kept);
+  }
+  if (kernel.arrived && nominal.arrived) result.time_lost_s = kernel.seconds - nominal.seconds;
+}
+
+}  // namespace
+
+TrialResult run_trial(const Bench& bench, const Trial& trial, const std::string& trace) {
+  TrialResult result;
+  result.trial = trial;
+  std::FILE* file = nullptr;
+  if (!trace.empty()) {
+    file = std::fopen(trace.c_str(), "we");
+    if (file == nullptr) throw std::runtime_error("cannot write " + trace);
+    fmt::print(file, "time_s,swing_rad,boom_rad,stick_rad,bucket_rad,swing_rad_s,asked_urad_s,commanded_urad_s,kernel_state,stop_reason,blocked_x_mm,blocked_y_mm,blocked_height_mm\n");
+  }
+  result.kernel = Loop(bench, trial, make_kernel(bench.parameters)).run(file);
+  if (file != nullptr && std::fclose(file) != 0) throw std::runtime_error("cannot write " + trace);
+  result.nominal = Loop(bench, trial, make_obedient()).run(nullptr);
+  judge(bench, result);
+  return result;
+}
+
+}  // namespace berm::validate
