@@ -17,6 +17,7 @@ constexpr double arm_share = 0.5;      // of the arm joints' largest speeds
 constexpr double landing_gain = 3.0;   // 1/s
 constexpr double cycle_s = 0.01;
 constexpr double lead_near = 45 * degree, lead_far = 85 * degree;  // pan ahead of the swing
+constexpr double azimuth_rate = 45 * degree;  // 1/s, over the ground: 30 scanlines a second then lie less than a cell apart out to 11 m
 constexpr double arrived_within = 2.0 * degree, at_rest = 0.8 * degree;
 
 }  // namespace
@@ -66,7 +67,8 @@ void Commander::pans(const berm_state& state, berm_request& request) {
     if (pan > high - 1.5 * degree) up_[i] = false;
     if (pan < low + 1.5 * degree) up_[i] = true;
     request.pan_goal_urad[i] = static_cast<std::int32_t>((up_[i] ? high : low) * 1e6);
-    request.pan_rate_urad_s[i] = static_cast<std::int32_t>(mount.pan_rate_max * 1e6);
+    const double rate = azimuth_rate - (up_[i] ? 1.0 : -1.0) * state.joint_velocity_urad_s[0] * 1e-6;
+    request.pan_rate_urad_s[i] = static_cast<std::int32_t>(std::clamp(rate, 1.0 * degree, mount.pan_rate_max) * 1e6);
   }
   if (seen && state.kernel_state == BERM_STATE_RUN) swinging_ = true;
 }

@@ -20,7 +20,7 @@ namespace berm::validate {
 namespace {
 
 constexpr double cycle_s = 0.01;
-constexpr double longest_survey_s = 10.0, longest_motion_s = 30.0, stopped_for_s = 1.5;
+constexpr double longest_survey_s = 15.0, longest_motion_s = 30.0, stopped_for_s = 1.5;
 constexpr double still = 0.004;           // rad/s
 constexpr double needless_beyond_m = 0.25;
 

@@ -134,7 +134,7 @@ typedef struct berm_state {
   uint8_t stop_reason;                               /* BERM_STOP_* now in force, BERM_STOP_NONE in RUN */
   uint8_t stop_category;                             /* 0 or 1 while stopping or stopped, 2 while merely held, 255 in RUN */
   int32_t commanded_urad_s[BERM_JOINTS];             /* what was sent to the machine */
-  int32_t permitted_low_urad_s[BERM_JOINTS];         /* a request within, given in this cycle, would have gone out as it was; zero when held */
+  int32_t permitted_low_urad_s[BERM_JOINTS];         /* where the request was cut: what of it goes out; else the largest speeds; zero when held */
   int32_t permitted_high_urad_s[BERM_JOINTS];
   int32_t reach_low_urad[BERM_JOINTS];               /* reach box of this cycle */
   int32_t reach_high_urad[BERM_JOINTS];

@@ -71,7 +71,7 @@ int32_t sk_governor_speed(const berm_parameters *p, int32_t joint, int32_t level
   int32_t speed, creep;
   if (joint < 0 || joint >= SK_JOINTS || level < 0 || level >= SK_GOVERNOR_LEVELS || !sk_limits_ok(p, joint)) { return 0; }
   if (level == SK_GOVERNOR_LEVELS - 1) { return p->velocity_max_urad_s[joint]; }
-  speed = sk_column_speed(p->velocity_max_urad_s[joint], level) - 2 * p->velocity_error_urad_s[joint];
+  speed = sk_column_speed(p->velocity_max_urad_s[joint], level) - 3 * p->velocity_error_urad_s[joint];
   creep = p->creep_velocity_urad_s[joint] > 0 ? p->creep_velocity_urad_s[joint] : 0;
   return speed > creep ? speed : creep;
 }

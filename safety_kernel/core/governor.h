@@ -37,14 +37,14 @@ int64_t sk_governor_room(const berm_parameters *p, int32_t joint, int32_t row, i
   @*/
 int32_t sk_governor_level(const berm_parameters *p, int32_t joint, int32_t row, int64_t clear_urad);
 
-/* Speed (urad/s) that a level permits: that of its column less twice the speed error, so that the measured speed stays in the column; the last
+/* Speed (urad/s) that a level permits: that of its column less three times the speed error, so that the reach box stays in the column; the last
  * level velocity_max. Never less than the creep velocity. 0 where level, joint or parameters are out of range. */
 /*@ requires \valid_read(p);
   @ assigns \nothing;
   @ ensures range: 0 <= \result;
   @ ensures last: 0 <= joint < SK_JOINTS && level == SK_GOVERNOR_LEVELS - 1 && sk_limits_fit(p, joint) ==> \result == p->velocity_max_urad_s[joint];
   @ ensures column: 0 <= joint < SK_JOINTS && 0 <= level < SK_GOVERNOR_LEVELS - 1 && sk_limits_fit(p, joint) ==> \result == sk_most(
-  @   sk_column_speed_of(p->velocity_max_urad_s[joint], level) - 2 * p->velocity_error_urad_s[joint], sk_most(0, p->creep_velocity_urad_s[joint]));
+  @   sk_column_speed_of(p->velocity_max_urad_s[joint], level) - 3 * p->velocity_error_urad_s[joint], sk_most(0, p->creep_velocity_urad_s[joint]));
   @ ensures invalid: !(0 <= joint < SK_JOINTS && 0 <= level < SK_GOVERNOR_LEVELS) || !sk_limits_fit(p, joint) ==> \result == 0;
   @*/
 int32_t sk_governor_speed(const berm_parameters *p, int32_t joint, int32_t level);

@@ -34,10 +34,22 @@ MotionCheck::MotionCheck(const berm_parameters& parameters) : parameters_(parame
   std::copy(parameters.dig_zone, parameters.dig_zone + BERM_DIG_ZONES, rules_.dig_zone);
 }
 
-bool MotionCheck::reach(const MotionQuery& query, int mode, const std::int32_t* low_urad_s, const std::int32_t* high_urad_s, sk_reach_box& box) const {
+MotionCheck::Commands MotionCheck::commands(const MotionQuery& query, std::int32_t percent, bool creeping) const {
+  Commands c{};
+  for (int j = 0; j < SK_JOINTS; ++j) {
+    const std::int32_t limit = creeping ? parameters_.creep_velocity_urad_s[j] : parameters_.velocity_max_urad_s[j];
+    const auto slowed = static_cast<std::int32_t>(static_cast<std::int64_t>(query.requested_urad_s[j]) * percent / 100);
+    c.send_urad_s[j] = sk_governor_clamp(slowed, -limit, limit);
+    c.low_urad_s[j] = std::min({0, query.under_way_low_urad_s[j], c.send_urad_s[j]});
+    c.high_urad_s[j] = std::max({0, query.under_way_high_urad_s[j], c.send_urad_s[j]});
+  }
+  return c;
+}
+
+bool MotionCheck::reach(const MotionQuery& query, const Commands& c, sk_reach_box& box) const {
   const auto joints = [&](int first, std::int32_t row) {
     for (int j = first; j < SK_JOINTS; ++j) {
-      if (!sk_reach_joint(&parameters_, j, row, query.angle_urad[j], query.velocity_urad_s[j], mode, low_urad_s[j], high_urad_s[j], &box)) return false;
+      if (!sk_reach_joint(&parameters_, j, row, query.angle_urad[j], query.velocity_urad_s[j], SK_REACH_COMMANDED, c.low_urad_s[j], c.high_urad_s[j], &box)) return false;
     }
     return true;
   };
@@ -50,11 +62,11 @@ bool MotionCheck::reach(const MotionQuery& query, int mode, const std::int32_t* 
   return row >= 0 && joints(BERM_SWING, row);
 }
 
-bool MotionCheck::joints_within(const sk_reach_box& box, const std::int32_t* low_urad_s, const std::int32_t* high_urad_s) const {
+bool MotionCheck::joints_within(const sk_reach_box& box, const Commands& c) const {
   // A joint that stands beyond its range may move back, and only back.
   for (int j = 0; j < SK_JOINTS; ++j) {
-    if (box.low_urad[j] < parameters_.joint_low_urad[j] && low_urad_s[j] < 0) return false;
-    if (box.high_urad[j] > parameters_.joint_high_urad[j] && high_urad_s[j] > 0) return false;
+    if (box.low_urad[j] < parameters_.joint_low_urad[j] && c.low_urad_s[j] < 0) return false;
+    if (box.high_urad[j] > parameters_.joint_high_urad[j] && c.high_urad_s[j] > 0) return false;
   }
   return true;
 }
@@ -68,7 +80,8 @@ void MotionCheck::note_cell(const sk_height_map& map, const sk_slice& slice, con
   verdict.blocked_height_mm = inside && map.seen_us[result.iy][result.ix] >= 0 ? sk_map_top(&map, result.iy, result.ix) : 0;
 }
 
-std::uint8_t MotionCheck::clear_slice(const sk_height_map& map, const sk_slice& slice, sk_clearance_result& result, MotionVerdict& verdict) {
+std::uint8_t MotionCheck::clear_one(const sk_height_map& map, const SliceSet& slices, std::int32_t index, sk_clearance_result& result, MotionVerdict& verdict) {
+  const sk_slice& slice = slices.slice[index];
   rules_.own_body_radius_mm = slice.link == BERM_BOOM ? own_and_rim_radius_mm(parameters_) : 0;  // the map has the columns
   // The search may fail or be wrong: what it chose is only a claim, which the core checks.
   choose_planes(map, slice, rules_, choice_);
@@ -85,26 +98,62 @@ std::uint8_t MotionCheck::clear(const MotionQuery& query, const sk_height_map& m
   rules_.now_us = query.now_us;
   rules_.dig_stale = creeping;  // else a bucket that stood in a pit, which hides the ground before it, could never leave
   rules_.dig_allowed = box.speed_urad_s[BERM_SWING] <= parameters_.dig_swing_limit_urad_s;
-  for (int s = 0; s < slices.count; ++s) {
+  for (std::int32_t i = 0; i < slices.count; ++i) {
     sk_clearance_result result;
-    const std::uint8_t reason = clear_slice(map, slices.slice[s], result, verdict);
+    const std::uint8_t reason = clear_one(map, slices, i, result, verdict);
     if (reason == BERM_STOP_NONE) continue;
-    if (!verdict.has_cell) note_cell(map, slices.slice[s], result, verdict);
+    note_cell(map, slices.slice[i], result, verdict);
     return reason;
   }
   return slices.count > 0 ? BERM_STOP_NONE : BERM_STOP_INTERNAL;
 }
 
-std::uint8_t MotionCheck::any_command(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
-  std::int32_t low[4], high[4];  // at once in either direction
-  for (int j = 0; j < SK_JOINTS; ++j) {
-    high[j] = parameters_.velocity_max_urad_s[j];
-    low[j] = -high[j];
+// On success the verdict's commands and box are these.
+std::uint8_t MotionCheck::judge(const MotionQuery& query, const sk_height_map& map, const Commands& c, SliceSet& slices, bool creeping, MotionVerdict& verdict) {
+  sk_reach_box box{};
+  const bool bounded = reach(query, c, box);
+  if (&slices == &request_slices_) verdict.box = box;
+  if (!bounded || !joints_within(box, c)) {
+    if (!build_slices(parameters_, box, slices)) slices.count = 0;  // for observers only
+    return BERM_STOP_JOINT_RANGE;
   }
-  any_slices_.count = 0;
-  if (reach(query, SK_REACH_ANY, low, high, verdict.box) && joints_within(verdict.box, low, high)) return clear(query, map, verdict.box, any_slices_, false, verdict);
-  build_slices(parameters_, verdict.box, any_slices_);  // for observers only
-  return BERM_STOP_JOINT_RANGE;
+  const std::uint8_t reason = clear(query, map, box, slices, creeping, verdict);
+  if (reason != BERM_STOP_NONE) return reason;
+  verdict.box = box;
+  std::copy(c.send_urad_s, c.send_urad_s + SK_JOINTS, verdict.command_urad_s);
+  return BERM_STOP_NONE;
+}
+
+// The request is not clear: slowed, then creeping.
+bool MotionCheck::slower(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
+  constexpr std::int32_t shares_percent[] = {50, 25, 0};  // 0: braked, but not stopped
+  bool asked = false, slow = true;
+  for (int j = 0; j < SK_JOINTS; ++j) {
+    asked = asked || query.requested_urad_s[j] != 0;
+    slow = slow && std::abs(query.velocity_urad_s[j]) <= parameters_.creep_velocity_urad_s[j];
+  }
+  MotionVerdict trial = verdict;
+  const auto take = [&](Permission permission) {
+    trial.permission = permission;
+    trial.reason = verdict.reason;
+    verdict = trial;
+    return true;
+  };
+  for (const std::int32_t percent : shares_percent) {
+    if (!asked || (percent == 0 && slow)) break;
+    if (judge(query, map, commands(query, percent, false), other_slices_, false, trial) == BERM_STOP_NONE) return take(Permission::kGoverned);
+  }
+  trial.has_cell = false;
+  const std::uint8_t blocked = slow ? judge(query, map, commands(query, 100, true), other_slices_, true, trial) : verdict.reason;
+  if (blocked == BERM_STOP_NONE) return take(Permission::kCreep);
+  verdict.slices = trial.slices;
+  verdict.cells = trial.cells;
+  if (!trial.has_cell) return false;
+  // What blocks even the creeping is the nearer cause.
+  trial.reason = blocked;
+  trial.box = verdict.box;
+  verdict = trial;
+  return false;
 }
 
 std::int64_t MotionCheck::room_ahead(const MotionQuery& query, const sk_height_map& map, std::int64_t wanted_urad, MotionVerdict& verdict) {
@@ -113,8 +162,8 @@ std::int64_t MotionCheck::room_ahead(const MotionQuery& query, const sk_height_m
   const std::int64_t certified = up ? verdict.box.high_urad[BERM_SWING] : verdict.box.low_urad[BERM_SWING];
   const std::int64_t range = up ? parameters_.joint_high_urad[BERM_SWING] : parameters_.joint_low_urad[BERM_SWING];
   const std::int64_t wanted = up ? std::min(angle + wanted_urad, range) : std::max(angle - wanted_urad, range);
-  const std::int64_t from = std::min(certified, wanted), to = std::max(certified, wanted);
   if (up ? wanted <= certified : wanted >= certified) return std::llabs(wanted - angle);
+  const std::int64_t from = std::min(certified, wanted), to = std::max(certified, wanted);
   sk_reach_box ahead = verdict.box;
   ahead.low_urad[BERM_SWING] = static_cast<std::int32_t>(from);
   ahead.high_urad[BERM_SWING] = static_cast<std::int32_t>(to);
@@ -124,7 +173,7 @@ std::int64_t MotionCheck::room_ahead(const MotionQuery& query, const sk_height_m
     for (std::int32_t part = 0; part < parameters_.parts; ++part) {
       const std::int32_t interval = up ? near : intervals - 1 - near;
       sk_clearance_result result;
-      if (clear_slice(map, other_slices_.slice[part * intervals + interval], result, verdict) == BERM_STOP_NONE) continue;
+      if (clear_one(map, other_slices_, part * intervals + interval, result, verdict) == BERM_STOP_NONE) continue;
       return std::llabs(certified - angle) + (to - from) * near / intervals;
     }
   }
@@ -132,100 +181,34 @@ std::int64_t MotionCheck::room_ahead(const MotionQuery& query, const sk_height_m
 }
 
 void MotionCheck::govern_swing(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
-  const std::int32_t requested = query.requested_urad_s[BERM_SWING];
-  const std::int32_t row = sk_brake_row(&parameters_, any_slices_.max_reach_mm);
+  const std::int32_t requested = verdict.command_urad_s[BERM_SWING];
+  const std::int32_t row = sk_brake_row(&parameters_, request_slices_.max_reach_mm);
   std::int32_t level = 0;  // that the request needs
   while (level + 1 < SK_GOVERNOR_LEVELS && sk_governor_speed(&parameters_, BERM_SWING, level) < std::abs(requested)) ++level;
-  if (requested == 0 || level == 0) return;
+  if (level == 0) return;
   const std::int64_t wanted_urad = sk_governor_room(&parameters_, BERM_SWING, row, level);
   const std::int64_t room_urad = wanted_urad < 0 ? 0 : room_ahead(query, map, wanted_urad, verdict);
-  const std::int32_t found = sk_governor_level(&parameters_, BERM_SWING, row, room_urad);
-  if (found >= level) return;
-  const std::int32_t speed = sk_governor_speed(&parameters_, BERM_SWING, found);
-  (requested > 0 ? verdict.permitted_high_urad_s : verdict.permitted_low_urad_s)[BERM_SWING] = requested > 0 ? speed : -speed;
-}
-
-MotionCheck::Commands MotionCheck::commands(const MotionQuery& query, std::int32_t percent, bool creeping) const {
-  Commands c{};
-  for (int j = 0; j < SK_JOINTS; ++j) {
-    const std::int32_t limit = creeping ? parameters_.creep_velocity_urad_s[j] : parameters_.velocity_max_urad_s[j];
-    const auto slowed = static_cast<std::int32_t>(static_cast<std::int64_t>(query.requested_urad_s[j]) * percent / 100);
-    c.send_urad_s[j] = sk_governor_clamp(slowed, -limit, limit);
-    c.low_urad_s[j] = std::min(query.under_way_low_urad_s[j], c.send_urad_s[j]);
-    c.high_urad_s[j] = std::max(query.under_way_high_urad_s[j], c.send_urad_s[j]);
-  }
-  return c;
-}
-
-std::uint8_t MotionCheck::these_commands(const MotionQuery& query, const sk_height_map& map, const Commands& c, bool creeping, MotionVerdict& verdict) {
-  sk_reach_box box{};
-  if (!reach(query, SK_REACH_COMMANDED, c.low_urad_s, c.high_urad_s, box) || !joints_within(box, c.low_urad_s, c.high_urad_s)) return BERM_STOP_JOINT_RANGE;
-  const std::uint8_t reason = clear(query, map, box, other_slices_, creeping, verdict);
-  if (reason != BERM_STOP_NONE) return reason;
-  verdict.box = box;
-  for (int j = 0; j < SK_JOINTS; ++j) {
-    verdict.command_urad_s[j] = c.send_urad_s[j];
-    verdict.permitted_low_urad_s[j] = std::min(0, c.send_urad_s[j]);
-    verdict.permitted_high_urad_s[j] = std::max(0, c.send_urad_s[j]);
-  }
-  return BERM_STOP_NONE;
-}
-
-// Not every command is clear: the request itself, slowed request, creeping.
-bool MotionCheck::some_commands(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
-  constexpr std::int32_t shares_percent[] = {100, 50, 25};
-  bool asked = false, slow = true;
-  for (int j = 0; j < SK_JOINTS; ++j) {
-    asked = asked || query.requested_urad_s[j] != 0;
-    slow = slow && std::abs(query.velocity_urad_s[j]) <= parameters_.creep_velocity_urad_s[j];
-  }
-  MotionVerdict trial = verdict;
-  std::uint8_t blocked = verdict.reason;
-  for (const std::int32_t percent : shares_percent) {
-    trial.has_cell = false;
-    if (!asked) break;
-    if (these_commands(query, map, commands(query, percent, false), false, trial) != BERM_STOP_NONE) continue;
-    trial.permission = Permission::kGoverned;
-    trial.reason = verdict.reason;
-    verdict = trial;
-    return true;
-  }
-  trial.has_cell = false;
-  if (slow) blocked = these_commands(query, map, commands(query, 100, true), true, trial);
-  if (slow && blocked == BERM_STOP_NONE) {
-    trial.permission = Permission::kCreep;
-    trial.reason = verdict.reason;
-    verdict = trial;
-    return true;
-  }
-  verdict.slices = trial.slices;
-  verdict.cells = trial.cells;
-  if (!trial.has_cell) return false;
-  // What blocks even the creeping is the nearer cause.
-  verdict.reason = blocked;
-  verdict.has_cell = true;
-  verdict.blocked_x_mm = trial.blocked_x_mm;
-  verdict.blocked_y_mm = trial.blocked_y_mm;
-  verdict.blocked_height_mm = trial.blocked_height_mm;
-  verdict.blocked_link = trial.blocked_link;
-  return false;
+  const std::int32_t speed = sk_governor_speed(&parameters_, BERM_SWING, sk_governor_level(&parameters_, BERM_SWING, row, room_urad));
+  verdict.command_urad_s[BERM_SWING] = sk_governor_clamp(requested, -speed, speed);
 }
 
 void MotionCheck::check(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
   verdict = MotionVerdict{};
-  verdict.reason = any_command(query, map, verdict);
-  if (verdict.reason != BERM_STOP_NONE) {
-    if (!some_commands(query, map, verdict)) verdict.permission = Permission::kHeld;
+  verdict.permission = Permission::kFull;
+  request_slices_.count = 0;
+  verdict.reason = judge(query, map, commands(query, 100, false), request_slices_, false, verdict);
+  if (verdict.reason == BERM_STOP_NONE) {
+    govern_swing(query, map, verdict);
+  } else if (!slower(query, map, verdict)) {
+    verdict.permission = Permission::kHeld;
     return;
   }
-  verdict.permission = Permission::kFull;
   for (int j = 0; j < SK_JOINTS; ++j) {
-    verdict.permitted_high_urad_s[j] = parameters_.velocity_max_urad_s[j];
-    verdict.permitted_low_urad_s[j] = -parameters_.velocity_max_urad_s[j];
+    const std::int32_t sent = verdict.command_urad_s[j], limit = parameters_.velocity_max_urad_s[j];
+    const bool whole = sent == sk_governor_clamp(query.requested_urad_s[j], -limit, limit);
+    verdict.permitted_low_urad_s[j] = whole ? -limit : std::min(0, sent);
+    verdict.permitted_high_urad_s[j] = whole ? limit : std::max(0, sent);
   }
-  govern_swing(query, map, verdict);
-  for (int j = 0; j < SK_JOINTS; ++j)
-    verdict.command_urad_s[j] = sk_governor_clamp(query.requested_urad_s[j], verdict.permitted_low_urad_s[j], verdict.permitted_high_urad_s[j]);
 }
 
 }  // namespace berm::kernel

@@ -1,8 +1,8 @@
 // What motion is permitted in this cycle: the reach box, the volume swept over it, its clearance against the map, and the governor.
 //
-// Any command clear: the request goes out, its swing cut to the speed for which there is room ahead. Else the request, whole or slowed, if the
-// box of the commands sent and still under way and this one is clear. Else recovery: a machine slower than the creep speeds may creep, by the
-// same rule. Else the machine is held, with what blocked.
+// The box is that of the commands sent and perhaps still under way and of the one to be sent, and of a stop after it. Clear: the request goes
+// out, its swing cut to the speed for which there is room ahead. Else the same with the request slowed. Else recovery: a machine slower than
+// the creep speeds may creep, by the same rule. Else the machine is held, with what blocked.
 #pragma once
 
 #include <cstdint>
@@ -29,10 +29,10 @@ struct MotionQuery {
 
 struct MotionVerdict {
   Permission permission;
-  std::uint8_t reason;                // BERM_STOP_*: why not every command is permitted; NONE with kFull
+  std::uint8_t reason;                // BERM_STOP_*: why the request is not permitted; NONE with kFull
   std::int32_t command_urad_s[4];     // what may be sent
-  std::int32_t permitted_low_urad_s[4], permitted_high_urad_s[4];  // a request within goes out as it is; around zero
-  sk_reach_box box;                   // that was certified; for any command when held
+  std::int32_t permitted_low_urad_s[4], permitted_high_urad_s[4];  // around zero: what was cut was cut to this
+  sk_reach_box box;                   // that was certified; of the request when held
   std::int32_t slices, cells;         // checked
   bool has_cell;                      // the next five are set
   std::int32_t blocked_x_mm, blocked_y_mm, blocked_height_mm;
@@ -45,8 +45,8 @@ class MotionCheck {
 
   void check(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
 
-  // Slices of the newest box for any command.
-  const SliceSet& slices() const { return any_slices_; }
+  // Slices of the newest box of the request.
+  const SliceSet& slices() const { return request_slices_; }
 
  private:
   struct Commands {
@@ -54,24 +54,23 @@ class MotionCheck {
     std::int32_t low_urad_s[4], high_urad_s[4];  // with those under way
   };
 
-  // Box for mode; false where it cannot be bounded (speed or reach beyond the braking table).
-  bool reach(const MotionQuery& query, int mode, const std::int32_t* low_urad_s, const std::int32_t* high_urad_s, sk_reach_box& box) const;
-  bool joints_within(const sk_reach_box& box, const std::int32_t* low_urad_s, const std::int32_t* high_urad_s) const;
-  std::uint8_t clear_slice(const sk_height_map& map, const sk_slice& slice, sk_clearance_result& result, MotionVerdict& verdict);
+  // Box of the commands; false where it cannot be bounded (speed or reach beyond the braking table).
+  bool reach(const MotionQuery& query, const Commands& commands, sk_reach_box& box) const;
+  bool joints_within(const sk_reach_box& box, const Commands& commands) const;
+  std::uint8_t clear_one(const sk_height_map& map, const SliceSet& slices, std::int32_t index, sk_clearance_result& result, MotionVerdict& verdict);
   std::uint8_t clear(const MotionQuery& query, const sk_height_map& map, const sk_reach_box& box, SliceSet& slices, bool creeping, MotionVerdict& verdict);
-  std::uint8_t any_command(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
+  Commands commands(const MotionQuery& query, std::int32_t percent, bool creeping) const;
+  std::uint8_t judge(const MotionQuery& query, const sk_height_map& map, const Commands& commands, SliceSet& slices, bool creeping, MotionVerdict& verdict);
+  bool slower(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
   // Room (urad from the measured angle) that is clear in the swing's direction of the request, as far as the box and wanted reach.
   std::int64_t room_ahead(const MotionQuery& query, const sk_height_map& map, std::int64_t wanted_urad, MotionVerdict& verdict);
   void govern_swing(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
-  Commands commands(const MotionQuery& query, std::int32_t percent, bool creeping) const;
-  std::uint8_t these_commands(const MotionQuery& query, const sk_height_map& map, const Commands& commands, bool creeping, MotionVerdict& verdict);
-  bool some_commands(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
   void note_cell(const sk_height_map& map, const sk_slice& slice, const sk_clearance_result& result, MotionVerdict& verdict) const;
 
   const berm_parameters& parameters_;
   sk_clearance_rules rules_{};
-  SliceSet any_slices_;
-  SliceSet other_slices_;  // of the room ahead, or of the commands that were tried
+  SliceSet request_slices_;
+  SliceSet other_slices_;  // of the room ahead, or of a slower request
   sk_choice choice_;
 };
 

@@ -69,7 +69,6 @@ TEST(CycleMotion, AJointNearItsLimitMovesBackAndNotOut) {
   rig.wanted_urad_s[kBucket] = 200000;
   ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, 60)) << "reason " << int(rig.state().stop_reason);
   EXPECT_GT(rig.state().commanded_urad_s[kBucket], 0);
-  EXPECT_EQ(rig.state().permitted_low_urad_s[kBucket], 0);
   // Stays in RUN all the way out of the limit: it does not flicker.
   for (int i = 0; i < 400; ++i) {
     rig.step();
@@ -79,18 +78,46 @@ TEST(CycleMotion, AJointNearItsLimitMovesBackAndNotOut) {
 }
 
 // verifies: SK-CY-23
-TEST(CycleMotion, AStillMachineInABlockedPlaceIsHeldButNotCountedAsStopped) {
+TEST(CycleMotion, AStillMachineInABlockedPlaceIsNotStoppedUntilItIsAskedToMoveThere) {
   CycleRig rig;
   ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, kStartLimit));
   rig.steps(50);
   rig.machine.angle_rad[kBucket] = kCurled;
   rig.steps(50);
+  EXPECT_EQ(rig.state().kernel_state, BERM_STATE_RUN);
+  EXPECT_EQ(rig.state().stop_count[BERM_STOP_JOINT_RANGE], 0U);
+  rig.wanted_urad_s[kBucket] = -200000;
+  rig.steps(50);
   EXPECT_EQ(rig.state().kernel_state, BERM_STATE_STOPPED);
   EXPECT_EQ(rig.state().stop_reason, BERM_STOP_JOINT_RANGE);
   EXPECT_EQ(rig.state().stop_category, 2);
-  EXPECT_EQ(rig.state().stop_count[BERM_STOP_JOINT_RANGE], 0U);
-  rig.machine.angle_rad[kBucket] = kMiddle;
+  rig.wanted_urad_s[kBucket] = 0;
   EXPECT_TRUE(rig.reach_state(BERM_STATE_RUN, 100));
+}
+
+// verifies: SK-CY-26
+TEST(CycleMotion, TheSwingIsSlowedForWhatStandsAheadAndNotStopped) {
+  CycleRig rig;
+  rig.machine.angle_rad[0] = 0.4;
+  rig.machine.pan_low_rad = -0.3;
+  rig.machine.pan_high_rad = 2.2;
+  rig.machine.wall = {6.6, 5.0};
+  ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, 1500));
+  rig.steps(1000);
+  rig.wanted_urad_s[0] = 600000;
+  bool cut = false;
+  for (int i = 0; i < 1500 && rig.state().kernel_state == BERM_STATE_RUN; ++i) {
+    rig.step();
+    const berm_state& state = rig.state();
+    if (state.kernel_state != BERM_STATE_RUN) break;
+    EXPECT_LE(state.commanded_urad_s[0], state.permitted_high_urad_s[0]);
+    EXPECT_GE(state.permitted_high_urad_s[0], 0);
+    if (state.commanded_urad_s[0] > 0 && state.commanded_urad_s[0] < 600000) {
+      EXPECT_EQ(state.permitted_high_urad_s[0], state.commanded_urad_s[0]);
+      cut = true;
+    }
+  }
+  EXPECT_TRUE(cut) << "it must have been slowed before it was stopped";
 }
 
 // verifies: SK-CY-24
