@@ -81,12 +81,13 @@ std::string progress(const config::MachineFile& machine, const BenchPlan& plan, 
     time = std::max(time, s.rest_s - s.sent_s);
   }
   return fmt::format("seed {}, {}: {} at {:.2f} m{}: {} stops, from the command at most {:.2f} deg, {:.2f} s", plan.seed, plan.loaded ? "loaded" : "empty",
-                     config::kJointNames[station.joint], station.reach_m, station.joint == swing ? fmt::format(" (row to {:g} m)", machine.braking.reach[station.row]) : "",
+                     config::kJointNames[station.joint], station.reach_m,
+                     station.joint == swing ? fmt::format(" (row to {:g} m)", machine.braking.reach[station.row]) : "",
                      record.stops.size() - begin, angle * kDegree, time);
 }
 
-void go_through(Plant& plant, MachineLink& link, const config::MachineFile& machine, const BenchPlan& plan, const Interruption& interruption, BenchRecord& record,
-                const std::function<void(const std::string&)>& say) {
+void go_through(Plant& plant, MachineLink& link, const config::MachineFile& machine, const BenchPlan& plan,
+                const Interruption& interruption, BenchRecord& record, const std::function<void(const std::string&)>& say) {
   const auto watch = [&] {
     interruption.check();
     if (!plant.runs()) throw std::runtime_error("the plant ended before the tests: " + plant.describe_end());
@@ -120,7 +121,8 @@ void go_through(Plant& plant, MachineLink& link, const config::MachineFile& mach
 
 }  // namespace
 
-BenchRecord run_tests(const config::MachineFile& machine, const BenchPlan& plan, const Interruption& interruption, const std::function<void(const std::string&)>& say) {
+BenchRecord run_tests(const config::MachineFile& machine, const BenchPlan& plan, const Interruption& interruption,
+                      const std::function<void(const std::string&)>& say) {
   const run::RunFolder folder;
   const std::string can = run::free_can_address();
   BenchRecord record;

@@ -31,6 +31,7 @@ struct BenchRecord {
 };
 
 // say: a line of progress. Throws std::runtime_error with one line.
-BenchRecord run_tests(const config::MachineFile& machine, const BenchPlan& plan, const Interruption& interruption, const std::function<void(const std::string&)>& say);
+BenchRecord run_tests(const config::MachineFile& machine, const BenchPlan& plan, const Interruption& interruption,
+                      const std::function<void(const std::string&)>& say);
 
 }  // namespace berm::identify

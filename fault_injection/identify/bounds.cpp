@@ -170,7 +170,8 @@ Bounds bounds_of(const config::MachineFile& machine, const std::vector<BenchReco
   for (const std::size_t j : joints) {
     const auto& joint = machine.joint[j];
     if (bounds.fastest_reading[j] > joint.velocity_max + joint.velocity_error)
-      throw std::runtime_error(fmt::format("{}: moved at {:.2f} deg/s, faster than velocity_max_deg_s of the machine file ({:.2f}) and its error bound allow", config::kJointNames[j],
+      throw std::runtime_error(fmt::format("{}: moved at {:.2f} deg/s, faster than velocity_max_deg_s of the machine file ({:.2f}) and its error bound allow",
+                                           config::kJointNames[j],
                                            bounds.fastest_reading[j] * kDegree, joint.velocity_max * kDegree));
     bounds.largest_acceleration[j] = largest_acceleration(machine, runs, j, window);
     bounds.acceleration[j] = rounded_up(bounds.largest_acceleration[j] * (1.0 + allowance), kAccelerationGrid);

@@ -42,7 +42,8 @@ class Panel {
       text_ += fmt::format("<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#e6e6e6\"/>\n", left_, left_ + kWidth, y(v), y(v));
     }
     words(left_ + kWidth / 2, top_ + kHeight + 32, "12px", "middle", "speed (deg/s)");
-    words(left_ - 40, top_ + kHeight / 2, "12px", "middle", "stop angle (deg)", fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", left_ - 40, top_ + kHeight / 2));
+    words(left_ - 40, top_ + kHeight / 2, "12px", "middle", "stop angle (deg)",
+          fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", left_ - 40, top_ + kHeight / 2));
   }
   void steps(const std::vector<double>& speed, const std::vector<double>& angle, const std::string& style) {
     std::string points;
@@ -86,7 +87,8 @@ std::string joint_panel(const Result& r, const config::MachineFile& m, std::size
     }
     panel.steps(speed, before, fmt::format("stroke=\"{}\" stroke-opacity=\"0.45\" stroke-dasharray=\"4 3\"", colour));
     panel.steps(speed, now, fmt::format("stroke=\"{}\" stroke-width=\"1.6\"", colour));
-    panel.words(left + 10, top + 18 + 16 * static_cast<double>(row - first), "12px", "start", j == swing ? fmt::format("to {:g} m reach", m.braking.reach[row]) : "every reach",
+    panel.words(left + 10, top + 18 + 16 * static_cast<double>(row - first), "12px", "start",
+                j == swing ? fmt::format("to {:g} m reach", m.braking.reach[row]) : "every reach",
                 fmt::format(" fill=\"{}\"", colour));
   }
   for (const BenchRecord& run : runs) {
@@ -105,7 +107,9 @@ std::string joint_panel(const Result& r, const config::MachineFile& m, std::size
 void write_braking_picture(const std::string& path, const Result& r, const config::MachineFile& m, const std::vector<BenchRecord>& runs) {
   const std::size_t count = r.joints.size(), across = std::min<std::size_t>(2, count), down = (count + 1) / 2;
   const double width = kLeft + static_cast<double>(across) * (kWidth + kGapX), height = kTop + static_cast<double>(down) * (kHeight + kGapY);
-  std::string body = fmt::format("<text x=\"{:.0f}\" y=\"26\" style=\"font:bold 16px sans-serif\">Braking table of {} (simulation): points measured, lines the bounds, dashed before</text>\n", kLeft, r.machine_name);
+  std::string body = fmt::format("<text x=\"{:.0f}\" y=\"26\" style=\"font:bold 16px sans-serif\">Braking table of {} (simulation): points measured, "
+                                 "lines the bounds, dashed before</text>\n",
+                                 kLeft, r.machine_name);
   for (std::size_t i = 0; i < count; ++i)
     body += joint_panel(r, m, r.joints[i], kLeft + static_cast<double>(i % across) * (kWidth + kGapX), kTop + static_cast<double>(i / 2) * (kHeight + kGapY), runs);
   run::write_svg(path, width, height, {}, body);

@@ -66,7 +66,8 @@ void Driver::move_to(const Joints& goal, const std::array<bool, 4>& moved) {
   }
   for (std::size_t j = 0; j < 4; ++j) {
     if (moved[j] && std::abs(goal[j] - now_.angle[j]) > kPoseTolerance)
-      throw std::runtime_error(fmt::format("{}: does not get to {:.1f} deg; it stands at {:.1f} deg", config::kJointNames[j], degrees(goal[j]), degrees(now_.angle[j])));
+      throw std::runtime_error(fmt::format("{}: does not get to {:.1f} deg; it stands at {:.1f} deg", config::kJointNames[j],
+                                           degrees(goal[j]), degrees(now_.angle[j])));
   }
   throw std::runtime_error("the machine does not come to rest in a pose");
 }
@@ -126,7 +127,8 @@ void Driver::reach_speed(std::size_t joint, double velocity, const JointSpan& sp
     if (reached_at >= 0.0 && now_.time_s - reached_at >= hold_s) return;
     if (left <= stop_room(std::max(mean, 0.0), span)) return;  // no more room: stopped at the speed that it has
     if (now_.time_s - begin > kPatience_s)
-      throw std::runtime_error(fmt::format("{}: reaches only {:.1f} deg/s of {:.1f} deg/s within {} s", config::kJointNames[joint], degrees(mean), degrees(speed), kPatience_s));
+      throw std::runtime_error(fmt::format("{}: reaches only {:.1f} deg/s of {:.1f} deg/s within {} s", config::kJointNames[joint],
+                                           degrees(mean), degrees(speed), kPatience_s));
   }
 }
 
@@ -137,11 +139,14 @@ void Driver::wait_for_rest(std::size_t joint, StopManner manner, double directio
     step(link_.stop(manner));
     samples.push_back({now_.time_s, direction * now_.angle[joint], direction * now_.velocity[joint]});
     rest = std::abs(now_.velocity[joint]) <= machine_.joint[joint].velocity_error ? rest + 1 : 0;
-    if (now_.time_s - begin > kPatience_s) throw std::runtime_error(fmt::format("{}: does not stand still within {} s of {}", config::kJointNames[joint], kPatience_s, kMannerNames[static_cast<std::size_t>(manner)]));
+    if (now_.time_s - begin > kPatience_s)
+      throw std::runtime_error(fmt::format("{}: does not stand still within {} s of {}", config::kJointNames[joint], kPatience_s,
+                                           kMannerNames[static_cast<std::size_t>(manner)]));
   }
   const auto& range = machine_.joint[joint];
   if (now_.angle[joint] < range.low + kEndOfRange || now_.angle[joint] > range.high - kEndOfRange)
-    throw std::runtime_error(fmt::format("{}: ran to the end of its range ({:.1f} deg): its stop is {} times longer than slower ones let expect", config::kJointNames[joint],
+    throw std::runtime_error(fmt::format("{}: ran to the end of its range ({:.1f} deg): its stop is {} times longer than slower ones let expect",
+                                         config::kJointNames[joint],
                                          degrees(now_.angle[joint]), kGuess));
 }
 
@@ -166,7 +171,8 @@ StopRecord Driver::stop_test(const StopPlan& plan, const JointSpan& span) {
   wait_for_rest(plan.joint, plan.manner, plan.direction, samples);
   StopRecord record = evaluate_stop(plan, samples, sent, machine_.joint[plan.joint].velocity_error);
   if (record.held_speed < kLeastMotion * plan.speed)
-    throw std::runtime_error(fmt::format("{}: moves at {:.2f} deg/s when {:.2f} deg/s is commanded, with no room for more", config::kJointNames[plan.joint], degrees(record.held_speed), degrees(plan.speed)));
+    throw std::runtime_error(fmt::format("{}: moves at {:.2f} deg/s when {:.2f} deg/s is commanded, with no room for more",
+                                         config::kJointNames[plan.joint], degrees(record.held_speed), degrees(plan.speed)));
   learn(record);
   for (int i = 0; i < 5; ++i) step(link_.drive({}));  // the machine takes up a sender that was silent after two messages
   return record;

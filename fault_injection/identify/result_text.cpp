@@ -63,7 +63,8 @@ bool any_extrapolated(const Result& r) {
 }  // namespace
 
 std::string provenance(const Result& r) {
-  return fmt::format("measured in simulation: berm identify --machine {} --seed {} --repetitions {} --allowance {}{}{}; {} stops, {} kg weighed{}", r.machine_name, r.seed, r.repetitions,
+  return fmt::format("measured in simulation: berm identify --machine {} --seed {} --repetitions {} --allowance {}{}{}; {} stops, {} kg weighed{}",
+                     r.machine_name, r.seed, r.repetitions,
                      decimal(r.allowance, 3), joint_names(r), column_names(r), r.stops, decimal(std::round(r.weighed_kg / 10.0) * 10.0, 0),
                      any_extrapolated(r) ? "; in part extrapolated" : "");
 }
@@ -144,18 +145,24 @@ std::string summary_text(const Result& r, const config::MachineFile& machine) {
       text += "    deg/s     measured      bound     before     measured s    bound s   before s   runs\n";
       for (std::size_t k = 1; k < rows[row].size(); ++k) {
         const TableEntry& e = rows[row][k];
-        const std::string angle = e.runs > 0 ? fmt::format("{:.2f}", e.measured_angle * kDegree) : "-", time = e.runs > 0 ? fmt::format("{:.3f}", e.measured_time) : "-";
-        text += fmt::format("    {:5.1f} {:>12} {:10.2f} {:10.2f} {:>14} {:10.3f} {:10.3f} {:6}{}\n", machine.joint[j].velocity_max * static_cast<double>(k) / 7.0 * kDegree, angle, e.angle * kDegree,
-                            machine.braking.angle[j][row][k] * kDegree, time, e.time, machine.braking.time[j][row][k], e.runs, e.extrapolated ? "  extrapolated" : "");
+        const std::string angle = e.runs > 0 ? fmt::format("{:.2f}", e.measured_angle * kDegree) : "-";
+        const std::string time = e.runs > 0 ? fmt::format("{:.3f}", e.measured_time) : "-";
+        text += fmt::format("    {:5.1f} {:>12} {:10.2f} {:10.2f} {:>14} {:10.3f} {:10.3f} {:6}{}\n",
+                            machine.joint[j].velocity_max * static_cast<double>(k) / 7.0 * kDegree, angle,
+                            e.angle * kDegree,
+                            machine.braking.angle[j][row][k] * kDegree, time, e.time,
+                            machine.braking.time[j][row][k], e.runs, e.extrapolated ? "  extrapolated" : "");
       }
     }
   }
   text += fmt::format("\nLargest acceleration (over the kernel's {:.2f} s of state latency, cycle and command latency), rad/s2: measured > bound [before]\n",
                       r.bounds.window_s);
   for (const std::size_t j : r.joints)
-    text += fmt::format("  {:<8}{:.2f} > {:.2f} [{:g}]\n", config::kJointNames[j], r.bounds.largest_acceleration[j], r.bounds.acceleration[j].value_or(0.0), machine.joint[j].acceleration_max);
+    text += fmt::format("  {:<8}{:.2f} > {:.2f} [{:g}]\n", config::kJointNames[j], r.bounds.largest_acceleration[j],
+                        r.bounds.acceleration[j].value_or(0.0), machine.joint[j].acceleration_max);
   if (r.bounds.command_latency) {
-    text += fmt::format("Command to obeying, age of the state frame included: {:.3f} s > {:.2f} s [{:g}]{}\n", r.bounds.latest_obeyed, *r.bounds.command_latency, machine.command_latency,
+    text += fmt::format("Command to obeying, age of the state frame included: {:.3f} s > {:.2f} s [{:g}]{}\n", r.bounds.latest_obeyed,
+                        *r.bounds.command_latency, machine.command_latency,
                         r.joints.size() == 4 ? "" : "; not all joints were tested, so the file's is kept");
   }
   text += fmt::format("State frames: {:.3f} s apart at most; their own age cannot be seen on one bus, latency.state is kept\n", r.largest_state_gap_s);

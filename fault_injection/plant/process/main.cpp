@@ -40,7 +40,8 @@ void check_start(const std::string& file, const Scenario& scenario, const PlantP
       throw ConfigError(file + ": start." + kKey[j] + ": is outside the joint's range");
   }
   if (scenario.world.ballast_kg > profile.shape.bucket_payload_max_kg)
-    throw ConfigError(fmt::format("{}: start.ballast_kg: {} is above the bucket's payload_max_kg, {}", file, scenario.world.ballast_kg, profile.shape.bucket_payload_max_kg));
+    throw ConfigError(fmt::format("{}: start.ballast_kg: {} is above the bucket's payload_max_kg, {}", file,
+                                  scenario.world.ballast_kg, profile.shape.bucket_payload_max_kg));
   if (bucket_underside(profile.shape, scenario.start) < kStartClearance) throw ConfigError(file + ": start: the bucket would be in the ground");
 }
 
