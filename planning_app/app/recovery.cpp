@@ -6,7 +6,7 @@ namespace berm::app {
 
 namespace {
 
-constexpr double patience = 2.0;        // s before a retreat
+constexpr double patience = 2.5;        // s before a retreat
 constexpr double rescan_after = 0.5;    // s
 constexpr double rescan_every = 6.0;    // s; the kernel's map forgets, and who stood in the way may have left
 constexpr double one_way = 4.0;         // s of creeping in one direction before the next is tried

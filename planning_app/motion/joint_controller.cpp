@@ -10,6 +10,7 @@ namespace {
 // Shares of what the machine file promises. The rest is for payload, shared pump flow and the kernel's own error bounds.
 constexpr double speed_share = 0.775;  // with latency and error bounds a swing stays in the braking table's last column but one
 constexpr double brake_share = 0.75;
+constexpr double acceleration_share = 0.85;  // the file's is an upper bound, measured on an empty machine too: a loaded one does less
 constexpr double landing_gain = 4.5;      // 1/s; the dead time is predicted away, noise and a slower joint than its model remain
 
 double table_deceleration(const BrakingTable& table, std::size_t joint, double reach_m, double velocity_max) {
@@ -23,8 +24,9 @@ double table_deceleration(const BrakingTable& table, std::size_t joint, double r
 
 ControllerLimits limits_of(const MachineModel& machine, std::size_t joint, double reach_m) {
   const JointLimits& j = machine.joint[joint];
-  const double brake = std::min(table_deceleration(machine.braking, joint, reach_m, j.velocity_max), j.acceleration_max);
-  return {speed_share * j.velocity_max, j.acceleration_max, brake_share * brake, landing_gain};
+  const double acceleration = acceleration_share * j.acceleration_max;
+  const double brake = std::min(table_deceleration(machine.braking, joint, reach_m, j.velocity_max), acceleration);
+  return {speed_share * j.velocity_max, acceleration, brake_share * brake, landing_gain};
 }
 
 double JointController::ramped(double wanted, const ControllerLimits& limits) {

@@ -12,6 +12,7 @@ set(app_rooms motion planning perception app)
 set(plant_rooms plant)
 set(run_rooms plant run map)
 set(validate_rooms plant run validate io)
+set(identify_rooms identify run)  # never the plant: it measures what is on the bus
 
 set(violations 0)
 set(files_read 0)
@@ -59,6 +60,7 @@ check_folder(safety_kernel/io "${kernel_rooms};${interface_rooms}" "${not_in_ker
 check_folder(planning_app "${app_rooms};${interface_rooms}" "CGAL/")
 check_folder(fault_injection/plant "${plant_rooms};${interface_rooms}" "")
 check_folder(fault_injection/run "${run_rooms};${interface_rooms}" "")
+check_folder(fault_injection/identify "${identify_rooms};${interface_rooms}" "")
 check_folder(fault_injection/map "${run_rooms};${interface_rooms}" "")
 # Joins plant and kernel in one process, for speed.
 check_folder(fault_injection/validate "${validate_rooms};${interface_rooms}" "")

@@ -3,6 +3,8 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -37,6 +39,9 @@ void check_start(const std::string& file, const Scenario& scenario, const PlantP
     if (scenario.start.angle[j] < joint.low || scenario.start.angle[j] > joint.high)
       throw ConfigError(file + ": start." + kKey[j] + ": is outside the joint's range");
   }
+  if (scenario.world.ballast_kg > profile.shape.bucket_payload_max_kg)
+    throw ConfigError(fmt::format("{}: start.ballast_kg: {} is above the bucket's payload_max_kg, {}", file,
+                                  scenario.world.ballast_kg, profile.shape.bucket_payload_max_kg));
   if (bucket_underside(profile.shape, scenario.start) < kStartClearance) throw ConfigError(file + ": start: the bucket would be in the ground");
 }
 

@@ -30,12 +30,13 @@ PanelEvent read_panel(StrictTable t) {
   return event;
 }
 
-JointState read_start(StrictTable t) {
+JointState read_start(StrictTable t, double& ballast_kg) {
   JointState start;
   start.angle[0] = t.degrees("swing_deg", -180.0, 180.0);
   start.angle[1] = t.degrees("boom_deg", -180.0, 180.0);
   start.angle[2] = t.degrees("stick_deg", -180.0, 180.0);
   start.angle[3] = t.degrees("bucket_deg", -180.0, 180.0);
+  ballast_kg = t.number_or("ballast_kg", 0.0, 50000.0, 0.0);
   t.finish();
   return start;
 }
@@ -54,9 +55,11 @@ Scenario load_scenario(const std::string& path, const std::string& profiles) {
   scenario.max_time_s = run.number("max_time_s", 1.0, 36000.0);
   scenario.run_from_s = run.number("operator_run_from_s", 0.0, 36000.0);
   run.finish();
-  scenario.start = read_start(file.table("start"));
+  double ballast_kg = 0.0;
+  scenario.start = read_start(file.table("start"), ballast_kg);
   for (StrictTable& t : file.tables("panel")) scenario.panel.push_back(read_panel(t));
   scenario.world = read_world(file);
+  scenario.world.ballast_kg = ballast_kg;
   file.finish();
   return scenario;
 }

@@ -86,6 +86,7 @@ struct ScannerConfig {
 };
 
 struct WorldConfig {
+  double ballast_kg = 0.0;                // a test weight fixed in the bucket: weighs and takes room as soil would, and never falls out
   TerrainConfig terrain;
   SoilConfig soil;
   std::vector<TruckConfig> trucks;

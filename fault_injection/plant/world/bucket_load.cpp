@@ -21,8 +21,10 @@ constexpr double stick_begin = 135 * degree, stick_end = 170 * degree;
 
 }  // namespace
 
-BucketLoad::BucketLoad(const ImplementShape& shape, const SoilConfig& soil)
-    : heaped_(std::min(shape.bucket_heaped_m3, shape.bucket_payload_max_kg * soil.swell / soil.density_bank)), stick_(soil.stick_fraction) {}
+BucketLoad::BucketLoad(const ImplementShape& shape, const SoilConfig& soil, double ballast_kg)
+    : heaped_(std::max(0.0, std::min(shape.bucket_heaped_m3, shape.bucket_payload_max_kg * soil.swell / soil.density_bank) -
+                                ballast_kg * soil.swell / soil.density_bank)),
+      stick_(soil.stick_fraction) {}
 
 double BucketLoad::mouth_tilt(const LinkFrame& bucket) { return std::acos(std::clamp(-bucket.cos_angle, -1.0, 1.0)); }
 

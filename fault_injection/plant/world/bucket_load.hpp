@@ -8,7 +8,8 @@ namespace berm::plant {
 
 class BucketLoad {
  public:
-  BucketLoad(const ImplementShape& shape, const SoilConfig& soil);
+  // ballast_kg: of a weight fixed in the bucket, which leaves that much less room for soil.
+  BucketLoad(const ImplementShape& shape, const SoilConfig& soil, double ballast_kg = 0.0);
 
   // Angle between the mouth's outward normal (-z of the link) and up: 0 level, pi/2 mouth upright, pi mouth down.
   [[nodiscard]] static double mouth_tilt(const LinkFrame& bucket);

@@ -52,7 +52,7 @@ std::vector<Truck> make_trucks(const WorldConfig& config, const Terrain& terrain
 struct World::State {
   State(const WorldConfig& c, const ImplementShape& s, uint64_t seed, int trucks)
       : config(c), shape(s), terrain(c.terrain, c.soil, seed_of(seed, stream_terrain)), truck(make_trucks(c, terrain, seed_of(seed, stream_trucks), trucks)),
-        movers(c.movers), load(s, c.soil), cut(s, c.soil), landing(terrain, truck, config.dig_zones), oracle(s),
+        movers(c.movers), load(s, c.soil, c.ballast_kg), cut(s, c.soil), landing(terrain, truck, config.dig_zones), oracle(s),
         scanner{Scanner(c.scanner, s.scanner[0], 0, seed_of(seed, stream_left)), Scanner(c.scanner, s.scanner[1], 1, seed_of(seed, stream_right))} {
     if (!truck.empty()) truck[0].call(0);
     move_trucks(0);
@@ -148,7 +148,7 @@ OracleVerdict World::judge(double, const JointState& joints) {
   return {j.contact, j.closest, j.ground_gap, j.what};
 }
 
-double World::payload_kg() const { return state_->load.volume() * state_->loose_density(); }
+double World::payload_kg() const { return state_->load.volume() * state_->loose_density() + state_->config.ballast_kg; }
 
 Truth World::truth() const {
   const State& w = *state_;

@@ -45,12 +45,12 @@ TEST(Compile, DecimalsThatAreWholeStayWhole) {
   const berm_parameters p = compile_parameters(d.machine, d.site);
   EXPECT_EQ(p.boom_length_mm, 5648);
   EXPECT_EQ(p.margin_mm, 300);
-  EXPECT_EQ(p.command_latency_us, 100000);
+  EXPECT_EQ(p.command_latency_us, 90000);
   EXPECT_EQ(p.cycle_us, 10000);
   EXPECT_EQ(p.request_hold_us, 50000);
   EXPECT_EQ(p.request_silent_us, 500000);
-  EXPECT_EQ(p.acceleration_max_urad_s2[2], 2900000);
-  EXPECT_EQ(p.brake_time_us[0][3][7], 4335000);
+  EXPECT_EQ(p.acceleration_max_urad_s2[2], 3220000);
+  EXPECT_EQ(p.brake_time_us[0][3][7], 4099000);
   EXPECT_EQ(p.dig_zone[0].floor_mm, -3400);
   EXPECT_EQ(p.dig_zone[0].ceiling_mm, 1100);
   EXPECT_EQ(p.dig_zone[0].x_low_mm, 3900);

@@ -42,7 +42,7 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(Scenario, ShippedScenariosLoadAndStartWithTheBucketOneMetreUp) {
-  for (const char* name : {"bench.toml", "person.toml", "two_trucks.toml"}) {
+  for (const char* name : {"bench.toml", "person.toml", "two_trucks.toml", "identify.toml", "identify_empty.toml"}) {
     const Scenario s = load_scenario(std::string(BERM_SCENARIOS) + "/" + name, BERM_PLANT_PROFILES);
     EXPECT_EQ(s.name + ".toml", name);
     EXPECT_GE(bucket_underside(load_plant_profile(s.machine_file).shape, s.start), 1.0) << name;
@@ -106,6 +106,16 @@ TEST(Scenario, EveryKindOfMistakeIsNamed) {
   EXPECT_EQ(refusal(good + "\n[[panel]]\naction = \"jump\"\nat_s = 1\nfor_s = 1\n"), "panel[0].action: 'jump' is not one of stop, reset, relearn, emergency, pause");
   EXPECT_EQ(refusal(good + "\n[[person]]\nname = \"Anna B\"\n"), "person[0].name: may hold a-z, 0-9 and _ only: it becomes a column's name");
   EXPECT_EQ(refusal(good + "\n[[person]]\nname = \"truck_1\"\n"), "person[0].name: 'truck_1' is taken");
+}
+
+TEST(Scenario, BallastIsOptionalAndChecked) {
+  const std::string good = text_of("bench.toml"), key = "bucket_deg = -100.0\n";
+  EXPECT_EQ(loaded(good).world.ballast_kg, 0.0);
+  EXPECT_EQ(loaded(replaced(good, key, key + "ballast_kg = 1800\n")).world.ballast_kg, 1800.0);
+  EXPECT_EQ(refusal(replaced(good, key, key + "ballast_kg = -1\n")), "start.ballast_kg: -1 is outside 0 .. 50000");
+  EXPECT_EQ(refusal(replaced(good, key, key + "ballast_kg = \"much\"\n")), "start.ballast_kg: must be a number");
+  EXPECT_EQ(load_scenario(std::string(BERM_SCENARIOS) + "/identify.toml", BERM_PLANT_PROFILES).world.ballast_kg, 1800.0);
+  EXPECT_EQ(load_scenario(std::string(BERM_SCENARIOS) + "/identify_empty.toml", BERM_PLANT_PROFILES).world.ballast_kg, 0.0);
 }
 
 TEST(Scenario, MachineIsAProfilesNameOrAPathBesideTheScenario) {

@@ -32,6 +32,15 @@ TEST(BucketLoad, HoldsNoMoreThanHeapedOrTheHeaviestPayload) {
   EXPECT_NEAR(light.heaped(), 670 / 1340.0, 1e-12);
 }
 
+TEST(BucketLoad, BallastTakesItsRoom) {
+  BucketLoad half(bench::machine(), {}, 0.5 * 1.2 * 1340);
+  EXPECT_NEAR(half.take(2.0), 1.4, 1e-12);
+  EXPECT_NEAR(half.volume(), 0.6, 1e-12);
+  BucketLoad full(bench::machine(), {}, 1800);
+  EXPECT_EQ(full.take(1.0), 1.0);
+  EXPECT_EQ(full.volume(), 0.0);
+}
+
 TEST(BucketLoad, CapacityFallsAsTheMouthTurnsDown) {
   const BucketLoad b(bench::machine(), {});
   double last = b.capacity(0);

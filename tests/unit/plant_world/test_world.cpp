@@ -41,6 +41,20 @@ TEST(World, PassesMoveSoilFromTheBenchIntoTheTruck) {
   EXPECT_GT(w.truth().load_centre_offset_m, 0.0);
 }
 
+TEST(World, BallastWeighsAndNeverFallsOut) {
+  const ImplementShape s = bench::machine();
+  WorldConfig site = bench::site();
+  site.ballast_kg = 1500;
+  World w(site, s, 1, 1);
+  double t = 0;
+  EXPECT_DOUBLE_EQ(w.payload_kg(), 1500);
+  const JointState up = bench::reach(s, 0, 7.0, 2.0, -60 * degree);  // the mouth opens downward
+  bench::move(w, t, up, up, 3.0);
+  EXPECT_DOUBLE_EQ(w.payload_kg(), 1500);
+  EXPECT_DOUBLE_EQ(w.truth().payload_kg, 1500);
+  EXPECT_DOUBLE_EQ(w.truth().spilled_kg, 0);
+}
+
 TEST(World, DumpedBesideTheTruckIsSpilled) {
   const ImplementShape s = bench::machine();
   World w(bench::site(), s, 1, 1);

@@ -1,0 +1,37 @@
+// One run on the simulated machine: starts the plant with a scenario and a seed, goes through the tests, ends it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "identify/interruption.hpp"
+#include "identify/programme.hpp"
+
+namespace berm::identify {
+
+struct BenchPlan {
+  std::string scenario;              // file
+  std::uint64_t seed = 1;
+  bool loaded = true;                // with the heaviest payload: every column; else the highest column alone, once in a row
+  std::vector<std::size_t> joints;
+  std::vector<std::size_t> columns;  // 1..7, rising
+  std::string plant_out;             // folder for what the plant writes, not read here; empty: thrown away
+};
+
+struct ReversalRecord { std::size_t joint = 0; bool loaded = true; int sevenths = 0; Speeds speeds; };
+
+struct BenchRecord {
+  std::vector<StopRecord> stops;
+  std::vector<ReversalRecord> reversals;
+  Joints fastest_reading{};                  // rad/s
+  double weighed_kg = 0.0;
+  double largest_state_gap_s = 0.0;
+  double simulated_s = 0.0;
+};
+
+// say: a line of progress. Throws std::runtime_error with one line.
+BenchRecord run_tests(const config::MachineFile& machine, const BenchPlan& plan, const Interruption& interruption,
+                      const std::function<void(const std::string&)>& say);
+
+}  // namespace berm::identify

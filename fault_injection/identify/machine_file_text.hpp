@@ -1,0 +1,22 @@
+// Changes values in a machine file's text and leaves every other byte as it is.
+#pragma once
+
+#include <string>
+
+namespace berm::identify {
+
+class MachineFileText {
+ public:
+  // Throws std::runtime_error when the file cannot be read.
+  explicit MachineFileText(const std::string& path);
+
+  // Replaces the value of a key that stands under the header [section]; several lines when it is an array. Throws std::runtime_error when the key does
+  // not stand so, once.
+  void replace(const std::string& section, const std::string& key, const std::string& value);
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string path_, text_;
+};
+
+}  // namespace berm::identify
