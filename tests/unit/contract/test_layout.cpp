@@ -49,12 +49,12 @@ TEST(Layout, TheSizesThatPeersCheck) {
     if (entry[i].field[0] == '\0') size[entry[i].type] = entry[i].offset;
   EXPECT_EQ(size["berm_request"], 64u);
   EXPECT_EQ(size["berm_request_segment"], 128u);
-  EXPECT_EQ(size["berm_state"], 208u);
+  EXPECT_EQ(size["berm_state"], 216u);
   EXPECT_EQ(size["berm_scan_block"], 2200u);
   EXPECT_EQ(size["berm_decision"], 144u);
   EXPECT_EQ(size["berm_slice"], 296u);
   EXPECT_EQ(size["berm_welcome"], 128u);
-  EXPECT_EQ(size["berm_state_segment"], 64u + 208 + 256 * 144 + 64 * 2200 + 96 * 296 + 5 * 104 * 104);
+  EXPECT_EQ(size["berm_state_segment"], 64u + 216 + 256 * 144 + 64 * 2200 + 96 * 296 + 5 * 104 * 104);
 }
 
 }  // namespace
