@@ -21,6 +21,7 @@ namespace {
 
 constexpr uid_t kKernelUid = 64600;  // outside Debian's ranges for people and packages
 constexpr uid_t kAppUid = 64601;
+constexpr uid_t kJournalUid = 64602;
 constexpr int kReadyDescriptor = 10;  // number in the kernel's process
 constexpr int kReadyPatienceMs = 20000;
 
@@ -45,8 +46,8 @@ void RunFolder::give_to(uid_t uid) const {
 
 Uids choose_uids() {
   const uid_t own = geteuid();
-  if (own == 0) return {true, kKernelUid, kAppUid, own};
-  return {false, own, own, own};
+  if (own == 0) return {true, kKernelUid, kAppUid, own, kJournalUid};
+  return {false, own, own, own, own};
 }
 
 std::uint16_t free_udp_port() {

@@ -27,7 +27,7 @@ class RunFolder {
 // Run as root, kernel and app get uids of their own; otherwise all share the caller's.
 struct Uids {
   bool separate;
-  uid_t kernel, app, recorder;
+  uid_t kernel, app, recorder, journal;
 };
 Uids choose_uids();
 

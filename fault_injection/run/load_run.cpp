@@ -32,6 +32,7 @@ using nlohmann::json;
 
 constexpr int kTickDescriptor = 11;    // numbers in the children
 constexpr int kKernelDescriptor = 12;
+constexpr int kJournalDescriptor = 13;
 constexpr double kConnectPatience_s = 20.0;
 constexpr double kEndPatience_s = 10.0;
 
@@ -109,7 +110,10 @@ class LoadRun {
 
     std::vector<std::string> kernel_options{"--can", can_, "--scan-port", port};
     if (!options_.realtime) kernel_options.push_back("--lockstep");
+    kernel_options.insert(kernel_options.end(), {"--journal-uid", std::to_string(uids_.journal)});
     start_kernel(kernel_, folder_, uids_, parameters, kernel_options, {{lifeline.second(), kKernelDescriptor}});
+
+    start_journal();
 
     // The app runs as a stranger to this folder: it reads copies.
     std::filesystem::copy_file(machine_, folder_.file("machine.toml"));
@@ -124,7 +128,6 @@ class LoadRun {
     wait_for_app();
     recorder_.connect(folder_.file("kernel.sock"));
     if (options_.realtime) recorder_.count_from_first_decision();
-    recorder_.open_journal(out_ + "/journal.jsonl");
 
     ChildOptions plant;
     plant.program = program_folder() + "/berm_plant";
@@ -135,8 +138,48 @@ class LoadRun {
     result_.pids[0] = plant_.pid();
     result_.pids[1] = kernel_.pid();
     result_.pids[2] = app_.pid();
+    result_.pids[3] = journal_.pid();
     say(fmt::format("plant {}, kernel {}, app {} on {}", plant_.pid(), kernel_.pid(), app_.pid(), can_));
     if (!uids_.separate) result_.notes.emplace_back("kernel and app share your uid; run as root to give each its own");
+  }
+
+  std::string journal_file() const { return out_ + "/journal.mcap"; }
+
+  // The writer runs under a uid that can write nothing here: it is given the open file, and renaming it is ours.
+  void start_journal() {
+    std::filesystem::remove(journal_file());
+    const std::string part = journal_file() + ".part";
+    const int file = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    if (file < 0) throw std::system_error(errno, std::generic_category(), part);
+    ChildOptions journal;
+    journal.program = program_folder() + "/berm_journal";
+    journal.arguments = {"--socket", folder_.file("kernel.sock"), "--file-fd", std::to_string(kJournalDescriptor)};
+    journal.descriptors = {{file, kJournalDescriptor}};
+    if (uids_.separate) journal.uid = uids_.journal;
+    journal_.start(journal);
+    close(file);
+    const auto until = Clock::now() + std::chrono::duration<double>(kConnectPatience_s);
+    while (journal_.take_lines().empty()) {
+      if (journal_.ended()) throw std::runtime_error("the journal's writer did not start: " + journal_.describe_end());
+      if (Clock::now() > until) throw std::runtime_error("the journal's writer did not connect to the kernel");
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  }
+
+  // After the kernel's end: the writer empties the ring and closes the file.
+  void finish_journal() {
+    if (!journal_.wait_ended(kEndPatience_s)) {
+      journal_.signal(SIGKILL);
+      journal_.wait_ended(kEndPatience_s);
+    }
+    const auto report = json::parse(last_json_line(journal_.take_lines()), nullptr, false);
+    if (journal_.exit_status() == 0 && report.is_object() && report.contains("lost")) {
+      std::filesystem::rename(journal_file() + ".part", journal_file());
+      result_.journal_lost = report.value("lost", std::uint64_t{0});
+      return;
+    }
+    journal_cut_off_ = true;
+    result_.notes.push_back(fmt::format("the journal's writer ended early ({}): journal.mcap.part holds what it had written", journal_.describe_end()));
   }
 
   void wait_for_app() {
@@ -185,6 +228,7 @@ class LoadRun {
       case FaultKind::kill_app: app_.signal(SIGKILL); break;
       case FaultKind::stop_app: app_.signal(SIGSTOP); break;
       case FaultKind::kill_kernel: kernel_.signal(SIGKILL); break;
+      case FaultKind::kill_journal: journal_.signal(SIGKILL); break;
     }
     say(fmt::format("{:7.1f} s  fault injected", recorder_.time_s()));
   }
@@ -228,7 +272,7 @@ class LoadRun {
     const bool kernel_ended = kernel_.wait_ended(kEndPatience_s);
     if (!app_.wait_ended(kEndPatience_s)) app_.signal(SIGKILL);
     recorder_.poll(0.0);
-    recorder_.close_journal();
+    finish_journal();
     if (plant_.exit_status() != 0) throw std::runtime_error("the plant failed: " + plant_.describe_end());
     const bool kernel_killed = options_.fault && options_.fault->kind == FaultKind::kill_kernel;
     if (!kernel_ended) throw std::runtime_error("the kernel does not end");
@@ -237,6 +281,7 @@ class LoadRun {
       if (!kernel_killed) throw std::runtime_error("the kernel ended without its report: " + kernel_.describe_end());
       result_.kernel = nullptr;
     }
+    if (journal_cut_off_ && result_.kernel.is_object()) result_.journal_lost = result_.kernel.value("journal_lost", std::uint64_t{0});
     std::ifstream truth(out_ + "/truth.json");
     result_.truth = json::parse(truth, nullptr, false);
     if (!result_.truth.is_object()) throw std::runtime_error("the plant left no ground truth");
@@ -245,8 +290,7 @@ class LoadRun {
     result_.stop_events = recorder_.stop_events();
     result_.kernel_faults = recorder_.faults();
     result_.first_fault = recorder_.first_fault();
-    result_.journal_lost = recorder_.lost();
-    if (recorder_.lost() > 0) result_.notes.push_back(fmt::format("{} decisions did not reach the journal", recorder_.lost()));
+    if (recorder_.lost() > 0) result_.notes.push_back(fmt::format("the launcher missed {} decisions: stops and the picture may lack some", recorder_.lost()));
     if (options_.fault && !injected_) result_.notes.emplace_back("the run ended before the fault was due");
     if (!options_.out.empty()) write_out();
   }
@@ -262,7 +306,7 @@ class LoadRun {
     picture.movers = mover_paths(out_ + "/trace.csv");
     write_site_picture(out_ + "/site.svg", picture);
     write_text_file(out_ + "/result.json", flat_json(result_).dump(2) + "\n");
-    result_.notes.push_back(fmt::format("trace.csv, truth.json, journal.jsonl, site.svg and result.json are in {}", out_));
+    result_.notes.push_back(fmt::format("trace.csv, truth.json, journal.mcap, site.svg and result.json are in {}", out_));
   }
 
   void say(const std::string& words) const {
@@ -278,11 +322,12 @@ class LoadRun {
   RunFolder folder_;
   std::string out_, machine_, site_;
   Clock::time_point begin_;
-  ChildProcess kernel_, app_, plant_;
+  ChildProcess kernel_, app_, plant_, journal_;
   Recorder recorder_;
   RunResult result_;
   bool injected_ = false, init_told_ = false;
   double init_since_s_ = -1.0;
+  bool journal_cut_off_ = false;
 };
 
 }  // namespace

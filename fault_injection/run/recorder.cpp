@@ -24,12 +24,9 @@ constexpr int kPathEvery = 10;  // one point of the bucket's path every 0.1 s
 // The kernel writes these words while we read them.
 std::uint32_t load(const std::uint32_t& word) { return __atomic_load_n(&word, __ATOMIC_ACQUIRE); }
 
-std::string joints(const std::int32_t (&values)[BERM_JOINTS]) { return fmt::format("[{},{},{},{}]", values[0], values[1], values[2], values[3]); }
-
 }  // namespace
 
 Recorder::~Recorder() {
-  close_journal();
   if (segment_ != nullptr) munmap(const_cast<berm_state_segment*>(segment_), sizeof(berm_state_segment));
   if (socket_ >= 0) close(socket_);
 }
@@ -71,16 +68,6 @@ void Recorder::connect(const std::string& socket_path) {
   if (memory == MAP_FAILED) throw std::runtime_error("cannot map the state segment");
   segment_ = static_cast<const berm_state_segment*>(memory);
   next_ = 0;
-}
-
-void Recorder::open_journal(const std::string& path) {
-  journal_ = std::fopen(path.c_str(), "we");
-  if (journal_ == nullptr) throw std::runtime_error(fmt::format("{}: {}", path, strerror(errno)));
-}
-
-void Recorder::close_journal() {
-  if (journal_ != nullptr) std::fclose(journal_);
-  journal_ = nullptr;
 }
 
 void Recorder::poll(double seconds) {
@@ -126,16 +113,6 @@ void Recorder::take(const berm_decision& d) {
     BucketPoint point{seconds(d), {}, d.kernel_state};
     for (int j = 0; j < BERM_JOINTS; ++j) point.angle_rad[static_cast<std::size_t>(j)] = d.joint_angle_urad[j] * 1e-6;
     path_.push_back(point);
-  }
-  if (journal_ != nullptr) {
-    fmt::print(journal_,
-               "{{\"cycle\":{},\"time_us\":{},\"state\":\"{}\",\"reason\":\"{}\",\"category\":{},\"phase\":\"{}\",\"request\":\"{}\",\"request_sequence\":{},"
-               "\"angle_urad\":{},\"velocity_urad_s\":{},\"requested_urad_s\":{},\"commanded_urad_s\":{},\"reach_low_urad\":{},\"reach_high_urad\":{},"
-               "\"slices\":{},\"cells\":{},\"blocked_mm\":[{},{},{}],\"scan_points\":{}}}\n",
-               d.cycle, d.time_us, kernel_state_name(d.kernel_state), stop_reason_name(d.stop_reason), d.stop_category, phase_name(d.phase),
-               request_result_name(d.request_result), d.request_sequence, joints(d.joint_angle_urad), joints(d.joint_velocity_urad_s),
-               joints(d.requested_urad_s), joints(d.commanded_urad_s), joints(d.reach_low_urad), joints(d.reach_high_urad), d.slices, d.cells, d.blocked_x_mm,
-               d.blocked_y_mm, d.blocked_height_mm, d.scan_points);
   }
   last_ = d;
   ++decisions_;

@@ -1,10 +1,9 @@
-// The recorder: a read-only peer of the kernel. Drains every decision from the state segment into the journal, counts stops and faults,
-// and keeps snapshots (map, slices) for the picture. It can neither delay nor change the kernel.
+// The recorder: a read-only peer of the kernel. Drains every decision from the state segment, counts stops and faults, and keeps
+// snapshots (map, slices) for the picture. It can neither delay nor change the kernel.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <map>
 #include <string>
 #include <vector>
@@ -40,11 +39,8 @@ class Recorder {
 
   // Connects to the kernel's socket and maps the state segment read-only; throws std::runtime_error with the kernel's reason.
   void connect(const std::string& socket_path);
-  // Opens the journal: one JSON object a line and a decision.
-  void open_journal(const std::string& path);
   // Waits for the kernel's next cycle, at most this long, and takes all new decisions.
   void poll(double seconds);
-  void close_journal();
 
   const berm_state_segment* segment() const { return segment_; }
   MapSnapshot map() const;
@@ -69,7 +65,6 @@ class Recorder {
 
   int socket_ = -1;
   const berm_state_segment* segment_ = nullptr;
-  std::FILE* journal_ = nullptr;
   std::uint32_t next_ = 0;
   std::uint64_t decisions_ = 0;
   std::uint64_t lost_ = 0;

@@ -13,7 +13,8 @@ ProcessFault parse_fault(const std::string& text) {
   if (kind == "kill-app") fault.kind = FaultKind::kill_app;
   else if (kind == "stop-app") fault.kind = FaultKind::stop_app;
   else if (kind == "kill-kernel") fault.kind = FaultKind::kill_kernel;
-  else throw CLI::ValidationError("--fault", "unknown fault '" + kind + "': kill-app, stop-app or kill-kernel, then @SECONDS");
+  else if (kind == "kill-journal") fault.kind = FaultKind::kill_journal;
+  else throw CLI::ValidationError("--fault", "unknown fault '" + kind + "': kill-app, stop-app, kill-kernel or kill-journal, then @SECONDS");
   char* end = nullptr;
   const std::string seconds = at == std::string::npos ? "" : text.substr(at + 1);
   fault.at_s = std::strtod(seconds.c_str(), &end);
@@ -33,8 +34,8 @@ std::optional<int> read_options(int argc, char** argv, RunOptions& options) {
   app.add_option("--seed", options.seed, "seed of every random draw")->capture_default_str();
   app.add_flag("--realtime", options.realtime, "run on the wall clock instead of as fast as the computer allows");
   app.add_option("--json", options.json, "write the result as one flat JSON object");
-  app.add_option("--out", options.out, "folder for trace.csv, truth.json, journal.jsonl, site.svg and result.json");
-  app.add_option("--fault", fault, "a process fault in the run: kill-app@S, stop-app@S or kill-kernel@S, S in simulated seconds; then status 0 means that the machine stood still in time, untouched");
+  app.add_option("--out", options.out, "folder for trace.csv, truth.json, journal.mcap, site.svg and result.json");
+  app.add_option("--fault", fault, "a process fault in the run: kill-app@S, stop-app@S, kill-kernel@S or kill-journal@S, S in simulated seconds; then status 0 means that the machine stood still in time, untouched (kill-journal: that nothing came of it)");
   app.add_flag("--quiet", options.quiet, "no progress, only the summary");
   if (const auto status = parse(app, argc, argv)) return status;
   if (!fault.empty()) {

@@ -7,7 +7,7 @@
 
 namespace berm::run {
 
-enum class FaultKind { kill_app, stop_app, kill_kernel };
+enum class FaultKind { kill_app, stop_app, kill_kernel, kill_journal };
 
 // A fault of a process at a virtual time, for demonstrations and tests: "kill-app@12.5".
 struct ProcessFault {

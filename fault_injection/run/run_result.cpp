@@ -123,13 +123,15 @@ json flat_json(const RunResult& r) {
   out["pid_plant"] = r.pids[0];
   out["pid_kernel"] = r.pids[1];
   out["pid_app"] = r.pids[2];
+  out["pid_journal"] = r.pids[3];
   return out;
 }
 
 std::vector<std::string> shortcomings(const RunResult& r) {
   std::vector<std::string> reasons;
   if (r.contacts > 0) reasons.push_back(fmt::format("{} contact(s)", r.contacts));
-  if (r.options.fault) {
+  // The journal's end must not be felt: such a run is judged as any other.
+  if (r.options.fault && r.options.fault->kind != FaultKind::kill_journal) {
     const auto standstill = standstill_after_fault(r);
     if (!standstill.is_number()) reasons.emplace_back("the machine did not come to a standstill after the fault");
     else if (standstill.get<double>() > kStandstillWithin_s) reasons.push_back(fmt::format("standstill only {:.2f} s after the fault", standstill.get<double>()));
@@ -169,10 +171,11 @@ std::string summary_text(const RunResult& r) {
   row("kernel faults", r.kernel_faults == 0 ? "none" : fmt::format("{} (first: {})", r.kernel_faults, r.first_fault));
   if (j["cycle_us_p50"].is_number())
     row("kernel cycle, CPU", fmt::format("median {} us, p99 {} us, maximum {} us", j["cycle_us_p50"].dump(), j["cycle_us_p99"].dump(), j["cycle_us_max"].dump()));
+  row("journal", r.journal_lost == 0 ? "every cycle" : fmt::format("{} cycles LOST", r.journal_lost));
   if (j["standstill_after_fault_s"].is_number()) row("after the fault", fmt::format("standstill in {:.2f} s", j["standstill_after_fault_s"].get<double>()));
   const double simulated = j["simulated_seconds"].get<double>();
   row("time", fmt::format("{:.1f} s simulated in {:.1f} s: {:.1f} times real time", simulated, r.wall_seconds, r.wall_seconds > 0 ? simulated / r.wall_seconds : 0.0));
-  row("processes", fmt::format("plant {}, kernel {}, app {}", r.pids[0], r.pids[1], r.pids[2]));
+  row("processes", fmt::format("plant {}, kernel {}, app {}, journal {}", r.pids[0], r.pids[1], r.pids[2], r.pids[3]));
   for (const auto& note : r.notes) row("note", note);
   return text;
 }

@@ -18,12 +18,12 @@ struct RunResult {
   std::vector<nlohmann::json> app_events;
   double wall_seconds = 0.0;
   int contacts = 0;
-  int pids[3] = {};                         // plant, kernel, app
+  int pids[4] = {};                         // plant, kernel, app, journal
   std::map<std::string, int> stops;
   std::vector<StopEvent> stop_events;
   int kernel_faults = 0;
   std::string first_fault;
-  std::uint64_t journal_lost = 0;
+  std::uint64_t journal_lost = 0;           // cycles whose record did not reach the journal
   std::vector<std::string> notes;           // things a person should know
 };
 

@@ -145,6 +145,8 @@ typedef struct berm_state {
   uint32_t stop_count[BERM_STOP_REASONS];            /* stops since start, by reason */
   uint32_t cycle_cpu_us;                             /* CPU time of the previous cycle (not in journals: it is not reproducible) */
   uint32_t panel;                                    /* BERM_PANEL_*: newest operator and spotter frames; not trusted */
+  uint32_t journal_lost;                             /* records that the journal lost before this cycle; stays at 2^32 - 1 */
+  uint32_t reserved_tail;
 } berm_state;
 
 /* A block of consecutive samples of one scanline, as received. Range 0 means no return. */
@@ -228,7 +230,7 @@ typedef struct berm_state_segment {
 BERM_STATIC_ASSERT(sizeof(berm_request) == 64, "request layout");
 BERM_STATIC_ASSERT(offsetof(berm_request, crc32) == sizeof(berm_request) - 4, "the CRC is the last field");
 BERM_STATIC_ASSERT(sizeof(berm_request_segment) == 128, "request segment layout");
-BERM_STATIC_ASSERT(sizeof(berm_state) == 240, "state layout");
+BERM_STATIC_ASSERT(sizeof(berm_state) == 248, "state layout");
 BERM_STATIC_ASSERT(sizeof(berm_scan_block) == 40 + BERM_SCAN_BLOCK_SAMPLES * 18, "scan block layout");
 BERM_STATIC_ASSERT(sizeof(berm_decision) == 176, "decision layout");
 BERM_STATIC_ASSERT(sizeof(berm_slice) == 8 + BERM_SLICE_VERTICES * 12, "slice layout");
@@ -237,9 +239,11 @@ BERM_STATIC_ASSERT(sizeof(berm_state_segment) == 64 + sizeof(berm_state) + BERM_
                    "state segment layout");
 
 /* The greeting on the Unix socket (SOCK_SEQPACKET): the peer sends one byte, its role; the kernel checks the peer's uid and
- * answers with one berm_welcome and the file descriptors (SCM_RIGHTS). App: state segment, request segment. Recorder: state segment. */
+ * answers with one berm_welcome and the file descriptors (SCM_RIGHTS). App: state segment, request segment. Recorder: state segment.
+ * Journal's writer: ring and tail segment (journal/journal_record.h), their sizes in state_size and request_size. */
 #define BERM_ROLE_APP 0x41
 #define BERM_ROLE_RECORDER 0x52
+#define BERM_ROLE_JOURNAL 0x4A
 typedef struct berm_welcome {
   uint32_t magic;
   uint32_t version;

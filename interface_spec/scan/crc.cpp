@@ -20,13 +20,14 @@ constexpr Table make_table(uint32_t polynomial) {
 constexpr Table kIeee = make_table(0xEDB88320u);
 constexpr Table kCastagnoli = make_table(0x82F63B78u);
 
-uint32_t crc(const Table& table, const uint8_t* bytes, size_t n) {
-  uint32_t value = 0xFFFFFFFFu;
+uint32_t crc(const Table& table, uint32_t before, const uint8_t* bytes, size_t n) {
+  uint32_t value = ~before;
   for (size_t i = 0; i < n; ++i) value = (value >> 8) ^ table[(value ^ bytes[i]) & 0xFFu];
   return ~value;
 }
 
 }  // namespace
 
-extern "C" uint32_t berm_crc32(const uint8_t* bytes, size_t n) { return crc(kIeee, bytes, n); }
-extern "C" uint32_t berm_crc32c(const uint8_t* bytes, size_t n) { return crc(kCastagnoli, bytes, n); }
+extern "C" uint32_t berm_crc32(const uint8_t* bytes, size_t n) { return crc(kIeee, 0, bytes, n); }
+extern "C" uint32_t berm_crc32_continue(uint32_t before, const uint8_t* bytes, size_t n) { return crc(kIeee, before, bytes, n); }
+extern "C" uint32_t berm_crc32c(const uint8_t* bytes, size_t n) { return crc(kCastagnoli, 0, bytes, n); }

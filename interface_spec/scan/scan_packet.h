@@ -59,6 +59,8 @@ int berm_scan_decode(const uint8_t *bytes, size_t n, berm_scan_packet *p);
 const char *berm_scan_result_text(int result);
 
 uint32_t berm_crc32(const uint8_t *bytes, size_t n);  /* IEEE 802.3, reflected, as in zlib */
+/* Goes on where crc, of all bytes before, left off; 0 at the begin. */
+uint32_t berm_crc32_continue(uint32_t crc, const uint8_t *bytes, size_t n);
 uint32_t berm_crc32c(const uint8_t *bytes, size_t n); /* Castagnoli */
 
 #ifdef __cplusplus

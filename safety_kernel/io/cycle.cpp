@@ -18,6 +18,14 @@ Cycle::Cycle(const berm_parameters& parameters, bool map_only)
   sk_stop_init(&stop_);
 }
 
+bool CycleInputs::take_vlp16(const Vlp16Mount& mount, const std::uint8_t* bytes, std::size_t size, Vlp16Packet& scratch) {
+  const bool room = vlp16_count < kVlp16Packets && footprint_count + kVlp16MaxPoints <= kFootprints;
+  if (!room || vlp16_decode(bytes, size, scratch) != Vlp16Result::kOk) return false;
+  std::copy(bytes, bytes + kVlp16PacketBytes, vlp16[vlp16_count++]);
+  for (int i = 0; i < scratch.count; ++i) footprint[footprint_count++] = vlp16_project(mount, scratch.point[i]);
+  return true;
+}
+
 void Cycle::step(const CycleInputs& in, CycleOutputs& out) {
   out.frames.count = 0;
   out.blocks.count = 0;

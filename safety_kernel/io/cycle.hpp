@@ -39,14 +39,19 @@ struct CycleInputs {
   berm_can_frame frame[kFrames];
   int packet_count = 0;
   berm_scan_packet packet[kPackets];
+  int vlp16_count = 0;
+  std::uint8_t vlp16[kVlp16Packets][kVlp16PacketBytes];  // as received; what the footprints were made of
   int footprint_count = 0;
   Vlp16Footprint footprint[kFootprints];  // last returns of a VLP-16, base frame
   bool app_connected = false;
   std::uint32_t app_connections = 0;     // since start
   std::uint8_t request[SK_REQUEST_BYTES] = {};  // private copy
   std::uint32_t cycle_cpu_us = 0;        // of the cycle before, for observers only
+  std::uint32_t journal_lost = 0;        // before this cycle, for observers only
 
-  void clear() { frame_count = packet_count = footprint_count = 0; }
+  void clear() { frame_count = packet_count = vlp16_count = footprint_count = 0; }
+  // Takes a lidar packet and makes its footprints (scratch holds its returns). False and nothing changed when there is no room or it is no packet.
+  bool take_vlp16(const Vlp16Mount& mount, const std::uint8_t* bytes, std::size_t size, Vlp16Packet& scratch);
 };
 
 struct CycleOutputs {

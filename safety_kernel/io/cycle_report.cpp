@@ -62,6 +62,7 @@ void Cycle::report_state(const CycleInputs& in, berm_state& state) const {
   std::copy(stop_count_, stop_count_ + BERM_STOP_REASONS, state.stop_count);
   state.cycle_cpu_us = in.cycle_cpu_us;
   state.panel = panel_flags(in.now_us);
+  state.journal_lost = in.journal_lost;
 }
 
 void Cycle::report_decision(const CycleInputs& in, berm_decision& decision) const {

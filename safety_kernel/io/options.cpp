@@ -58,9 +58,11 @@ bool take_value(const std::string& name, const char* value, Options& options, bo
     return true;
   }
   limit = "must be a uid from 0 to 4294967294";
-  if (name == "--app-uid" || name == "--recorder-uid") {
+  if (name == "--app-uid" || name == "--recorder-uid" || name == "--journal-uid") {
     if (!parse_integer(value, 0, 4294967294L, number)) return false;
-    (name == "--app-uid" ? options.app_uid : options.recorder_uid) = static_cast<uid_t>(number);
+    const uid_t uid = static_cast<uid_t>(number);
+    if (name == "--journal-uid") options.journal_uid = uid;
+    else (name == "--app-uid" ? options.app_uid : options.recorder_uid) = uid;
     return true;
   }
   limit = "must be a file descriptor from 0 to 1023";
@@ -138,6 +140,7 @@ const char* options_help() {
          "  --vlp16-mount X,Y,Z,A  its place in the base frame, metres, and its yaw in degrees (0,0,1.8,0)\n"
          "  --app-uid N            uid the app must have (default: the kernel's own)\n"
          "  --recorder-uid N       uid recorders must have (default: the kernel's own)\n"
+         "  --journal-uid N        keeps a journal for a writer (berm_journal) of this uid (default: keeps none)\n"
          "  --lockstep             virtual time from the plant's clock frames\n"
          "  --realtime             the wall clock (default)\n"
          "  --map-only             no machine: stays in INIT, fills the map, serves recorders\n"

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "io/vlp16.hpp"
@@ -19,6 +20,7 @@ struct Options {
   Vlp16Mount vlp16_mount;
   uid_t app_uid = 0;       // own uid unless given
   uid_t recorder_uid = 0;  // own uid unless given
+  std::optional<uid_t> journal_uid;  // none: no journal is kept
   bool lockstep = false;
   bool map_only = false;   // map intake without a machine: never leaves INIT, sends nothing, refuses the app
   int ready_fd = -1;

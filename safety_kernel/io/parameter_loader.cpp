@@ -33,7 +33,10 @@ bool read_bytes(const std::string& path, std::uint8_t (&bytes)[kBytes + 1], std:
 bool load_parameters(const std::string& path, berm_parameters& parameters, std::string& error) {
   std::uint8_t bytes[kBytes + 1];
   std::size_t size = 0;
-  if (!read_bytes(path, bytes, size, error)) return false;
+  return read_bytes(path, bytes, size, error) && parse_parameters(path, bytes, size, parameters, error);
+}
+
+bool parse_parameters(const std::string& path, const std::uint8_t* bytes, std::size_t size, berm_parameters& parameters, std::string& error) {
   if (size != kBytes) {
     error = path + ": a parameter block has " + std::to_string(kBytes) + " bytes, this file has " + (size > kBytes ? "more" : std::to_string(size));
     return false;

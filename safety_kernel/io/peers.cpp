@@ -62,6 +62,7 @@ bool send_welcome(int fd, const berm_welcome& welcome, const int* descriptors, i
 
 PeerServer::~PeerServer() {
   drop(app_);
+  drop(journal_);
   for (int& fd : recorder_) drop(fd);
   for (Pending& pending : pending_) drop(pending.fd);
   if (listener_ >= 0) unlink(path_.c_str());
@@ -94,8 +95,14 @@ bool PeerServer::open(const std::string& path, const PeerPolicy& policy, const S
   return true;
 }
 
+void PeerServer::serve_journal(const SharedSegment& ring, const SharedSegment& tail) {
+  ring_ = &ring;
+  tail_ = &tail;
+}
+
 void PeerServer::poll() {
   if (app_ >= 0 && hung_up(app_)) drop(app_);
+  if (journal_ >= 0 && hung_up(journal_)) drop(journal_);
   for (int& fd : recorder_)
     if (fd >= 0 && hung_up(fd)) drop(fd);
   accept_newcomers();
@@ -129,7 +136,12 @@ void PeerServer::greet(Pending& pending) {
 }
 
 const char* PeerServer::refusal(std::uint8_t role, uid_t uid) const {
-  if (role != BERM_ROLE_APP && role != BERM_ROLE_RECORDER) return "no such role";
+  if (role != BERM_ROLE_APP && role != BERM_ROLE_RECORDER && role != BERM_ROLE_JOURNAL) return "no such role";
+  if (role == BERM_ROLE_JOURNAL) {
+    if (ring_ == nullptr || !policy_.journal_uid) return "the kernel keeps no journal";
+    if (uid != *policy_.journal_uid) return "this uid may not take that role";
+    return journal_ >= 0 ? "the journal has a writer already" : nullptr;
+  }
   if (uid != (role == BERM_ROLE_APP ? policy_.app_uid : policy_.recorder_uid)) return "this uid may not take that role";
   if (role == BERM_ROLE_RECORDER) return nullptr;
   if (policy_.refuse_app) return "the kernel runs without a machine";
@@ -142,25 +154,34 @@ int* PeerServer::free_recorder() {
   return nullptr;
 }
 
+int* PeerServer::place_for(std::uint8_t role) {
+  if (role == BERM_ROLE_JOURNAL) return &journal_;
+  return role == BERM_ROLE_APP ? &app_ : free_recorder();
+}
+
 void PeerServer::admit(int fd, std::uint8_t role, uid_t uid) {
   const char* reason = refusal(role, uid);
-  int* place = role == BERM_ROLE_APP ? &app_ : free_recorder();
+  int* place = place_for(role);
   if (reason == nullptr && place == nullptr) reason = "too many recorders";
   berm_welcome welcome{};
   welcome.magic = BERM_CONTRACT_MAGIC;
   welcome.version = BERM_CONTRACT_VERSION;
   welcome.accepted = reason == nullptr ? 1U : 0U;
-  welcome.state_size = static_cast<std::uint32_t>(state_->size());
-  welcome.request_size = static_cast<std::uint32_t>(request_->size());
+  const bool journal = role == BERM_ROLE_JOURNAL && reason == nullptr;
+  const SharedSegment& first = journal ? *ring_ : *state_;
+  const SharedSegment& second = journal ? *tail_ : *request_;
+  welcome.state_size = static_cast<std::uint32_t>(first.size());
+  welcome.request_size = static_cast<std::uint32_t>(second.size());
   if (reason != nullptr) std::snprintf(welcome.reason, sizeof welcome.reason, "%s", reason);
-  const int descriptors[2] = {state_->fd(), request_->fd()};
-  const int count = reason != nullptr ? 0 : role == BERM_ROLE_APP ? 2 : 1;
+  const int descriptors[2] = {first.fd(), second.fd()};
+  const int count = reason != nullptr ? 0 : role == BERM_ROLE_RECORDER ? 1 : 2;
   if (!send_welcome(fd, welcome, descriptors, count) || reason != nullptr) {
     drop(fd);
     return;
   }
   *place = fd;
   if (role == BERM_ROLE_APP) ++app_connections_;
+  journal_seen_ = journal_seen_ || journal;
 }
 
 }  // namespace berm::kernel

@@ -48,14 +48,12 @@ bool Receiver::take_vlp16(CycleInputs& in) {
   const ssize_t n = vlp16_.is_open() ? vlp16_.receive(bytes, sizeof bytes) : -1;
   if (n < 0) return false;
   ++datagrams_;
-  const bool room = in.footprint_count + kVlp16MaxPoints <= CycleInputs::kFootprints;
-  if (!room || vlp16_decode(bytes, static_cast<std::size_t>(n), vlp16_packet_) != Vlp16Result::kOk) {
+  if (!in.take_vlp16(options_.vlp16_mount, bytes, static_cast<std::size_t>(n), vlp16_packet_)) {
     ++counters_.vlp16_rejected;
     return true;
   }
   ++counters_.vlp16_packets;
   counters_.vlp16_points += static_cast<std::uint64_t>(vlp16_packet_.count);
-  for (int i = 0; i < vlp16_packet_.count; ++i) in.footprint[in.footprint_count++] = vlp16_project(options_.vlp16_mount, vlp16_packet_.point[i]);
   return true;
 }
 

@@ -35,7 +35,11 @@ bool Shell::open(std::string& error) {
   if (!state_.create("berm_state", sizeof(berm_state_segment), SegmentAccess::kKernelWrites, error)) return false;
   if (!request_.create("berm_request", sizeof(berm_request_segment), SegmentAccess::kPeerWrites, error)) return false;
   publisher_ = std::make_unique<Publisher>(*static_cast<berm_state_segment*>(state_.memory()), parameters_, !options_.map_only);
-  const PeerPolicy policy{options_.app_uid, options_.recorder_uid, options_.map_only};
+  const PeerPolicy policy{options_.app_uid, options_.recorder_uid, options_.map_only, options_.journal_uid};
+  if (options_.journal_uid) {
+    if (!journal_.create(parameters_, options_.map_only, options_.vlp16_mount, error)) return false;
+    peers_.serve_journal(journal_.ring(), journal_.tail());
+  }
   if (!receiver_.open(error) || !peers_.open(options_.socket, policy, state_, request_, error)) return false;
   if (!options_.lockstep && !options_.map_only) ask_for_realtime();
   say_ready();
@@ -72,6 +76,7 @@ void Shell::take_request() {
 
 void Shell::one_cycle() {
   in_->clock_fault = watch_.check(in_->now_us);
+  in_->journal_lost = journal_.lost_before();
   cycle_->step(*in_, *out_);
   for (int i = 0; i < out_->frames.count; ++i) receiver_.can().send(out_->frames.frame[i]);
   publisher_->state(out_->state);
@@ -80,6 +85,7 @@ void Shell::one_cycle() {
   publisher_->slices(cycle_->slices());
   publisher_->map_rows(cycle_->map(), in_->now_us);
   publisher_->wake();
+  journal_.offer(*in_, *out_, cycle_->map(), peers_.journal_connected() || !peers_.journal_was_connected());
 }
 
 void Shell::run(const volatile int& stop) {
@@ -117,6 +123,8 @@ std::string Shell::report() const {
   add("vlp16_packets", c.vlp16_packets);
   add("vlp16_rejected", c.vlp16_rejected);
   add("vlp16_points", c.vlp16_points);
+  add("journal_records", journal_.offered());
+  add("journal_lost", journal_.lost());
   return json + "}";
 }
 

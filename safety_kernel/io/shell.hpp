@@ -8,6 +8,7 @@
 #include "io/clock.hpp"
 #include "io/cpu_histogram.hpp"
 #include "io/cycle.hpp"
+#include "io/journal.hpp"
 #include "io/options.hpp"
 #include "io/peers.hpp"
 #include "io/publisher.hpp"
@@ -37,6 +38,7 @@ class Shell {
   const berm_parameters& parameters_;
   SharedSegment state_;
   SharedSegment request_;
+  Journal journal_;
   PeerServer peers_;
   Receiver receiver_;
   std::unique_ptr<Publisher> publisher_;

@@ -14,7 +14,7 @@ scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-bad-"))
 
 
 def unknown_options():
-    needed = {"berm_load": (), "berm_map": ("x.pcap",), "berm_params": (), "berm_kernel": (),
+    needed = {"berm_load": (), "berm_journal": (), "berm_replay": (), "berm_map": ("x.pcap",), "berm_params": (), "berm_kernel": (),
               "berm_plant": ("--scenario", ROOT / "fault_injection/scenarios/bench.toml", "--can", "udp:239.255.66.250:1", "--scan-port", 1, "--out", scratch / "none"),
               "berm_app": ("--machine", MACHINE, "--site", SITE, "--socket", "x")}
     for program, options in needed.items():
@@ -22,7 +22,7 @@ def unknown_options():
 
 
 def help_is_no_error():
-    for program in ("berm_load", "berm_map", "berm_params", "berm_plant", "berm_app", "berm_kernel"):
+    for program in ("berm_load", "berm_journal", "berm_replay", "berm_map", "berm_params", "berm_plant", "berm_app", "berm_kernel"):
         done = run(program, "--help")
         assert done.returncode == 0 and len(done.stdout.splitlines()) > 3, f"{program} --help"
 

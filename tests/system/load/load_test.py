@@ -68,7 +68,7 @@ def loads_one_truck():
     assert rows[0][:10] == TRACE, rows[0]
     times = [float(row[0]) for row in rows[1:]]
     assert abs(times[-1] - times[0] - 0.01 * (len(times) - 1)) < 1e-3, "the trace is not at 100 Hz"
-    assert (out / "site.svg").stat().st_size > 10000 and (out / "journal.jsonl").stat().st_size > 10000
+    assert (out / "site.svg").stat().st_size > 10000 and (out / "journal.mcap").stat().st_size > 10000
     seen["first"] = out
 
 
@@ -76,7 +76,7 @@ def same_seed_same_trace():
     status, _, out, _ = load("--trucks", 1, "--seed", 1)
     assert status == 0
     assert filecmp.cmp(seen["first"] / "trace.csv", out / "trace.csv", shallow=False), "two runs of seed 1 differ"
-    assert filecmp.cmp(seen["first"] / "journal.jsonl", out / "journal.jsonl", shallow=False), "two journals of seed 1 differ"
+    assert filecmp.cmp(seen["first"] / "journal.mcap", out / "journal.mcap", shallow=False), "two journals of seed 1 differ"
     shutil.rmtree(out)
     shutil.rmtree(seen["first"])
 

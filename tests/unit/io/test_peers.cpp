@@ -189,5 +189,39 @@ TEST_F(Peers, ASilentNewcomerIsDroppedAndAWrongRoleRefused) {
   close(wrong);
 }
 
+// verifies: SK-JO-5, IF-JR-2
+TEST_F(Peers, OneWriterOfTheJournalAndOnlyWhereOneIsKept) {
+  SharedSegment ring, tail;
+  std::string error;
+  ASSERT_TRUE(ring.create("ring", 4096, SegmentAccess::kKernelWrites, error));
+  ASSERT_TRUE(tail.create("tail", 64, SegmentAccess::kPeerWrites, error));
+  server.serve_journal(ring, tail);
+  ASSERT_TRUE(server.open(path, {geteuid(), geteuid(), false, geteuid()}, state, request, error)) << error;
+  EXPECT_FALSE(server.journal_was_connected());
+  const int first = connect_to(path), second = connect_to(path);
+  const Answer accepted = ask(first, BERM_ROLE_JOURNAL);
+  EXPECT_EQ(accepted.welcome.accepted, 1U);
+  EXPECT_EQ(accepted.descriptors, 2);
+  EXPECT_EQ(accepted.welcome.state_size, 4096U);
+  EXPECT_EQ(accepted.welcome.request_size, 64U);
+  EXPECT_EQ(ask(second, BERM_ROLE_JOURNAL).welcome.accepted, 0U);
+  close(first);
+  server.poll();
+  EXPECT_FALSE(server.journal_connected());
+  EXPECT_TRUE(server.journal_was_connected());
+  close(second);
+}
+
+// verifies: SK-JO-5
+TEST_F(Peers, WithoutAJournalNobodyWritesIt) {
+  open(geteuid(), geteuid());
+  const int fd = connect_to(path);
+  const Answer answer = ask(fd, BERM_ROLE_JOURNAL);
+  EXPECT_TRUE(answer.came);
+  EXPECT_EQ(answer.welcome.accepted, 0U);
+  EXPECT_EQ(answer.descriptors, 0);
+  close(fd);
+}
+
 }  // namespace
 }  // namespace berm::kernel

@@ -1,0 +1,115 @@
+// berm_journal: the journal's writer. A process of its own, under a uid of its own: it reads the kernel's ring and writes the file.
+#include <fcntl.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "record/journal_file.hpp"
+#include "record/kernel_link.hpp"
+#include "record/ring_reader.hpp"
+
+namespace {
+
+using namespace berm::record;
+
+constexpr int kPollMs = 5;  // the ring holds more than a hundred times what the kernel makes in that time
+
+constexpr const char* kHelp =
+    "usage: berm_journal --socket PATH (--out FILE | --file-fd N)\n"
+    "\n"
+    "Writes the kernel's journal as an MCAP file until the kernel ends.\n"
+    "\n"
+    "  --socket PATH  the kernel's socket; the kernel must have been started with --journal-uid and this process's uid\n"
+    "  --out FILE     written as FILE.part, renamed when complete\n"
+    "  --file-fd N    an open, empty file instead; whoever opened it renames it when this process has ended with status 0\n"
+    "  --help         this text\n"
+    "\n"
+    "At the kernel's end it prints one line of JSON: cycles, lost, bytes. Status 0 when the file is complete (lost records do not change that).\n";
+
+int fail(const std::string& error) {
+  std::fprintf(stderr, "berm_journal: %s\n", error.c_str());
+  return EXIT_FAILURE;
+}
+
+struct Options {
+  std::string socket, out;
+  int fd = -1;
+};
+
+// Exit status when the program should end now, otherwise -1.
+int read_options(int argc, char** argv, Options& options) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string name = argv[i];
+    if (name == "--help" || name == "-h") {
+      std::fputs(kHelp, stdout);
+      return EXIT_SUCCESS;
+    }
+    if (name != "--socket" && name != "--out" && name != "--file-fd") return fail("unknown option " + name + "; --help lists them");
+    const std::string value = i + 1 < argc ? argv[++i] : "";
+    if (value.empty()) return fail(name + " must not be empty");
+    if (name == "--socket") options.socket = value;
+    if (name == "--out") options.out = value;
+    if (name != "--file-fd") continue;
+    if (value.size() > 4 || value.find_first_not_of("0123456789") != std::string::npos) return fail("--file-fd must be a file descriptor from 0 to 9999, not \"" + value + "\"");
+    options.fd = std::atoi(value.c_str());
+  }
+  if (options.socket.empty()) return fail("--socket is required");
+  if (options.out.empty() == (options.fd < 0)) return fail("either --out or --file-fd is required");
+  return -1;
+}
+
+// Until the kernel is gone and the ring is empty. False with one line in error.
+bool follow(KernelLink& link, JournalFile& file, std::string& error) {
+  RingReader reader(link.ring(), link.tail());
+  std::vector<std::uint8_t> record;
+  for (bool gone = false;;) {
+    RingReader::Result result;
+    while ((result = reader.next(record)) == RingReader::Result::kRecord) {
+      if (!file.cycle(record.data(), record.size())) {
+        error = file.error();
+        return false;
+      }
+    }
+    if (result == RingReader::Result::kBroken) {
+      error = "the kernel's ring is damaged";
+      return false;
+    }
+    if (gone) break;
+    gone = link.kernel_gone(kPollMs);  // and then once more: what was written before the end
+  }
+  if (!file.end(reader.offered())) error = file.error();
+  return error.empty();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  if (const int status = read_options(argc, argv, options); status >= 0) return status;
+  signal(SIGPIPE, SIG_IGN);
+  signal(SIGINT, SIG_IGN);   // the journal ends with the kernel, or the kernel's last cycles would be missing
+  signal(SIGTERM, SIG_IGN);
+  KernelLink link;
+  std::string error;
+  if (!link.connect(options.socket, error)) return fail(error);
+  const std::string part = options.out + ".part";
+  const std::string shown = options.fd >= 0 ? "the journal's file" : part;
+  if (options.fd < 0) options.fd = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (options.fd < 0) return fail(part + ": " + std::strerror(errno));
+  JournalFile file(options.fd);
+  std::printf("{\"event\": \"connected\"}\n");
+  std::fflush(stdout);
+  if (!file.begin(link.ring().start)) return fail(shown + ": " + file.error());
+  if (!follow(link, file, error)) return fail(shown + ": " + error);
+  if (close(options.fd) != 0) return fail(shown + ": " + std::strerror(errno));
+  if (!options.out.empty() && std::rename(part.c_str(), options.out.c_str()) != 0) return fail(options.out + ": " + std::strerror(errno));
+  std::printf("{\"cycles\": %llu, \"lost\": %llu, \"bytes\": %llu}\n", static_cast<unsigned long long>(file.cycles()),
+              static_cast<unsigned long long>(file.lost()), static_cast<unsigned long long>(file.bytes()));
+  return EXIT_SUCCESS;
+}
