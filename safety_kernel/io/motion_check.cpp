@@ -31,7 +31,7 @@ std::int32_t limited_command(std::int32_t requested_urad_s, std::int32_t limit_u
   return std::clamp(requested_urad_s, -limit_urad_s, limit_urad_s) / kCommandStepUradS * kCommandStepUradS;
 }
 
-MotionCheck::MotionCheck(const berm_parameters& parameters) : parameters_(parameters), rules_{}, choice_{} {
+MotionCheck::MotionCheck(const berm_parameters& parameters) : parameters_(parameters), shape_(parameters), rules_{}, columns_{}, choice_{} {
   rules_.fresh_us = parameters.fresh_us;
   rules_.margin_mm = parameters.margin_mm;
   rules_.dig_zones = parameters.dig_zones;
@@ -74,7 +74,7 @@ void MotionCheck::note_cell(const sk_height_map& map, const sk_slice& slice, con
 
 std::uint8_t MotionCheck::clear(const MotionQuery& query, const sk_height_map& map, const sk_reach_box& box, SliceSet& slices, bool creeping,
                                 MotionVerdict& verdict) {
-  if (!build_slices(parameters_, box, slices)) return BERM_STOP_INTERNAL;
+  if (!build_slices(shape_, box, slices)) return BERM_STOP_INTERNAL;
   rules_.now_us = query.now_us;
   rules_.dig_stale = creeping;  // else a bucket that stood in a pit, which hides the ground before it, could never leave
   rules_.dig_allowed = box.speed_urad_s[BERM_SWING] <= parameters_.dig_swing_limit_urad_s;
@@ -82,9 +82,7 @@ std::uint8_t MotionCheck::clear(const MotionQuery& query, const sk_height_map& m
     const sk_slice& slice = slices.slice[s];
     rules_.own_body_radius_mm = slice.link == BERM_BOOM ? own_and_rim_radius_mm(parameters_) : 0;  // the map has the columns
     // The search may fail or be wrong: what it chose is only a claim, which the core checks.
-    choose_planes(map, slice, rules_, choice_);
-    sk_clearance_result result{};
-    sk_clear_slice(&map, &slice, &choice_, &rules_, &result);
+    const sk_clearance_result result = clear_slice(map, columns_, rules_, slices, s, choice_);
     ++verdict.slices;
     verdict.cells += result.cells;
     if (result.verdict != SK_CLEAR) {
@@ -118,9 +116,15 @@ void MotionCheck::check(const MotionQuery& query, const sk_height_map& map, Moti
     low[j] = -high[j];
   }
   any_slices_.count = 0;
+  rules_.now_us = query.now_us;
+  if (!sk_columns_of(&map, &rules_, &columns_)) {
+    verdict.reason = BERM_STOP_INTERNAL;
+    verdict.permission = Permission::kHeld;
+    return;
+  }
   if (!reach(query, SK_REACH_ANY, low, high, verdict.box) || !joints_within(verdict.box, low, high)) {
     verdict.reason = BERM_STOP_JOINT_RANGE;
-    build_slices(parameters_, verdict.box, any_slices_);  // for observers only
+    build_slices(shape_, verdict.box, any_slices_);  // for observers only
   } else {
     verdict.reason = clear(query, map, verdict.box, any_slices_, false, verdict);
   }

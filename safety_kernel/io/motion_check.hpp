@@ -9,6 +9,7 @@
 #include "config/parameter_block.h"
 #include "contract/berm_contract.h"
 #include "core/clearance.h"
+#include "core/columns.h"
 #include "core/reach_box.h"
 #include "geometry/swept_slices.hpp"
 
@@ -58,9 +59,11 @@ class MotionCheck {
   void note_cell(const sk_height_map& map, const sk_slice& slice, const sk_clearance_result& result, MotionVerdict& verdict) const;
 
   const berm_parameters& parameters_;
+  const ImplementShape shape_;
   sk_clearance_rules rules_{};
   SliceSet any_slices_;
   SliceSet creep_slices_;
+  sk_columns columns_;
   sk_choice choice_;
 };
 
