@@ -1,5 +1,4 @@
 #include "clearance.h"
-#include "least_most.h"
 
 enum { SK_PLANE_UNTRIED = 0, SK_PLANE_HOLDS = 1, SK_PLANE_FAILS = 2 };
 
@@ -10,51 +9,7 @@ typedef struct sk_tried { int16_t plane[SK_SLICE_PLANES]; } sk_tried; /* SK_PLAN
   @   (\at(t->plane[k], L) == SK_PLANE_HOLDS ==> sk_plane_bounds{L}(s, k)) &&
   @   (\at(t->plane[k], L) == SK_PLANE_FAILS ==> !sk_plane_bounds{L}(s, k)) &&
   @   0 <= \at(t->plane[k], L) <= SK_PLANE_FAILS;
-  @ predicate sk_is_lowest{L}(sk_slice *s, integer axis, integer v) =
-  @   (\forall integer i; 0 <= i < \at(s->vertices, L) ==> v <= \at(s->vertex_mm[i][axis], L)) &&
-  @   (\exists integer i; 0 <= i < \at(s->vertices, L) && v == \at(s->vertex_mm[i][axis], L));
-  @ predicate sk_is_highest{L}(sk_slice *s, integer axis, integer v) =
-  @   (\forall integer i; 0 <= i < \at(s->vertices, L) ==> v >= \at(s->vertex_mm[i][axis], L)) &&
-  @   (\exists integer i; 0 <= i < \at(s->vertices, L) && v == \at(s->vertex_mm[i][axis], L));
   @*/
-
-/*@ assigns \nothing;
-  @ ensures \result == true <==> sk_coordinate_fits(v_mm);
-  @*/
-static bool sk_coordinate_ok(int32_t v_mm)
-{
-  return -SK_COORD_MAX_MM <= v_mm && v_mm <= SK_COORD_MAX_MM;
-}
-
-/*@ requires \valid_read(s);
-  @ assigns \nothing;
-  @ ensures \result == true <==> sk_counts_fit(s);
-  @*/
-static bool sk_counts_ok(const sk_slice *s)
-{
-  return s->link >= 1 && s->link <= 3 && s->vertices >= 1 && s->vertices <= SK_SLICE_VERTICES && s->planes >= 1 && s->planes <= SK_SLICE_PLANES;
-}
-
-/*@ requires \valid_read(s) && sk_counts_fit(s);
-  @ assigns \nothing;
-  @ ensures \result == true <==> sk_vertices_fit(s);
-  @*/
-static bool sk_vertices_ok(const sk_slice *s)
-{
-  int32_t i;
-  /*@ loop invariant 0 <= i <= s->vertices;
-    @ loop invariant \forall integer j; 0 <= j < i ==> sk_vertex_fits(s, j);
-    @ loop assigns i;
-    @ loop variant s->vertices - i;
-    @*/
-  for (i = 0; i < s->vertices; i++) {
-    if (!sk_coordinate_ok(s->vertex_mm[i][0]) || !sk_coordinate_ok(s->vertex_mm[i][1]) || !sk_coordinate_ok(s->vertex_mm[i][2])) {
-      /*@ assert !sk_vertex_fits(s, i); */
-      return false;
-    }
-  }
-  return true;
-}
 
 /*@ requires \valid_read(p);
   @ assigns \nothing;
@@ -84,104 +39,6 @@ static bool sk_planes_ok(const sk_slice *s)
   return true;
 }
 
-/*@ requires \valid_read(s);
-  @ assigns \nothing;
-  @ ensures \result == true <==> sk_slice_fits(s);
-  @*/
-static bool sk_slice_ok(const sk_slice *s)
-{
-  return sk_counts_ok(s) && sk_vertices_ok(s) && sk_planes_ok(s);
-}
-
-/*@ requires \valid_read(r);
-  @ assigns \nothing;
-  @ ensures \result == true <==> sk_rules_fit(r);
-  @*/
-static bool sk_rules_ok(const sk_clearance_rules *r)
-{
-  return r->now_us >= 0 && r->fresh_us >= 0 && r->margin_mm >= 0 && r->margin_mm <= SK_COORD_MAX_MM && r->own_body_radius_mm >= 0 &&
-         r->own_body_radius_mm <= SK_COORD_MAX_MM && r->dig_zones >= 0 && r->dig_zones <= BERM_DIG_ZONES;
-}
-
-/*@ requires \valid_read(s) && sk_counts_fit(s) && 0 <= axis < 3;
-  @ assigns \nothing;
-  @ ensures sk_is_lowest(s, axis, \result);
-  @*/
-static int32_t sk_axis_low(const sk_slice *s, int32_t axis)
-{
-  int32_t low = s->vertex_mm[0][axis];
-  int32_t i;
-  /*@ loop invariant 1 <= i <= s->vertices;
-    @ loop invariant \forall integer j; 0 <= j < i ==> low <= s->vertex_mm[j][axis];
-    @ loop invariant \exists integer j; 0 <= j < i && low == s->vertex_mm[j][axis];
-    @ loop assigns i, low;
-    @ loop variant s->vertices - i;
-    @*/
-  for (i = 1; i < s->vertices; i++) {
-    if (s->vertex_mm[i][axis] < low) { low = s->vertex_mm[i][axis]; }
-  }
-  return low;
-}
-
-/*@ requires \valid_read(s) && sk_counts_fit(s) && 0 <= axis < 3;
-  @ assigns \nothing;
-  @ ensures sk_is_highest(s, axis, \result);
-  @*/
-static int32_t sk_axis_high(const sk_slice *s, int32_t axis)
-{
-  int32_t high = s->vertex_mm[0][axis];
-  int32_t i;
-  /*@ loop invariant 1 <= i <= s->vertices;
-    @ loop invariant \forall integer j; 0 <= j < i ==> high >= s->vertex_mm[j][axis];
-    @ loop invariant \exists integer j; 0 <= j < i && high == s->vertex_mm[j][axis];
-    @ loop assigns i, high;
-    @ loop variant s->vertices - i;
-    @*/
-  for (i = 1; i < s->vertices; i++) {
-    if (s->vertex_mm[i][axis] > high) { high = s->vertex_mm[i][axis]; }
-  }
-  return high;
-}
-
-/* First and last cell along an axis; a cell that ends at the lowest coordinate is touched. */
-/*@ requires \valid_read(s) && sk_counts_fit(s) && sk_vertices_fit(s) && 0 <= axis <= 1;
-  @ assigns \nothing;
-  @ ensures first: \forall integer cell; cell < \result ==> !sk_extent_meets(s, axis, cell);
-  @ ensures met: sk_extent_meets(s, axis, \result);
-  @*/
-static int32_t sk_first_cell(const sk_slice *s, int32_t axis)
-{
-  return sk_map_index(sk_axis_low(s, axis) - 1);
-}
-
-/*@ requires \valid_read(s) && sk_counts_fit(s) && sk_vertices_fit(s) && 0 <= axis <= 1;
-  @ assigns \nothing;
-  @ ensures last: \forall integer cell; cell > \result ==> !sk_extent_meets(s, axis, cell);
-  @ ensures met: sk_extent_meets(s, axis, \result);
-  @*/
-static int32_t sk_last_cell(const sk_slice *s, int32_t axis)
-{
-  return sk_map_index(sk_axis_high(s, axis));
-}
-
-bool sk_slice_rectangle(const sk_slice *s, sk_rectangle *out)
-{
-  int32_t ix_low, ix_high, iy_low, iy_high;
-  if (!sk_counts_ok(s) || !sk_vertices_ok(s)) { return false; }
-  ix_low = sk_first_cell(s, 0);
-  ix_high = sk_last_cell(s, 0);
-  iy_low = sk_first_cell(s, 1);
-  iy_high = sk_last_cell(s, 1);
-  if (ix_low < 0 || ix_high >= SK_MAP_CELLS || iy_low < 0 || iy_high >= SK_MAP_CELLS) { return false; }
-  /*@ assert sk_extent_is_range(s, 0, ix_low, ix_high); */
-  /*@ assert sk_extent_is_range(s, 1, iy_low, iy_high); */
-  out->ix_low = ix_low;
-  out->ix_high = ix_high;
-  out->iy_low = iy_low;
-  out->iy_high = iy_high;
-  return true;
-}
-
 /* Whether every vertex is strictly on the plane's positive side. */
 /*@ requires \valid_read(s) && sk_slice_fits(s) && 0 <= k < s->planes;
   @ assigns \nothing;
@@ -199,7 +56,7 @@ static bool sk_plane_holds(const sk_slice *s, int32_t k)
     @*/
   for (i = 0; i < s->vertices; i++) {
     /*@ assert sk_vertex_fits(s, i) && sk_plane_fits(p); */
-    int64_t side = (int64_t)p->nx * s->vertex_mm[i][0] + (int64_t)p->ny * s->vertex_mm[i][1] + (int64_t)p->nz * s->vertex_mm[i][2];
+    int64_t side = (int64_t)p->nx * s->xyz_mm[0][i] + (int64_t)p->ny * s->xyz_mm[1][i] + (int64_t)p->nz * s->xyz_mm[2][i];
     if (side <= p->d) {
       /*@ assert !sk_vertex_above(&s->plane[k], s, i); */
       return false;
@@ -224,15 +81,6 @@ static bool sk_plane_usable(const sk_slice *s, sk_tried *t, int32_t k)
   return t->plane[k] == SK_PLANE_HOLDS;
 }
 
-/*@ requires 0 <= i < SK_MAP_CELLS;
-  @ assigns \nothing;
-  @ ensures \result == sk_cell_low(i);
-  @*/
-static int32_t sk_cell_low_mm(int32_t i)
-{
-  return SK_CELL_MM * i + SK_MAP_ORIGIN_MM;
-}
-
 /* Whether the four corners of a cell are on the plane's other side: the one farthest along the normal is. */
 /*@ requires \valid_read(p) && sk_plane_fits(p) && sk_coordinate_fits(x_mm) && sk_coordinate_fits(y_mm) && -4294967296 <= z_mm <= 4294967296;
   @ assigns \nothing;
@@ -244,16 +92,6 @@ static bool sk_square_is_below(const sk_plane *p, int64_t x_mm, int64_t y_mm, in
   if (p->nx > 0) { side = side + (int64_t)p->nx * SK_CELL_MM; }
   if (p->ny > 0) { side = side + (int64_t)p->ny * SK_CELL_MM; }
   return side <= p->d;
-}
-
-/*@ requires \valid_read(m) && \valid_read(r) && sk_rules_fit(r) && sk_in_map(iy, ix);
-  @ assigns \nothing;
-  @ ensures \result == true <==> sk_current(m, r, iy, ix);
-  @*/
-static bool sk_is_current(const sk_height_map *m, const sk_clearance_rules *r, int32_t iy, int32_t ix)
-{
-  int64_t seen_us = m->seen_us[iy][ix];
-  return seen_us >= 0 && seen_us <= r->now_us && seen_us >= r->now_us - r->fresh_us;
 }
 
 /*@ requires \valid_read(m) && \valid_read(r) && sk_rules_fit(r) && sk_in_map(iy, ix);
@@ -273,29 +111,8 @@ static bool sk_column_is_below(const sk_height_map *m, const sk_clearance_rules 
 {
   int32_t x = sk_cell_low_mm(ix);
   int32_t y = sk_cell_low_mm(iy);
-  if (sk_is_current(m, r, iy, ix)) { return sk_square_is_below(p, x, y, (int64_t)sk_map_top(m, iy, ix) + r->margin_mm); }
+  if (sk_is_current(m, r, iy, ix)) { return sk_square_is_below(p, x, y, sk_column_top_mm(m, r, iy, ix)); }
   return p->nz == 0 && sk_square_is_below(p, x, y, 0);
-}
-
-/*@ requires sk_coordinate_fits(low_mm);
-  @ assigns \nothing;
-  @ ensures \result == sk_most(low_mm * low_mm, (low_mm + SK_CELL_MM) * (low_mm + SK_CELL_MM));
-  @*/
-static int64_t sk_far_square(int64_t low_mm)
-{
-  int64_t high_mm = low_mm + SK_CELL_MM;
-  return sk_most_of(low_mm * low_mm, high_mm * high_mm);
-}
-
-/* Whether all four corners are within the own body's radius. */
-/*@ requires \valid_read(r) && sk_rules_fit(r) && sk_in_map(iy, ix);
-  @ assigns \nothing;
-  @ ensures \result == true <==> sk_own_body(r, iy, ix);
-  @*/
-static bool sk_is_own_body(const sk_clearance_rules *r, int32_t iy, int32_t ix)
-{
-  int64_t radius = r->own_body_radius_mm;
-  return sk_far_square(sk_cell_low_mm(ix)) + sk_far_square(sk_cell_low_mm(iy)) <= radius * radius;
 }
 
 /*@ requires \valid_read(zone) && sk_in_map(iy, ix);
@@ -362,6 +179,7 @@ static int32_t sk_contact_verdict(const sk_height_map *m, const sk_clearance_rul
   @   \valid_read(m) && \valid_read(s) && \valid_read(r) && \valid(t) && \separated(t, m, s, r);
   @ predicate sk_row_clear{L}(sk_height_map *m, sk_slice *s, sk_choice *choice, sk_clearance_rules *r, integer iy, integer from, integer to) =
   @   \forall integer i; from <= i < to ==> sk_cell_clear{L}(m, s, r, sk_chosen{L}(choice, iy, i), iy, i);
+  @ predicate sk_first_known{L}(sk_slice *s, integer holds) = holds != 0 ==> sk_plane_bounds{L}(s, 0);
   @*/
 
 /*@ requires sk_readable(m, s, r, t) && sk_slice_fits(s) && sk_rules_fit(r) && sk_tried_right(s, t);
@@ -397,9 +215,35 @@ static int32_t sk_cell_verdict(const sk_height_map *m, const sk_slice *s, int32_
   return sk_contact_verdict(m, r, iy, ix);
 }
 
+/* Whether a cell is clear at a glance, as nearly all are: below plane 0, where there is no own body to look for. */
+/*@ requires \valid_read(m) && \valid_read(s) && \valid_read(r) && sk_slice_fits(s) && sk_rules_fit(r) && 0 <= k;
+  @ requires sk_in_map(iy, ix) && sk_first_known(s, first_holds);
+  @ assigns \nothing;
+  @ ensures \result == true ==> sk_cell_clear(m, s, r, k, iy, ix);
+  @*/
+static inline bool sk_is_settled(const sk_height_map *m, const sk_slice *s, int32_t k, const sk_clearance_rules *r, bool first_holds, int32_t iy, int32_t ix)
+{
+  /*@ assert nobody: r->own_body_radius_mm == 0 ==> !sk_own_body(r, iy, ix); */
+  if (k != 0 || !first_holds || r->own_body_radius_mm != 0) { return false; }
+  return sk_column_is_below(m, r, &s->plane[0], iy, ix);
+}
+
+/* Whether plane 0 is level and below the lowest vertex, as that of the sweep's slices is: then it need not be held against the vertices. */
+/*@ requires \valid_read(s) && sk_slice_fits(s) && sk_is_lowest(s, 2, z_low_mm);
+  @ assigns \nothing;
+  @ ensures sk_first_known(s, \result);
+  @*/
+static bool sk_first_is_level(const sk_slice *s, int32_t z_low_mm)
+{
+  const sk_plane *p = &s->plane[0];
+  if (p->nx != 0 || p->ny != 0 || p->nz != 1 || p->d >= z_low_mm) { return false; }
+  /*@ assert above: \forall integer i; 0 <= i < s->vertices ==> sk_vertex_above(&s->plane[0], s, i); */
+  return true;
+}
+
 /* Column of the first blocked cell of a row, ix_high + 1 when all are clear. */
 /*@ requires sk_readable(m, s, r, t) && sk_slice_fits(s) && sk_rules_fit(r) && sk_tried_right(s, t) && sk_is_lowest(s, 2, z_low_mm);
-  @ requires \valid_read(choice) && \separated(t, choice);
+  @ requires \valid_read(choice) && \separated(t, choice) && sk_first_known(s, first_holds);
   @ requires 0 <= iy < SK_MAP_CELLS && 0 <= ix_low <= ix_high < SK_MAP_CELLS;
   @ assigns t->plane[0 .. SK_SLICE_PLANES - 1];
   @ ensures sk_tried_right(s, t);
@@ -409,7 +253,7 @@ static int32_t sk_cell_verdict(const sk_height_map *m, const sk_slice *s, int32_
   @   !sk_cell_clear{Pre}(m, s, r, sk_chosen{Pre}(choice, iy, \result), iy, \result);
   @*/
 static int32_t sk_row_end(const sk_height_map *m, const sk_slice *s, const sk_choice *choice, const sk_clearance_rules *r, sk_tried *t,
-                          int32_t z_low_mm, int32_t iy, int32_t ix_low, int32_t ix_high)
+                          int32_t z_low_mm, bool first_holds, int32_t iy, int32_t ix_low, int32_t ix_high)
 {
   int32_t ix;
   /*@ loop invariant ix_low <= ix <= ix_high + 1;
@@ -419,7 +263,11 @@ static int32_t sk_row_end(const sk_height_map *m, const sk_slice *s, const sk_ch
     @ loop variant ix_high - ix;
     @*/
   for (ix = ix_low; ix <= ix_high; ix++) {
-    if (sk_cell_verdict(m, s, choice->plane_of[iy][ix], r, t, z_low_mm, iy, ix) != SK_CLEAR) { return ix; }
+    if (sk_is_settled(m, s, choice->plane_of[iy][ix], r, first_holds, iy, ix)) {
+      /*@ assert settled: sk_cell_clear{Pre}(m, s, r, sk_chosen{Pre}(choice, iy, ix), iy, ix); */
+    } else if (sk_cell_verdict(m, s, choice->plane_of[iy][ix], r, t, z_low_mm, iy, ix) != SK_CLEAR) {
+      return ix;
+    }
   }
   return ix;
 }
@@ -455,8 +303,8 @@ static void sk_untried(const sk_slice *s, sk_tried *t)
 /* The cells of the rectangle row by row, up to the first that is blocked. */
 /*@ requires \valid_read(m) && \valid_read(s) && \valid_read(choice) && \valid_read(r) && \valid(out) && \separated(out, m, s, choice, r);
   @ requires sk_slice_fits(s) && sk_rules_fit(r);
-  @ requires 0 <= box.ix_low <= box.ix_high < SK_MAP_CELLS && 0 <= box.iy_low <= box.iy_high < SK_MAP_CELLS;
-  @ requires sk_extent_is_range(s, 0, box.ix_low, box.ix_high) && sk_extent_is_range(s, 1, box.iy_low, box.iy_high);
+  @ requires sk_range_in_map(f.cells) && sk_is_lowest(s, 2, f.z_low_mm);
+  @ requires sk_extent_is_range(s, 0, f.cells.ix_low, f.cells.ix_high) && sk_extent_is_range(s, 1, f.cells.iy_low, f.cells.iy_high);
   @ assigns *out;
   @ ensures verdicts: SK_CLEAR <= out->verdict < SK_BLOCKED_INVALID;
   @ ensures clear: out->verdict == SK_CLEAR ==> sk_clear_before{Pre}(m, s, choice, r, SK_MAP_CELLS, 0);
@@ -466,11 +314,13 @@ static void sk_untried(const sk_slice *s, sk_tried *t)
   @   sk_blocked_because{Pre}(m, s, r, out->iy, out->ix, out->verdict);
   @ ensures first: out->iy >= 0 ==> sk_clear_before{Pre}(m, s, choice, r, out->iy, out->ix);
   @*/
-static void sk_check_box(const sk_height_map *m, const sk_slice *s, const sk_choice *choice, const sk_clearance_rules *r, sk_rectangle box,
+static void sk_check_box(const sk_height_map *m, const sk_slice *s, const sk_choice *choice, const sk_clearance_rules *r, sk_footprint f,
                          sk_clearance_result *out)
 {
+  sk_rectangle box = f.cells;
+  int32_t z_low_mm = f.z_low_mm;
+  bool first_holds = sk_first_is_level(s, z_low_mm);
   sk_tried tried;
-  int32_t z_low_mm = sk_axis_low(s, 2);
   int32_t cells = 0;
   int32_t iy;
   sk_untried(s, &tried);
@@ -483,7 +333,7 @@ static void sk_check_box(const sk_height_map *m, const sk_slice *s, const sk_cho
     @ loop variant box.iy_high - iy;
     @*/
   for (iy = box.iy_low; iy <= box.iy_high; iy++) {
-    int32_t ix = sk_row_end(m, s, choice, r, &tried, z_low_mm, iy, box.ix_low, box.ix_high);
+    int32_t ix = sk_row_end(m, s, choice, r, &tried, z_low_mm, first_holds, iy, box.ix_low, box.ix_high);
     cells = cells + (ix - box.ix_low);
     if (ix <= box.ix_high) {
       int32_t verdict = sk_cell_verdict(m, s, choice->plane_of[iy][ix], r, &tried, z_low_mm, iy, ix);
@@ -501,14 +351,17 @@ static void sk_check_box(const sk_height_map *m, const sk_slice *s, const sk_cho
 
 void sk_clear_slice(const sk_height_map *m, const sk_slice *s, const sk_choice *choice, const sk_clearance_rules *rules, sk_clearance_result *out)
 {
-  sk_rectangle box;
-  if (!sk_slice_ok(s) || !sk_rules_ok(rules)) {
+  sk_footprint f;
+  bool inside;
+  f.z_low_mm = 0;
+  inside = sk_slice_footprint(s, &f); /* has looked at every vertex then */
+  if (!sk_rules_ok(rules) || (!inside && !sk_slice_vertices_ok(s)) || !sk_planes_ok(s)) {
     sk_report(out, SK_BLOCKED_INVALID, -1, -1, 0);
     return;
   }
-  if (!sk_slice_rectangle(s, &box)) {
+  if (!inside) {
     sk_report(out, SK_BLOCKED_UNKNOWN, -1, -1, 0);
     return;
   }
-  sk_check_box(m, s, choice, rules, box, out);
+  sk_check_box(m, s, choice, rules, f, out);
 }

@@ -36,6 +36,14 @@ typedef struct sk_border { int32_t b_low, b_high, z_high; } sk_border;
   @   sk_covers{L}(m, q, p, now) ==> sk_covers{L}(m, p, q, now);
   @ lemma sk_raises_turned{A, B}: \forall sk_height_map *m; \forall sk_point p, q; \forall integer now;
   @   sk_only_raises{A, B}(m, q, p, now) ==> sk_only_raises{A, B}(m, p, q, now);
+  @ lemma sk_above_lower_end: \forall integer v0, v1; \forall real t; 0 <= t <= 1 ==> sk_at(v0, v1, t) >= sk_least(v0, v1);
+  @ predicate sk_inside(integer i, integer v) = sk_cell_low(i) < v < sk_cell_low(i) + SK_CELL_MM;
+  @ predicate sk_strictly_in(integer i, real v) = sk_cell_low(i) < v < sk_cell_low(i) + SK_CELL_MM;
+  @ lemma sk_one_cell: \forall integer i, j; \forall real v; sk_strictly_in(i, v) && sk_cell_holds(j, v) ==> j == i;
+  @ lemma sk_stays_inside: \forall integer i, v0, v1; \forall real t; 0 <= t <= 1 && sk_inside(i, v0) && sk_inside(i, v1) ==>
+  @   sk_strictly_in(i, sk_at(v0, v1, t));
+  @ lemma sk_only_cell: \forall integer i, j, v0, v1; \forall real t; 0 <= t <= 1 && sk_inside(i, v0) && sk_inside(i, v1) ==>
+  @   sk_cell_holds(j, sk_at(v0, v1, t)) ==> j == i;
   @ // the cells over one coordinate: that which holds it, and the one below where it is a border
   @ predicate sk_first_or_last(integer i, integer v) = sk_cell_low(i) <= v <= sk_cell_low(i) + SK_CELL_MM;
   @
@@ -277,11 +285,56 @@ static int32_t sk_raise_ordered(sk_height_map *m, sk_point p, sk_point q, int64_
   return sk_raise_along(m, false, q, p, now_us, generation_us);
 }
 
+/* The cell that holds a coordinate in range; int32 suffices, and no border is on the far side of zero. */
+/*@ requires sk_coordinate_in_range(v_mm);
+  @ assigns \nothing;
+  @ ensures sk_cell_low(\result) <= v_mm < sk_cell_low(\result) + SK_CELL_MM;
+  @ ensures -1000 <= \result <= 1000;
+  @*/
+static int32_t sk_cell_of(int32_t v_mm)
+{
+  return (v_mm - SK_MAP_ORIGIN_MM + 1000 * SK_CELL_MM) / SK_CELL_MM - 1000;
+}
+
+/*@ requires -1000 <= i <= 1000 && sk_coordinate_in_range(v_mm);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_inside(i, v_mm);
+  @*/
+static bool sk_is_inside(int32_t i, int32_t v_mm)
+{
+  int32_t low_mm = SK_CELL_MM * i + SK_MAP_ORIGIN_MM;
+  return low_mm < v_mm && v_mm < low_mm + SK_CELL_MM;
+}
+
+/* Both ends inside one cell, which is nearly always so where returns lie close together. */
+/*@ requires \valid(m) && now_us >= 0 && generation_us > 0 && sk_point_fits(p) && sk_point_fits(q);
+  @ requires sk_inside(ix, p.x_mm) && sk_inside(ix, q.x_mm) && sk_inside(iy, p.y_mm) && sk_inside(iy, q.y_mm);
+  @ assigns m->height_mm[..][..], m->previous_mm[..][..], m->began_us[..][..], m->seen_us[..][..];
+  @ ensures 0 <= \result;
+  @ ensures covers: sk_covers(m, p, q, now_us);
+  @ ensures only: sk_only_raises{Pre, Post}(m, p, q, now_us);
+  @*/
+static int32_t sk_raise_inside(sk_height_map *m, sk_point p, sk_point q, int32_t iy, int32_t ix, int64_t now_us, int32_t generation_us)
+{
+  int32_t z = (int32_t)sk_most_of(p.z_mm, q.z_mm);
+  bool raised = sk_map_insert(m, iy, ix, z, now_us, generation_us);
+  /*@ assert cell: sk_in_map(iy, ix) ==> m->height_mm[iy][ix] >= z && m->seen_us[iy][ix] == now_us; */
+  /*@ assert over: \forall real t; \forall integer j, i; sk_crosses(p, q, t, j, i) ==> j == iy && i == ix && sk_at(p.z_mm, q.z_mm, t) <= z; */
+  /*@ assert bounds: sk_in_bounds(p, q, iy, ix); */
+  return raised ? 1 : 0;
+}
+
 int32_t sk_raster_segment(sk_height_map *m, const sk_point *p, const sk_point *q, int64_t now_us, int32_t generation_us)
 {
   sk_point from = *p;
   sk_point to = *q;
+  int32_t iy, ix;
   if (!sk_point_ok(from) || !sk_point_ok(to) || now_us < 0 || generation_us <= 0) { return -1; }
+  iy = sk_cell_of(from.y_mm);
+  ix = sk_cell_of(from.x_mm);
+  if (sk_is_inside(ix, from.x_mm) && sk_is_inside(ix, to.x_mm) && sk_is_inside(iy, from.y_mm) && sk_is_inside(iy, to.y_mm)) {
+    return sk_raise_inside(m, from, to, iy, ix, now_us, generation_us);
+  }
   if (from.x_mm == to.x_mm && from.y_mm == to.y_mm) { return sk_raise_point(m, from, to, now_us, generation_us); }
   return sk_raise_ordered(m, from, to, now_us, generation_us);
 }

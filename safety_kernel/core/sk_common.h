@@ -16,7 +16,9 @@
 #endif
 
 #define SK_JOINTS 4
+#ifndef SK_MAP_CELLS
 #define SK_MAP_CELLS 104 /* along one side */
+#endif
 #ifndef SK_CELL_MM
 #define SK_CELL_MM 300
 #endif

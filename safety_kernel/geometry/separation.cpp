@@ -1,90 +1,110 @@
 #include "geometry/separation.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
+
+#include "geometry/lanes.hpp"
 
 namespace berm::kernel {
 namespace {
 
-using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Exact::Point_3;
-
-struct Bounds {
-  int32_t low[3], high[3];
+// Column of a cell, or of one without a top.
+struct Column {
+  int32_t x, y; // low corner
+  int32_t top;
+  bool has_top;
 };
-
-Bounds bounds_of(const sk_slice& slice) noexcept {
-  Bounds b{{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}};
-  for (int i = 0; i < slice.vertices; ++i)
-    for (int k = 0; k < 3; ++k) {
-      b.low[k] = std::min(b.low[k], slice.vertex_mm[i][k]);
-      b.high[k] = std::max(b.high[k], slice.vertex_mm[i][k]);
-    }
-  return b;
-}
-
-// A plane through the slice's vertex nearest to it, spanned by three integer points in the orientation of the normal.
-struct Support {
-  Point p, q, r;
-  bool valid = false;
-};
-
-Support support_of(const sk_slice& slice, const sk_plane& plane) noexcept {
-  for (int i = 0; i < slice.vertices; ++i) {
-    const int32_t* v = slice.vertex_mm[i];
-    const int64_t product = static_cast<int64_t>(plane.nx) * v[0] + static_cast<int64_t>(plane.ny) * v[1] + static_cast<int64_t>(plane.nz) * v[2];
-    if (product != plane.d + 1) continue;
-    const Point p(v[0], v[1], v[2]);
-    // (q - p) x (r - p) is a positive multiple of the normal
-    if (plane.nz > 0) return {p, Point(v[0] + plane.nz, v[1], v[2] - plane.nx), Point(v[0], v[1] + plane.nz, v[2] - plane.ny), true};
-    if (plane.nz == 0) return {p, Point(v[0] - plane.ny, v[1] + plane.nx, v[2]), Point(v[0], v[1], v[2] + 1), true};
-    return {};
-  }
-  return {};
-}
 
 class PlaneSearch {
 public:
-  PlaneSearch(const sk_slice& slice) noexcept : slice_(slice) {}
+  PlaneSearch(sk_slice& slice, const PlaneCandidates& candidates) noexcept : slice_(slice), candidates_(candidates) {}
 
-  // Index of a plane that has the column's square (low corner x, y) up to top below it; 0 where there is none. Upright planes only
-  // where the column has no top.
-  int find(int32_t x, int32_t y, int32_t top, bool has_top) noexcept {
-    if (last_ > 0 && separates(last_, x, y, top, has_top)) return last_; // neighbours mostly want the same plane
+  // Index of a plane of the slice that has the column's square up to its top below it; 0 where there is none. Upright planes only where the column
+  // has no top.
+  int find(const Column& column) noexcept {
+    if (last_ > 0 && separates(last_, column)) return last_; // neighbours mostly want the same plane
     for (int i = 1; i < slice_.planes; ++i)
-      if (i != last_ && separates(i, x, y, top, has_top)) return last_ = i;
-    return 0;
+      if (i != last_ && separates(i, column)) return last_ = i;
+    return from_candidates(column);
   }
 
 private:
-  bool separates(int index, int32_t x, int32_t y, int32_t top, bool has_top) noexcept {
+  bool separates(int index, const Column& column) noexcept {
     const sk_plane& plane = slice_.plane[index];
-    if (plane.nz != 0 && !has_top) return false;
-    if (!known_[index]) {
-      support_[index] = support_of(slice_, plane);
-      known_[index] = true;
-    }
-    const Support& s = support_[index];
-    if (!s.valid) return false;
-    const Point corner(x + (plane.nx > 0 ? SK_CELL_MM : 0), y + (plane.ny > 0 ? SK_CELL_MM : 0), has_top ? top : 0); // the one farthest along the normal
-    return CGAL::orientation(s.p, s.q, s.r, corner) == CGAL::NEGATIVE;
+    if (plane.nz < 0 || (plane.nz != 0 && !column.has_top)) return false;
+    if (index >= proven_ && !holds(index)) return false;
+    // the corner farthest along the normal
+    const int64_t x = column.x + (plane.nx > 0 ? SK_CELL_MM : 0), y = column.y + (plane.ny > 0 ? SK_CELL_MM : 0), z = column.has_top ? column.top : 0;
+    return plane.nx * x + plane.ny * y + plane.nz * z <= plane.d;
   }
 
-  const sk_slice& slice_;
-  Support support_[SK_SLICE_PLANES];
-  bool known_[SK_SLICE_PLANES] = {};
+  // A plane that the slice came with may be wrong.
+  bool holds(int index) noexcept {
+    const sk_plane& plane = slice_.plane[index];
+    const bool right = plane.d <= plane_offset(slice_, plane.nx, plane.ny, plane.nz);
+    if (right && index == proven_) ++proven_;
+    return right;
+  }
+
+  int from_candidates(const Column& column) noexcept {
+    constexpr float unsure_mm = 4.0F; // rounding of vertices and normals
+    if (!weighed_) weigh();
+    const int use = column.has_top ? candidates_.count : std::min(candidates_.count, upright_candidates);
+    if (use == 0) return 0;
+    alignas(16) float margin[plane_candidates];
+    const Four x = four(static_cast<float>(column.x)), y = four(static_cast<float>(column.y)), z = four(column.has_top ? static_cast<float>(column.top) : 0.0F);
+    for (int i = 0; i < use; i += 4) store4(margin + i, load4(bias_ + i) - load4(nx_ + i) * x - load4(ny_ + i) * y - load4(nz_ + i) * z);
+    for (;;) {
+      int best = 0;
+      for (int i = 1; i < use; ++i)
+        if (margin[i] > margin[best]) best = i;
+      if (margin[best] < -unsure_mm * static_cast<float>(normal_scale)) return 0;
+      margin[best] = -1e30F;
+      if (tried_[best] || slice_.planes >= SK_SLICE_PLANES) continue; // then it is among the slice's, and does not separate
+      tried_[best] = true;
+      const int index = slice_.planes;
+      const int32_t nx = candidates_.nx[best], ny = candidates_.ny[best], nz = candidates_.nz[best];
+      slice_.plane[index] = {nx, ny, nz, plane_offset(slice_, nx, ny, nz)};
+      ++slice_.planes;
+      if (proven_ == index) ++proven_;
+      if (separates(index, column)) return last_ = index;
+    }
+  }
+
+  // What is left of a candidate's offset when the extent of a cell along its normal is taken off.
+  void weigh() noexcept {
+    constexpr float cell = static_cast<float>(SK_CELL_MM);
+    const Four nothing = four(0.0F);
+    for (int i = 0; i < plane_candidates; i += 4) {
+      const FourInt place = FourInt{0, 1, 2, 3} + i, in_use = place < candidates_.count;
+      const Four nx = __builtin_convertvector(load4(candidates_.nx + i) & in_use, Four), ny = __builtin_convertvector(load4(candidates_.ny + i) & in_use, Four);
+      store4(nx_ + i, nx);
+      store4(ny_ + i, ny);
+      store4(nz_ + i, __builtin_convertvector(load4(candidates_.nz + i) & in_use, Four));
+      store4(bias_ + i, in_use ? load4(candidates_.offset + i) - four(cell) * (most4(nx, nothing) + most4(ny, nothing)) : four(-1e30F));
+    }
+    for (bool& t : tried_) t = false;
+    weighed_ = true;
+  }
+
+  sk_slice& slice_;
+  const PlaneCandidates& candidates_;
   int last_ = 0;
+  int proven_ = 1; // planes below this index hold; the level one is not asked for here
+  bool weighed_ = false;
+  alignas(16) float nx_[plane_candidates], ny_[plane_candidates], nz_[plane_candidates], bias_[plane_candidates];
+  bool tried_[plane_candidates];
 };
 
 // Cells that the rules except for this slice.
 class Exceptions {
 public:
-  Exceptions(const sk_slice& slice, const Bounds& bounds, const sk_clearance_rules& rules) noexcept
+  Exceptions(const sk_slice& slice, int32_t z_low_mm, const sk_clearance_rules& rules) noexcept
       : boom_(slice.link == 1), radius_squared_(static_cast<int64_t>(rules.own_body_radius_mm) * rules.own_body_radius_mm) {
     const int32_t zones = rules.dig_allowed ? std::clamp(rules.dig_zones, 0, BERM_DIG_ZONES) : 0;
     for (int32_t i = 0; i < zones; ++i)
-      if (bounds.low[2] >= rules.dig_zone[i].floor_mm) zone_[zones_++] = rules.dig_zone[i];
+      if (z_low_mm >= rules.dig_zone[i].floor_mm) zone_[zones_++] = rules.dig_zone[i];
   }
 
   bool own_body(int32_t x, int32_t y) const noexcept {
@@ -93,6 +113,7 @@ public:
   }
 
   bool boom() const noexcept { return boom_; }
+  bool any_zone() const noexcept { return zones_ > 0; }
 
   bool dig_zone(int32_t x, int32_t y, int32_t top) const noexcept {
     for (int i = 0; i < zones_; ++i)
@@ -115,41 +136,54 @@ bool planes_in_range(const sk_slice& slice) noexcept {
   return true;
 }
 
+
 } // namespace
 
-bool choose_planes(const sk_height_map& map, const sk_slice& slice, const sk_clearance_rules& rules, sk_choice& choice) noexcept {
+bool choose_planes(const sk_height_map& map, const sk_columns& columns, const sk_clearance_rules& rules, const PlaneCandidates& candidates, sk_slice& slice,
+                   sk_choice& choice) noexcept {
   if (!planes_in_range(slice)) return false;
-  sk_rectangle cells;
-  if (!sk_slice_rectangle(&slice, &cells)) return false;
-  const Bounds bounds = bounds_of(slice);
+  sk_footprint footprint;
+  if (!sk_slice_footprint(&slice, &footprint)) return false;
+  const sk_rectangle& cells = footprint.cells;
   const std::size_t row_cells = static_cast<std::size_t>(cells.ix_high - cells.ix_low + 1);
   for (int32_t iy = cells.iy_low; iy <= cells.iy_high; ++iy) std::memset(&choice.plane_of[iy][cells.ix_low], 0, row_cells);
 
-  const Exceptions exceptions(slice, bounds, rules);
-  PlaneSearch search(slice);
-  const int64_t oldest_us = std::max<int64_t>(0, rules.now_us - rules.fresh_us);
-  const int64_t under = slice.plane[0].nx == 0 && slice.plane[0].ny == 0 && slice.plane[0].nz == 1 ? slice.plane[0].d : INT64_MIN;
-
-  const int32_t body = rules.own_body_radius_mm;
-  const bool over_body = bounds.low[0] < body && bounds.high[0] > -body && bounds.low[1] < body && bounds.high[1] > -body;
+  const Exceptions exceptions(slice, footprint.z_low_mm, rules);
+  PlaneSearch search(slice, candidates);
+  const bool bodied = rules.own_body_radius_mm > 0;
+  const int32_t z_low = footprint.z_low_mm;
   for (int32_t iy = cells.iy_low; iy <= cells.iy_high; ++iy) {
     const int32_t y = SK_MAP_ORIGIN_MM + iy * SK_CELL_MM;
+    const int32_t* row = columns.top_mm[iy];
     for (int32_t ix = cells.ix_low; ix <= cells.ix_high; ++ix) {
-      const int64_t top = static_cast<int64_t>(std::max(map.height_mm[iy][ix], map.previous_mm[iy][ix])) + rules.margin_mm;
-      const int64_t seen_us = map.seen_us[iy][ix];
-      const bool observed = seen_us >= oldest_us && seen_us <= rules.now_us;
+      const int32_t top = row[ix];
+      if (top < z_low && !bodied) continue; // nearly always
       const int32_t x = SK_MAP_ORIGIN_MM + ix * SK_CELL_MM;
-      const bool own = over_body && exceptions.own_body(x, y);
-      if (observed && !own && top <= under) continue; // nearly always
+      const bool own = bodied && exceptions.own_body(x, y);
+      if (!own && top < z_low) continue;
       if (own && exceptions.boom()) continue;
-      if ((observed || (rules.dig_stale && seen_us >= 0)) && exceptions.dig_zone(x, y, static_cast<int32_t>(top - rules.margin_mm))) continue;
-      const bool has_top = observed && !own && top <= SK_COORD_MAX_MM;
-      const int plane = search.find(x, y, has_top ? static_cast<int32_t>(std::max<int64_t>(top, -SK_COORD_MAX_MM)) : 0, has_top);
+      if (exceptions.any_zone() && (top != SK_NO_TOP || (rules.dig_stale && map.seen_us[iy][ix] >= 0)) && exceptions.dig_zone(x, y, sk_map_top(&map, iy, ix))) continue;
+      const bool has_top = !own && top <= SK_COORD_MAX_MM;
+      const int plane = search.find({x, y, has_top ? std::max(top, -SK_COORD_MAX_MM) : 0, has_top});
       if (plane == 0) return false;
       choice.plane_of[iy][ix] = static_cast<uint8_t>(plane);
     }
   }
   return true;
+}
+
+bool choose_planes(const sk_height_map& map, const sk_columns& columns, const sk_clearance_rules& rules, SliceSet& set, int i, sk_choice& choice) noexcept {
+  PlaneCandidates candidates;
+  plane_candidates_of(set, i, candidates);
+  return choose_planes(map, columns, rules, candidates, set.slice[i], choice);
+}
+
+sk_clearance_result clear_slice(const sk_height_map& map, const sk_columns& columns, const sk_clearance_rules& rules, SliceSet& set, int i, sk_choice& choice) noexcept {
+  sk_clearance_result result{SK_CLEAR, -1, -1, 0};
+  if (sk_clear_level(&map, &columns, &set.slice[i], &rules)) return result;
+  choose_planes(map, columns, rules, set, i, choice);
+  sk_clear_slice(&map, &set.slice[i], &choice, &rules, &result);
+  return result;
 }
 
 } // namespace berm::kernel

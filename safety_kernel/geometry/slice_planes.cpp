@@ -1,71 +1,52 @@
 #include "geometry/slice_planes.hpp"
 
-#include <Eigen/Core>
-#include <cmath>
+#include <algorithm>
+
+#include "geometry/lanes.hpp"
 
 namespace berm::kernel {
-namespace {
 
-struct Normal {
-  double x, y, z;
-};
-
-Normal operator+(const Normal& a, const Normal& b) noexcept { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-
-void append(PlaneNormals& list, const Normal& n) noexcept {
-  if (list.count >= SK_SLICE_PLANES - 1) return; // one place is the horizontal plane's
-  const double scale = normal_scale / std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
-  list.x[list.count] = scale * n.x;
-  list.y[list.count] = scale * n.y;
-  list.z[list.count] = scale * n.z;
-  ++list.count;
+void plane_candidates_of(const SliceSet& set, int i, PlaneCandidates& out) noexcept {
+  constexpr float upright = 0.02F; // faces closer to upright than this add nothing to the near and far planes
+  constexpr float scale = static_cast<float>(normal_scale);
+  const PartOutline& outline = set.outline[i / set.intervals];
+  const float c = set.cos_swing[i % set.intervals], s = set.sin_swing[i % set.intervals];
+  const Four outward = four(-scale);
+  alignas(16) int32_t x[sweep_directions], y[sweep_directions], z[sweep_directions];
+  alignas(16) float offset[sweep_directions];
+  for (int k = 0; k < sweep_directions; k += 4) {
+    const Four r = outward * load4(outline.normal_r + k);
+    store4(x + k, rounded4(r * four(c)));
+    store4(y + k, rounded4(r * four(s)));
+    store4(z + k, rounded4(outward * load4(outline.normal_z + k)));
+    store4(offset + k, outward * load4(outline.offset_mm + k));
+  }
+  // sides: (sin half, -+cos half) turned by the swing; near and far: (+-1, 0)
+  const Four upright_x = four(scale) * (Four{set.sin_half, set.sin_half, 1.0F, -1.0F} * four(c) - Four{-set.cos_half, set.cos_half, 0.0F, 0.0F} * four(s));
+  const Four upright_y = four(scale) * (Four{set.sin_half, set.sin_half, 1.0F, -1.0F} * four(s) + Four{-set.cos_half, set.cos_half, 0.0F, 0.0F} * four(c));
+  store4(out.nx, rounded4(upright_x));
+  store4(out.ny, rounded4(upright_y));
+  store4(out.nz, FourInt{0, 0, 0, 0});
+  store4(out.offset, four(scale) * Four{-outline.side_offset_mm, -outline.side_offset_mm, outline.x_low_mm, -outline.x_high_mm});
+  out.count = upright_candidates;
+  for (int k = 0; k < sweep_directions; ++k) {
+    if (outline.normal_z[k] > -upright || out.count + 3 > plane_candidates) continue;
+    for (const int side : {-1, 0, 1}) { // the face itself, and with the left and the right side
+      const int to = out.count++;
+      out.nx[to] = x[k] + (side < 0 ? 0 : out.nx[side]);
+      out.ny[to] = y[k] + (side < 0 ? 0 : out.ny[side]);
+      out.nz[to] = z[k];
+      out.offset[to] = offset[k] + (side < 0 ? 0.0F : out.offset[side]);
+    }
+  }
 }
 
-int32_t nearest(double value) noexcept { return static_cast<int32_t>(value < 0.0 ? value - 0.5 : value + 0.5); }
-
-using Row = Eigen::Array<double, SK_SLICE_VERTICES, 1>;
-
-} // namespace
-
-PlaneNormals plane_normals(double side_tan, const Direction* outline, int directions) noexcept {
-  constexpr double upright = 0.02; // faces closer to upright than this add nothing to the near and far planes
-  const double side_cos = 1.0 / std::sqrt(1.0 + side_tan * side_tan);
-  const Normal left{side_tan * side_cos, -side_cos, 0.0};
-  const Normal right{side_tan * side_cos, side_cos, 0.0};
-  PlaneNormals list;
-  append(list, left);
-  append(list, right);
-  append(list, {1.0, 0.0, 0.0});
-  append(list, {-1.0, 0.0, 0.0});
-  for (int i = 0; i < directions; ++i) {
-    if (outline[i].z > -upright) continue;
-    const Normal face{-outline[i].r, 0.0, -outline[i].z};
-    append(list, face);
-    append(list, face + left);
-    append(list, face + right);
+int64_t plane_offset(const sk_slice& slice, int32_t nx, int32_t ny, int32_t nz) noexcept {
+  int64_t least = INT64_MAX;
+  for (int i = 0; i < slice.vertices; ++i) {
+    least = std::min(least, static_cast<int64_t>(nx) * slice.xyz_mm[0][i] + static_cast<int64_t>(ny) * slice.xyz_mm[1][i] + static_cast<int64_t>(nz) * slice.xyz_mm[2][i]);
   }
-  return list;
-}
-
-void set_planes(sk_slice& slice, const PlaneNormals& normals, double cos_swing, double sin_swing) noexcept {
-  // Integers below 2^53 throughout: double is exact here, and vectorises where int64 does not.
-  Row x, y, z;
-  for (int i = 0; i < SK_SLICE_VERTICES; ++i) {
-    const int32_t* v = slice.vertex_mm[i < slice.vertices ? i : 0];
-    x[i] = v[0];
-    y[i] = v[1];
-    z[i] = v[2];
-  }
-  slice.plane[0] = {0, 0, 1, static_cast<int64_t>(z.minCoeff()) - 1};
-  slice.planes = 1;
-  for (int i = 0; i < normals.count; ++i) {
-    sk_plane& plane = slice.plane[slice.planes++];
-    plane.nx = nearest(normals.x[i] * cos_swing - normals.y[i] * sin_swing);
-    plane.ny = nearest(normals.x[i] * sin_swing + normals.y[i] * cos_swing);
-    plane.nz = nearest(normals.z[i]);
-    const double nx = plane.nx, ny = plane.ny, nz = plane.nz;
-    plane.d = static_cast<int64_t>((nx * x + ny * y + nz * z).minCoeff()) - 1;
-  }
+  return least - 1;
 }
 
 } // namespace berm::kernel

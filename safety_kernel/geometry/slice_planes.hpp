@@ -2,29 +2,28 @@
 #ifndef BERM_KERNEL_GEOMETRY_SLICE_PLANES_HPP
 #define BERM_KERNEL_GEOMETRY_SLICE_PLANES_HPP
 
-#include "core/clearance.h"
-#include "geometry/part_sweep.hpp"
+#include "geometry/swept_slices.hpp"
 
 namespace berm::kernel {
 
-// Components of normals lie within +-normal_scale. Small enough that every product of an orientation test on points within
-// +-SK_COORD_MAX_MM is exact in double; fine enough that a face is met to 0.4 mm at 12 m.
+// Length of a face's normal: fine enough that a face is met to 0.4 mm at 12 m. Bevels have the sum of two.
 inline constexpr int32_t normal_scale = 16384;
+inline constexpr int plane_candidates = 24; // in fours; those in use come first
+inline constexpr int upright_candidates = 4;
 
-// Normals towards the slice, of length normal_scale, in the frame turned to the slice's middle swing angle (y left): the same for
-// all slices of a part. First the upright faces (left side, right side, near, far); then for each direction of the outline that looks
+// Normals towards the slice, in the base frame. First the upright faces (left side, right side, near, far); then for each edge of the outline that looks
 // downward its face, and the bevels between that face and the two sides.
-struct PlaneNormals {
+struct PlaneCandidates {
   int count = 0;
-  double x[SK_SLICE_PLANES], y[SK_SLICE_PLANES], z[SK_SLICE_PLANES];
+  int32_t nx[plane_candidates], ny[plane_candidates], nz[plane_candidates]; // readable beyond count, whatever stands there
+  float offset[plane_candidates]; // n . p of the slice is no less than about this (to a few mm)
 };
 
-// side_tan: tangent of half a slice's swing interval.
-PlaneNormals plane_normals(double side_tan, const Direction* outline, int directions) noexcept;
+// Of slice i of the set.
+void plane_candidates_of(const SliceSet& set, int i, PlaneCandidates& out) noexcept;
 
-// Fills slice.planes and slice.plane from its vertices: horizontal at index 0, then the given normals turned by the swing angle.
-// Each plane has n . v > d for every vertex, with n . v = d + 1 for the nearest.
-void set_planes(sk_slice& slice, const PlaneNormals& normals, double cos_swing, double sin_swing) noexcept;
+// n . v - 1 of the slice's nearest vertex: exactly the greatest d for which every vertex is on the positive side.
+int64_t plane_offset(const sk_slice& slice, int32_t nx, int32_t ny, int32_t nz) noexcept;
 
 } // namespace berm::kernel
 #endif

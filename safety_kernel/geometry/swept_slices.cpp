@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/part_sweep.hpp"
-#include "geometry/reach.hpp"
-#include "geometry/slice_planes.hpp"
+#include "geometry/lanes.hpp"
+#include "geometry/turns.hpp"
 
 // Why a slice covers its share of the sweep.
 //
@@ -24,26 +23,20 @@
 //    each as long as rho <= outline_slack_mm and rho (1 + tan half) <= side_slack_mm.
 // 4. Rounding moves a vertex by at most rho = sqrt(3)/2 mm (plus 1e-9 mm of the sums in double). The support function of the hull of the
 //    moved vertices is at least the old one's less rho, hence at least that of the set of 1 and 2: it is still covered.
+//
+// 2 and 3 are worked out in part_outline.cpp, in floats: their error is under 0.02 mm, which the slack has room for.
 namespace berm::kernel {
 namespace {
 
 constexpr double pi = 3.141592653589793;
 constexpr double rad_per_urad = 1e-6;
 constexpr double sub_interval_rad = 5.0 * pi / 180.0;
-constexpr double outline_slack_mm = 3.0; // 0.87 for rounding; the rest for lengths that the parameter block rounds to the millimetre
-constexpr double side_slack_mm = 2.0;
 constexpr int32_t swing_max_urad = 20000000;
+constexpr float reach_slack_mm = 0.1F; // of the sums in float
 
 struct Swing {
   double low, half; // rad
   int intervals;
-
-  double middle(int i) const noexcept { return low + (2 * i + 1) * half; }
-};
-
-struct Outline {
-  PlaneNormals normals;
-  double x_mm[sweep_directions], z_mm[sweep_directions], side_mm[sweep_directions];
 };
 
 // Half the sub-interval is at most 4.5 degrees: a whole turn covers every swing angle.
@@ -55,77 +48,62 @@ Swing divide(const sk_reach_box& box) noexcept {
   return {low, 0.5 * span / intervals, intervals};
 }
 
-void outline_of(const PartSweep& sweep, double half, Outline& out) noexcept {
-  const double w = sweep.half_width_mm();
-  const double sagitta = 1.0 - std::cos(half);
-  const double farthest = std::max(0.0, sweep.support(direction_of(0.0)));
-  const double behind = std::max(0.0, sweep.support(direction_of(pi)));
-  const double grow_near = farthest * sagitta + w * std::sin(half);
-  const double grow_far = behind * sagitta + w * std::sin(half);
-
-  Direction direction[sweep_directions];
-  double h[sweep_directions];
-  for (int i = 0; i < sweep_directions; ++i) {
-    const Direction u = direction_of(sweep.elevation_mid() + i * (2.0 * pi / sweep_directions));
-    direction[i] = u;
-    h[i] = sweep.support(u) + std::max(grow_far * u.r, -grow_near * u.r) + outline_slack_mm;
+BERM_LANES_CLONES bool place(const PartOutline& outline, float cos_swing, float sin_swing, sk_slice& slice) noexcept {
+  const Four c = four(cos_swing), s = four(sin_swing), limit = four(static_cast<float>(SK_COORD_MAX_MM));
+  FourInt inside = {-1, -1, -1, -1};
+  for (int i = 0; i < sweep_directions; i += 4) {
+    const Four x = load4(outline.x_mm + i), side = load4(outline.side_mm + i);
+    const Four xc = x * c, xs = x * s, sc = side * c, ss = side * s;
+    const Four lx = xc - ss, ly = xs + sc, rx = xc + ss, ry = xs - sc;
+    inside &= (magnitude4(lx) <= limit) & (magnitude4(ly) <= limit) & (magnitude4(rx) <= limit) & (magnitude4(ry) <= limit);
+    const FourInt z = load4(outline.z_mm + i);
+    store4(slice.xyz_mm[0] + i, rounded4(lx));
+    store4(slice.xyz_mm[1] + i, rounded4(ly));
+    store4(slice.xyz_mm[2] + i, z);
+    store4(slice.xyz_mm[0] + sweep_directions + i, rounded4(rx));
+    store4(slice.xyz_mm[1] + sweep_directions + i, rounded4(ry));
+    store4(slice.xyz_mm[2] + sweep_directions + i, z);
   }
-  double back = 0.0;
-  for (int i = 0; i < sweep_directions; ++i) {
-    const int j = (i + 1) % sweep_directions;
-    const Direction &u = direction[i], &v = direction[j];
-    const double determinant = u.r * v.z - u.z * v.r; // sin 30
-    out.x_mm[i] = (h[i] * v.z - h[j] * u.z) / determinant;
-    out.z_mm[i] = (h[j] * u.r - h[i] * v.r) / determinant;
-    back = std::max(back, -out.x_mm[i]);
-  }
-  for (int i = 0; i < sweep_directions; ++i)
-    out.side_mm[i] = (out.x_mm[i] + 2.0 * back) * std::tan(half) + w / std::cos(half) + side_slack_mm;
-  out.normals = plane_normals(std::tan(half), direction, sweep_directions);
-}
-
-bool to_grid(double value, int32_t& out) noexcept {
-  if (!(std::fabs(value) <= SK_COORD_MAX_MM)) return false;
-  out = static_cast<int32_t>(value < 0.0 ? value - 0.5 : value + 0.5); // to the nearest; inline where lround is a call
-  return true;
-}
-
-bool place(const Outline& outline, double swing, int link, sk_slice& slice) noexcept {
-  const double c = std::cos(swing), s = std::sin(swing);
-  slice.link = link;
+  if (!all4(inside)) return false;
+  slice.link = outline.link;
   slice.vertices = SK_SLICE_VERTICES;
-  for (int i = 0; i < sweep_directions; ++i) {
-    const double x = outline.x_mm[i], y = outline.side_mm[i];
-    int32_t* left = slice.vertex_mm[2 * i];
-    int32_t* right = slice.vertex_mm[2 * i + 1];
-    if (!to_grid(x * c - y * s, left[0]) || !to_grid(x * s + y * c, left[1]) || !to_grid(outline.z_mm[i], left[2])) return false;
-    if (!to_grid(x * c + y * s, right[0]) || !to_grid(x * s - y * c, right[1])) return false;
-    right[2] = left[2];
-  }
-  set_planes(slice, outline.normals, c, s);
+  slice.planes = 1;
+  slice.plane[0] = {0, 0, 1, outline.z_low_mm - 1};
   return true;
 }
 
 } // namespace
 
-bool build_slices(const berm_parameters& parameters, const sk_reach_box& box, SliceSet& out) noexcept {
+bool build_slices(const ImplementShape& shape, const sk_reach_box& box, SliceSet& out) noexcept {
   out.count = 0;
-  out.max_reach_mm = max_reach_mm(parameters, box);
-  if (out.max_reach_mm < 0) return false; // has checked every part and the boxes of boom, stick and bucket
+  if (shape.parts == 0) return false;
   if (box.low_urad[0] > box.high_urad[0] || box.low_urad[0] < -swing_max_urad || box.high_urad[0] > swing_max_urad) return false;
-
+  static_assert(swing_sub_intervals % 4 == 0);
   const Swing swing = divide(box);
+  BoxSweep sweep;
+  if (!sweep.set(box, swing.half)) return false;
+  double middle[swing_sub_intervals];
+  for (int i = 0; i < (swing.intervals + 3) / 4 * 4; ++i) middle[i] = swing.low + (2 * i + 1) * swing.half;
+  turns(middle, swing.intervals, out.cos_swing, out.sin_swing);
+  out.intervals = swing.intervals;
+  out.cos_half = sweep.cos_half();
+  out.sin_half = sweep.sin_half();
+  float reach_squared = 0.0F;
   int32_t count = 0;
-  for (int part = 0; part < parameters.parts; ++part) {
-    PartSweep sweep;
-    if (!sweep.set(parameters, box, part)) return false;
-    Outline outline;
-    outline_of(sweep, swing.half, outline);
+  for (int part = 0; part < shape.parts; ++part) {
+    PartOutline& outline = out.outline[part];
+    if (!sweep.outline(shape, part, outline)) return false;
+    reach_squared = std::max(reach_squared, outline.reach_squared);
     for (int i = 0; i < swing.intervals; ++i, ++count)
-      if (!place(outline, swing.middle(i), sweep.link(), out.slice[count])) return false;
+      if (!place(outline, out.cos_swing[i], out.sin_swing[i], out.slice[count])) return false;
   }
+  out.max_reach_mm = static_cast<int32_t>(std::sqrt(reach_squared) + reach_slack_mm) + 1;
   out.count = count;
   return true;
+}
+
+bool build_slices(const berm_parameters& parameters, const sk_reach_box& box, SliceSet& out) noexcept {
+  return build_slices(ImplementShape(parameters), box, out);
 }
 
 } // namespace berm::kernel

@@ -5,23 +5,30 @@
 #include "config/parameter_block.h"
 #include "core/clearance.h"
 #include "core/reach_box.h"
+#include "geometry/part_outline.hpp"
 
 namespace berm::kernel {
 
-inline constexpr int sweep_directions = SK_SLICE_VERTICES / 2; // edges of a slice's outline in the swing plane
-inline constexpr int swing_sub_intervals = 40;                 // most; wanted are at most 5 degrees each
+inline constexpr int swing_sub_intervals = 40; // most; wanted are at most 5 degrees each
 inline constexpr int slice_capacity = BERM_PARTS * swing_sub_intervals;
 
 // 180 kB: lives in static or preallocated storage, never on a small stack.
 struct SliceSet {
   int32_t count = 0;
   int32_t max_reach_mm = 0; // no implement point over the box is farther from the swing axis
+  int32_t intervals = 0;    // slice i is of part i / intervals, and of swing interval i % intervals
+  float cos_half = 1.0F, sin_half = 0.0F; // of half a swing interval
+  float cos_swing[swing_sub_intervals], sin_swing[swing_sub_intervals]; // of an interval's middle
+  PartOutline outline[BERM_PARTS];
   sk_slice slice[slice_capacity];
 };
 
 // Every point of every part (with its width) lies, at every joint position in the box, in the convex hull of the integer vertices of some
-// slice. Slices stand part by part, from the swing's low end to its high end. Each carries its separating-plane candidates, horizontal first.
+// slice. Slices stand part by part, from the swing's low end to its high end. Each has the level plane below it (planes == 1); the planes that the map
+// asks for are added by the search (separation.hpp).
 // False, with count 0, where parameters or box are malformed or a vertex would leave +-SK_COORD_MAX_MM; the caller must then block.
+bool build_slices(const ImplementShape& shape, const sk_reach_box& box, SliceSet& out) noexcept;
+// The same for a machine that is asked about once.
 bool build_slices(const berm_parameters& parameters, const sk_reach_box& box, SliceSet& out) noexcept;
 
 } // namespace berm::kernel

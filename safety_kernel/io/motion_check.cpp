@@ -27,7 +27,7 @@ std::int32_t cell_centre_mm(std::int32_t index) { return SK_MAP_ORIGIN_MM + inde
 
 }  // namespace
 
-MotionCheck::MotionCheck(const berm_parameters& parameters) : parameters_(parameters), rules_{}, choice_{} {
+MotionCheck::MotionCheck(const berm_parameters& parameters) : parameters_(parameters), shape_(parameters), rules_{}, columns_{}, choice_{} {
   rules_.fresh_us = parameters.fresh_us;
   rules_.margin_mm = parameters.margin_mm;
   rules_.dig_zones = parameters.dig_zones;
@@ -80,13 +80,11 @@ void MotionCheck::note_cell(const sk_height_map& map, const sk_slice& slice, con
   verdict.blocked_height_mm = inside && map.seen_us[result.iy][result.ix] >= 0 ? sk_map_top(&map, result.iy, result.ix) : 0;
 }
 
-std::uint8_t MotionCheck::clear_one(const sk_height_map& map, const SliceSet& slices, std::int32_t index, sk_clearance_result& result, MotionVerdict& verdict) {
+std::uint8_t MotionCheck::clear_one(const sk_height_map& map, SliceSet& slices, std::int32_t index, sk_clearance_result& result, MotionVerdict& verdict) {
   const sk_slice& slice = slices.slice[index];
   rules_.own_body_radius_mm = slice.link == BERM_BOOM ? own_and_rim_radius_mm(parameters_) : 0;  // the map has the columns
   // The search may fail or be wrong: what it chose is only a claim, which the core checks.
-  choose_planes(map, slice, rules_, choice_);
-  result = sk_clearance_result{};
-  sk_clear_slice(&map, &slice, &choice_, &rules_, &result);
+  result = clear_slice(map, columns_, rules_, slices, index, choice_);
   ++verdict.slices;
   verdict.cells += result.cells;
   return result.verdict == SK_CLEAR ? static_cast<std::uint8_t>(BERM_STOP_NONE) : reason_of(result.verdict);
@@ -94,7 +92,7 @@ std::uint8_t MotionCheck::clear_one(const sk_height_map& map, const SliceSet& sl
 
 std::uint8_t MotionCheck::clear(const MotionQuery& query, const sk_height_map& map, const sk_reach_box& box, SliceSet& slices, bool creeping,
                                 MotionVerdict& verdict) {
-  if (!build_slices(parameters_, box, slices)) return BERM_STOP_INTERNAL;
+  if (!build_slices(shape_, box, slices)) return BERM_STOP_INTERNAL;
   rules_.now_us = query.now_us;
   rules_.dig_stale = creeping;  // else a bucket that stood in a pit, which hides the ground before it, could never leave
   rules_.dig_allowed = box.speed_urad_s[BERM_SWING] <= parameters_.dig_swing_limit_urad_s;
@@ -114,7 +112,7 @@ std::uint8_t MotionCheck::judge(const MotionQuery& query, const sk_height_map& m
   const bool bounded = reach(query, c, box);
   if (&slices == &request_slices_) verdict.box = box;
   if (!bounded || !joints_within(box, c)) {
-    if (!build_slices(parameters_, box, slices)) slices.count = 0;  // for observers only
+    if (!build_slices(shape_, box, slices)) slices.count = 0;  // for observers only
     return BERM_STOP_JOINT_RANGE;
   }
   const std::uint8_t reason = clear(query, map, box, slices, creeping, verdict);
@@ -167,7 +165,7 @@ std::int64_t MotionCheck::room_ahead(const MotionQuery& query, const sk_height_m
   sk_reach_box ahead = verdict.box;
   ahead.low_urad[BERM_SWING] = static_cast<std::int32_t>(from);
   ahead.high_urad[BERM_SWING] = static_cast<std::int32_t>(to);
-  if (!build_slices(parameters_, ahead, other_slices_)) return std::llabs(certified - angle);
+  if (!build_slices(shape_, ahead, other_slices_)) return std::llabs(certified - angle);
   const std::int32_t intervals = other_slices_.count / parameters_.parts;
   for (std::int32_t near = 0; near < intervals; ++near) {
     for (std::int32_t part = 0; part < parameters_.parts; ++part) {
@@ -194,8 +192,14 @@ void MotionCheck::govern_swing(const MotionQuery& query, const sk_height_map& ma
 
 void MotionCheck::check(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
   verdict = MotionVerdict{};
-  verdict.permission = Permission::kFull;
   request_slices_.count = 0;
+  rules_.now_us = query.now_us;
+  if (!sk_columns_of(&map, &rules_, &columns_)) {
+    verdict.permission = Permission::kHeld;
+    verdict.reason = BERM_STOP_INTERNAL;
+    return;
+  }
+  verdict.permission = Permission::kFull;
   verdict.reason = judge(query, map, commands(query, 100, false), request_slices_, false, verdict);
   if (verdict.reason == BERM_STOP_NONE) {
     govern_swing(query, map, verdict);

@@ -10,6 +10,7 @@
 #include "config/parameter_block.h"
 #include "contract/berm_contract.h"
 #include "core/clearance.h"
+#include "core/columns.h"
 #include "core/governor.h"
 #include "core/reach_box.h"
 #include "geometry/swept_slices.hpp"
@@ -57,7 +58,7 @@ class MotionCheck {
   // Box of the commands; false where it cannot be bounded (speed or reach beyond the braking table).
   bool reach(const MotionQuery& query, const Commands& commands, sk_reach_box& box) const;
   bool joints_within(const sk_reach_box& box, const Commands& commands) const;
-  std::uint8_t clear_one(const sk_height_map& map, const SliceSet& slices, std::int32_t index, sk_clearance_result& result, MotionVerdict& verdict);
+  std::uint8_t clear_one(const sk_height_map& map, SliceSet& slices, std::int32_t index, sk_clearance_result& result, MotionVerdict& verdict);
   std::uint8_t clear(const MotionQuery& query, const sk_height_map& map, const sk_reach_box& box, SliceSet& slices, bool creeping, MotionVerdict& verdict);
   Commands commands(const MotionQuery& query, std::int32_t percent, bool creeping) const;
   std::uint8_t judge(const MotionQuery& query, const sk_height_map& map, const Commands& commands, SliceSet& slices, bool creeping, MotionVerdict& verdict);
@@ -68,9 +69,11 @@ class MotionCheck {
   void note_cell(const sk_height_map& map, const sk_slice& slice, const sk_clearance_result& result, MotionVerdict& verdict) const;
 
   const berm_parameters& parameters_;
+  const ImplementShape shape_;
   sk_clearance_rules rules_{};
   SliceSet request_slices_;
   SliceSet other_slices_;  // of the room ahead, or of a slower request
+  sk_columns columns_;
   sk_choice choice_;
 };
 

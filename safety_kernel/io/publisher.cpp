@@ -82,7 +82,8 @@ void Publisher::slices(const SliceSet& slices) {
     berm_slice& to = segment_.slice[i];
     to.link = static_cast<std::uint32_t>(from.link);
     to.vertices = static_cast<std::uint32_t>(from.vertices);
-    std::memcpy(to.vertex_mm, from.vertex_mm, sizeof to.vertex_mm);
+    for (int v = 0; v < SK_SLICE_VERTICES; ++v)
+      for (int axis = 0; axis < 3; ++axis) to.vertex_mm[v][axis] = from.xyz_mm[axis][v];
   }
 }
 

@@ -37,9 +37,9 @@ sk_slice point_slice(std::int32_t x, std::int32_t y, std::int32_t z) {
   sk_slice s{};
   s.link = 3;
   s.vertices = 1;
-  s.vertex_mm[0][0] = x;
-  s.vertex_mm[0][1] = y;
-  s.vertex_mm[0][2] = z;
+  s.xyz_mm[0][0] = x;
+  s.xyz_mm[1][0] = y;
+  s.xyz_mm[2][0] = z;
   s.planes = 1;
   return s;
 }
@@ -69,8 +69,8 @@ TEST_F(ClearanceGrid, EverySmallPlaneAboutOneCell) {
 // verifies: SK-CL-5, SK-CL-6
 TEST_F(ClearanceGrid, EveryUprightPlaneBetweenTwoCells) {
   sk_slice s = block_slice(3, {10, 20, 10, 20, 0, 500});
-  s.vertex_mm[8][0] = 310;  // the slice is a wedge into cell (52, 53)
-  s.vertex_mm[8][1] = 10;
+  s.xyz_mm[0][8] = 310;  // the slice is a wedge into cell (52, 53)
+  s.xyz_mm[1][8] = 10;
   s.vertices = 9;
   for (int nx = -3; nx <= 3; ++nx)
     for (int ny = -3; ny <= 3; ++ny)
@@ -141,9 +141,9 @@ TEST_F(ClearanceGrid, EveryRectangleAboutTheMapsCorners) {
           for (const int y1 : offsets) {
             sk_slice s = point_slice(corner * (15600 + x0), corner * (15600 + y0), 1000);
             s.vertices = 2;
-            s.vertex_mm[1][0] = corner * (15600 + x1);
-            s.vertex_mm[1][1] = corner * (15600 + y1);
-            s.vertex_mm[1][2] = 1000;
+            s.xyz_mm[0][1] = corner * (15600 + x1);
+            s.xyz_mm[1][1] = corner * (15600 + y1);
+            s.xyz_mm[2][1] = 1000;
             s.plane[0] = {0, 0, 1, 999};
             const sk_clearance_result out = expect_as_said(s);
             const bool beyond = std::max({x0, x1, y0, y1}) >= 0;

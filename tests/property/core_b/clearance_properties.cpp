@@ -16,13 +16,13 @@
 namespace berm::core_test {
 namespace {
 
-std::int64_t side(const sk_plane& p, const std::int32_t (&v)[3]) {
-  return std::int64_t{p.nx} * v[0] + std::int64_t{p.ny} * v[1] + std::int64_t{p.nz} * v[2];
+std::int64_t side(const sk_plane& p, const sk_slice& s, int i) {
+  return std::int64_t{p.nx} * s.xyz_mm[0][i] + std::int64_t{p.ny} * s.xyz_mm[1][i] + std::int64_t{p.nz} * s.xyz_mm[2][i];
 }
 
 std::int64_t least_side(const sk_slice& s, const sk_plane& p) {
-  std::int64_t least = side(p, s.vertex_mm[0]);
-  for (int i = 1; i < s.vertices; ++i) least = std::min(least, side(p, s.vertex_mm[i]));
+  std::int64_t least = side(p, s, 0);
+  for (int i = 1; i < s.vertices; ++i) least = std::min(least, side(p, s, i));
   return least;
 }
 
@@ -44,8 +44,8 @@ sk_slice random_slice() {
   const std::int32_t size = draw(0, 1500);
   for (int i = 0; i < s.vertices; ++i)
     for (int axis = 0; axis < 3; ++axis) {
-      s.vertex_mm[i][axis] = centre[axis] + draw(-size, size);
-      if (chance(15)) s.vertex_mm[i][axis] = s.vertex_mm[i][axis] / 300 * 300;
+      s.xyz_mm[axis][i] = centre[axis] + draw(-size, size);
+      if (chance(15)) s.xyz_mm[axis][i] = s.xyz_mm[axis][i] / 300 * 300;
     }
   s.plane[s.planes++] = {0, 0, 1, 0};
   s.plane[0].d = least_side(s, s.plane[0]) - 1;
@@ -54,8 +54,8 @@ sk_slice random_slice() {
 }
 
 std::int32_t lowest(const sk_slice& s) {
-  std::int32_t low = s.vertex_mm[0][2];
-  for (int i = 1; i < s.vertices; ++i) low = std::min(low, s.vertex_mm[i][2]);
+  std::int32_t low = s.xyz_mm[2][0];
+  for (int i = 1; i < s.vertices; ++i) low = std::min(low, s.xyz_mm[2][i]);
   return low;
 }
 
@@ -68,7 +68,7 @@ sk_clearance_rules random_rules(const sk_slice& s) {
   r.dig_zones = draw(0, BERM_DIG_ZONES);
   for (int i = 0; i < r.dig_zones; ++i) {
     berm_dig_zone& z = r.dig_zone[i];
-    const std::int32_t x = s.vertex_mm[0][0], y = s.vertex_mm[0][1];
+    const std::int32_t x = s.xyz_mm[0][0], y = s.xyz_mm[1][0];
     z = {x - draw(0, 3000), y - draw(0, 3000), x + draw(0, 3000), y + draw(0, 3000), lowest(s) + draw(-500, 100), lowest(s) + draw(-1000, 1500)};
     if (chance(50)) z = {z.x_low_mm / 300 * 300, z.y_low_mm / 300 * 300, z.x_high_mm / 300 * 300, z.y_high_mm / 300 * 300, z.floor_mm, z.ceiling_mm};
   }
@@ -119,7 +119,7 @@ void choose_at_random(const sk_height_map& map, const sk_slice& s, const sk_clea
 // No point of a clear slice is in a column, own body under the boom and soil to dig excepted. Returns how many columns it is in.
 int expect_apart(const sk_height_map& map, const sk_slice& s, const sk_clearance_rules& r) {
   std::vector<Vector> vertices;
-  for (int i = 0; i < s.vertices; ++i) vertices.push_back({s.vertex_mm[i][0], s.vertex_mm[i][1], s.vertex_mm[i][2]});
+  for (int i = 0; i < s.vertices; ++i) vertices.push_back({s.xyz_mm[0][i], s.xyz_mm[1][i], s.xyz_mm[2][i]});
   const ExactHull hull(vertices);
   int touched = 0;
   const auto [west, east] = std::minmax_element(vertices.begin(), vertices.end());

@@ -56,7 +56,7 @@ Cell cell_at(const sk_height_map& map, const sk_clearance_rules& rules, int32_t 
 bool separates(const sk_slice& slice, const sk_plane& p, const Cell& c) {
   if (p.nz < 0 || (p.nz != 0 && !c.topped)) return false;
   for (int i = 0; i < slice.vertices; ++i)
-    if (int64_t{p.nx} * slice.vertex_mm[i][0] + int64_t{p.ny} * slice.vertex_mm[i][1] + int64_t{p.nz} * slice.vertex_mm[i][2] <= p.d) return false;
+    if (int64_t{p.nx} * slice.xyz_mm[0][i] + int64_t{p.ny} * slice.xyz_mm[1][i] + int64_t{p.nz} * slice.xyz_mm[2][i] <= p.d) return false;
   for (int corner = 0; corner < 4; ++corner) {
     const int64_t x = c.x + (corner & 1) * SK_CELL_MM, y = c.y + (corner >> 1) * SK_CELL_MM;
     if (p.nx * x + p.ny * y + p.nz * (c.topped ? c.top : 0) > p.d) return false;
@@ -72,12 +72,12 @@ double gap_mm(const sk_slice& slice, const Cell& c) {
     int best = 0;
     double least = 1e300;
     for (int i = 0; i < slice.vertices; ++i) {
-      const double d = n[0] * slice.vertex_mm[i][0] + n[1] * slice.vertex_mm[i][1] + n[2] * slice.vertex_mm[i][2];
+      const double d = n[0] * slice.xyz_mm[0][i] + n[1] * slice.xyz_mm[1][i] + n[2] * slice.xyz_mm[2][i];
       if (d < least) { least = d; best = i; }
     }
-    out[0] = slice.vertex_mm[best][0] - (c.x + (n[0] > 0 ? SK_CELL_MM : 0));
-    out[1] = slice.vertex_mm[best][1] - (c.y + (n[1] > 0 ? SK_CELL_MM : 0));
-    out[2] = slice.vertex_mm[best][2] - (n[2] > 0 ? static_cast<double>(c.top) : -40000.0);
+    out[0] = slice.xyz_mm[0][best] - (c.x + (n[0] > 0 ? SK_CELL_MM : 0));
+    out[1] = slice.xyz_mm[1][best] - (c.y + (n[1] > 0 ? SK_CELL_MM : 0));
+    out[2] = slice.xyz_mm[2][best] - (n[2] > 0 ? static_cast<double>(c.top) : -40000.0);
   };
   const double start[3] = {0.0, 0.0, 1.0};
   difference(start, v);
@@ -105,13 +105,13 @@ bool footprints_apart(const sk_slice& slice, const Cell& c) {
     const double length = std::hypot(nx, ny);
     if (length == 0.0) return false;
     double least = 1e300;
-    for (int i = 0; i < slice.vertices; ++i) least = std::min(least, (nx * slice.vertex_mm[i][0] + ny * slice.vertex_mm[i][1]) / length);
+    for (int i = 0; i < slice.vertices; ++i) least = std::min(least, (nx * slice.xyz_mm[0][i] + ny * slice.xyz_mm[1][i]) / length);
     const double most = (nx * (c.x + (nx > 0 ? SK_CELL_MM : 0)) + ny * (c.y + (ny > 0 ? SK_CELL_MM : 0))) / length;
     return least > most + 2.0;
   };
   for (int i = 0; i < slice.vertices; ++i)
     for (int j = 0; j < slice.vertices; ++j)
-      if (apart(slice.vertex_mm[j][1] - slice.vertex_mm[i][1], slice.vertex_mm[i][0] - slice.vertex_mm[j][0])) return true;
+      if (apart(slice.xyz_mm[1][j] - slice.xyz_mm[1][i], slice.xyz_mm[0][i] - slice.xyz_mm[0][j])) return true;
   return false;
 }
 
@@ -119,10 +119,11 @@ struct Tally {
   long slices = 0, separated = 0, cells = 0, slanted = 0, upright = 0, unseparated = 0, needless = 0, own_blocked = 0;
 };
 
-void check_slice(const sk_height_map& map, const sk_slice& slice, const sk_clearance_rules& rules, sk_choice& choice, Tally& tally) {
+void check_slice(const sk_height_map& map, const sk_columns& columns, SliceSet& set, int s, const sk_clearance_rules& rules, sk_choice& choice, Tally& tally) {
+  const sk_slice& slice = set.slice[s];
   sk_rectangle r{};
   if (!sk_slice_rectangle(&slice, &r)) return;
-  const bool all = choose_planes(map, slice, rules, choice);
+  const bool all = choose_planes(map, columns, rules, set, s, choice);
   ++tally.slices;
   tally.separated += all ? 1 : 0;
   bool ended = false, own_blocked = false;
@@ -174,6 +175,7 @@ TEST(Separation, ClaimsOnlyWhatHoldsAndFindsWhatIsThere) {
   const auto set = std::make_unique<SliceSet>();
   const auto map = std::make_unique<sk_height_map>();
   const auto choice = std::make_unique<sk_choice>();
+  const auto columns = std::make_unique<sk_columns>();
   sk_clearance_rules rules{};
   rules.now_us = now_us;
   rules.fresh_us = fresh_us;
@@ -183,10 +185,11 @@ TEST(Separation, ClaimsOnlyWhatHoldsAndFindsWhatIsThere) {
     Tally tally;
     for (int scene = 0; scene < 60; ++scene) {
       random_map(*map, random);
+      ASSERT_TRUE(sk_columns_of(map.get(), &rules, columns.get()));
       for (int pose = 0; pose < 5; ++pose) {
         if (!build_slices(machine.parameters, random_box(machine.parameters, random), *set)) continue;
         for (int s = 0; s < set->count; ++s) {
-          check_slice(*map, set->slice[s], rules, *choice, tally);
+          check_slice(*map, *columns, *set, s, rules, *choice, tally);
           if (HasFatalFailure()) FAIL() << "seed " << seed << " scene " << scene << " pose " << pose << " slice " << s;
         }
       }

@@ -21,7 +21,7 @@ int dig_rule(const sk_height_map& map, const sk_slice& slice, const sk_clearance
     const berm_dig_zone& zone = rules.dig_zone[z];
     if (zone.x_low_mm > low_of_cell_mm(ix) || zone.x_high_mm < low_of_cell_mm(ix + 1)) continue;
     if (zone.y_low_mm > low_of_cell_mm(iy) || zone.y_high_mm < low_of_cell_mm(iy + 1)) continue;
-    const bool above = std::all_of(slice.vertex_mm, slice.vertex_mm + slice.vertices, [&](const std::int32_t (&v)[3]) { return v[2] >= zone.floor_mm; });
+    const bool above = std::all_of(slice.xyz_mm[2], slice.xyz_mm[2] + slice.vertices, [&](std::int32_t z_mm) { return z_mm >= zone.floor_mm; });
     const bool known = current(map, rules, iy, ix) || (rules.dig_stale && map.seen_us[iy][ix] != -1);
     const bool soil = known && map.height_mm[iy][ix] <= zone.ceiling_mm && map.previous_mm[iy][ix] <= zone.ceiling_mm;
     if (!above) found = std::max(found, 1);
@@ -44,8 +44,8 @@ bool within(std::int64_t v, std::int64_t low, std::int64_t high) { return low <=
 bool well_formed(const sk_slice& slice, const sk_clearance_rules& rules) {
   if (!within(slice.link, 1, 3) || !within(slice.vertices, 1, 24) || !within(slice.planes, 1, 24)) return false;
   for (int i = 0; i < slice.vertices; ++i)
-    for (const std::int32_t v : slice.vertex_mm[i])
-      if (!within(v, -32000, 32000)) return false;
+    for (const auto& axis : slice.xyz_mm)
+      if (!within(axis[i], -32000, 32000)) return false;
   for (int k = 0; k < slice.planes; ++k) {
     const sk_plane& p = slice.plane[k];
     for (const std::int32_t n : {p.nx, p.ny, p.nz})
@@ -58,11 +58,10 @@ bool well_formed(const sk_slice& slice, const sk_clearance_rules& rules) {
 
 // Cells along an axis whose closed interval meets the extent of the vertices.
 std::vector<int> cells_under(const sk_slice& slice, int axis) {
-  const auto [low, high] = std::minmax_element(slice.vertex_mm, slice.vertex_mm + slice.vertices,
-                                               [&](const std::int32_t (&a)[3], const std::int32_t (&b)[3]) { return a[axis] < b[axis]; });
+  const auto [low, high] = std::minmax_element(slice.xyz_mm[axis], slice.xyz_mm[axis] + slice.vertices);
   std::vector<int> cells;
   for (int i = -60; i <= 163; ++i)
-    if (low_of_cell_mm(i) <= (*high)[axis] && (*low)[axis] <= low_of_cell_mm(i + 1)) cells.push_back(i);
+    if (low_of_cell_mm(i) <= *high && *low <= low_of_cell_mm(i + 1)) cells.push_back(i);
   return cells;
 }
 
@@ -90,10 +89,10 @@ sk_slice block_slice(std::int32_t link, const Block& b) {
   for (const std::int32_t x : {b.x_low, b.x_high})
     for (const std::int32_t y : {b.y_low, b.y_high})
       for (const std::int32_t z : {b.z_low, b.z_high}) {
-        std::int32_t(&v)[3] = s.vertex_mm[s.vertices++];
-        v[0] = x;
-        v[1] = y;
-        v[2] = z;
+        const int v = s.vertices++;
+        s.xyz_mm[0][v] = x;
+        s.xyz_mm[1][v] = y;
+        s.xyz_mm[2][v] = z;
       }
   s.plane[s.planes++] = {0, 0, 1, b.z_low - 1};
   s.plane[s.planes++] = {1, 0, 0, b.x_low - 1};
@@ -124,7 +123,7 @@ bool separates(const sk_height_map& map, const sk_slice& slice, const sk_clearan
   const sk_plane& p = slice.plane[plane];
   const auto side = [&](std::int64_t x, std::int64_t y, std::int64_t z) { return Wide{p.nx} * x + Wide{p.ny} * y + Wide{p.nz} * z; };
   for (int i = 0; i < slice.vertices; ++i)
-    if (side(slice.vertex_mm[i][0], slice.vertex_mm[i][1], slice.vertex_mm[i][2]) <= p.d) return false;
+    if (side(slice.xyz_mm[0][i], slice.xyz_mm[1][i], slice.xyz_mm[2][i]) <= p.d) return false;
   const std::int64_t top =
       current(map, rules, iy, ix) ? std::int64_t{std::max(map.height_mm[iy][ix], map.previous_mm[iy][ix])} + rules.margin_mm : kFarAway;
   for (const std::int64_t x : {low_of_cell_mm(ix), low_of_cell_mm(ix + 1)})

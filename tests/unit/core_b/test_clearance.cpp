@@ -17,7 +17,7 @@ sk_slice triangle() {
   s.vertices = 3;
   const std::int32_t corners[3][3] = {{310, 310, 1000}, {605, 310, 1000}, {310, 605, 1000}};
   for (int i = 0; i < 3; ++i)
-    for (int axis = 0; axis < 3; ++axis) s.vertex_mm[i][axis] = corners[i][axis];
+    for (int axis = 0; axis < 3; ++axis) s.xyz_mm[axis][i] = corners[i][axis];
   s.plane[5] = {-1, -1, 0, -915 - 1};
   return s;
 }

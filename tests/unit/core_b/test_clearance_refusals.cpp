@@ -75,10 +75,10 @@ TEST_F(ClearanceRefusals, Counts) {
 TEST_F(ClearanceRefusals, Coordinates) {
   for (int vertex = 0; vertex < 8; ++vertex)
     for (int axis = 0; axis < 3; ++axis) {
-      for (const std::int32_t v : {kMin32, -32001, 32001, kMax32}) expect_invalid([&](sk_slice& s) { s.vertex_mm[vertex][axis] = v; }, false);
-      for (const std::int32_t v : {-32000, 32000}) expect_valid([&](sk_slice& s) { s.vertex_mm[vertex][axis] = v; });
+      for (const std::int32_t v : {kMin32, -32001, 32001, kMax32}) expect_invalid([&](sk_slice& s) { s.xyz_mm[axis][vertex] = v; }, false);
+      for (const std::int32_t v : {-32000, 32000}) expect_valid([&](sk_slice& s) { s.xyz_mm[axis][vertex] = v; });
     }
-  expect_valid([](sk_slice& s) { s.vertex_mm[8][0] = kMax32; });  // not in use
+  expect_valid([](sk_slice& s) { s.xyz_mm[0][8] = kMax32; });  // not in use
 }
 
 // verifies: SK-CL-11

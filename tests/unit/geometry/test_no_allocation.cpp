@@ -68,6 +68,7 @@ TEST(NoAllocation, InACycle) {
   const auto set = std::make_unique<SliceSet>();
   const auto map = std::make_unique<sk_height_map>();
   const auto choice = std::make_unique<sk_choice>();
+  const auto columns = std::make_unique<sk_columns>();
   for (const Machine& machine : machine_profiles()) {
     const SelfFilter filter(machine.parameters);
     const ScanProjection projection(machine.parameters);
@@ -86,7 +87,8 @@ TEST(NoAllocation, InACycle) {
       if (i % 20 == 0) patchwork(*map, random);
       if (!build_slices(machine.parameters, random_box(machine.parameters, random), *set)) continue;
       slices += set->count;
-      for (int s = 0; s < set->count; ++s) searched += choose_planes(*map, set->slice[s], rules, *choice) ? 1 : 0;
+      if (!sk_columns_of(map.get(), &rules, columns.get())) continue;
+      for (int s = 0; s < set->count; ++s) searched += choose_planes(*map, *columns, rules, *set, s, *choice) ? 1 : 0;
       int32_t angle_urad[4] = {i, i, i, i};
       history.push(1000 * i, angle_urad);
       const JointAngles q = history.at(1000 * i - 500).angles;
@@ -108,6 +110,7 @@ TEST(NoAllocation, InDegenerateTests) {
   const auto set = std::make_unique<SliceSet>();
   const auto map = std::make_unique<sk_height_map>();
   const auto choice = std::make_unique<sk_choice>();
+  const auto columns = std::make_unique<sk_columns>();
   std::mt19937_64 random(seed + 1);
   const Machine machine = machine_profiles().front();
   sk_clearance_rules rules{};
@@ -121,17 +124,20 @@ TEST(NoAllocation, InDegenerateTests) {
       sk_rectangle r{};
       sk_slice& slice = set->slice[s];
       if (!sk_slice_rectangle(&slice, &r)) continue;
+      PlaneCandidates candidates;
+      plane_candidates_of(*set, s, candidates);
       sk_map_clear(map.get());
       for (int32_t iy = r.iy_low; iy <= r.iy_high; ++iy)
         for (int32_t ix = r.ix_low; ix <= r.ix_high; ++ix) {
           // the height at which the cell's farthest corner meets slanted plane k, to the millimetre above it
-          const sk_plane& p = slice.plane[5 + (ix + iy) % (slice.planes - 5)];
+          const int k = upright_candidates + (ix + iy) % (candidates.count - upright_candidates);
+          const sk_plane p{candidates.nx[k], candidates.ny[k], candidates.nz[k], plane_offset(slice, candidates.nx[k], candidates.ny[k], candidates.nz[k])};
           const int64_t x = SK_MAP_ORIGIN_MM + ix * SK_CELL_MM + (p.nx > 0 ? SK_CELL_MM : 0), y = SK_MAP_ORIGIN_MM + iy * SK_CELL_MM + (p.ny > 0 ? SK_CELL_MM : 0);
           const int64_t height = (p.d + 1 - p.nx * x - p.ny * y) / p.nz;
           sk_map_insert(map.get(), iy, ix, static_cast<int32_t>(std::clamp<int64_t>(height, -SK_HEIGHT_MAX_MM, SK_HEIGHT_MAX_MM)), now_us - 1000, 1000000);
           touched += p.nx * x + p.ny * y + p.nz * height == p.d + 1 ? 1 : 0;
         }
-      choose_planes(*map, slice, rules, *choice);
+      if (sk_columns_of(map.get(), &rules, columns.get())) choose_planes(*map, *columns, rules, *set, s, *choice);
     }
   }
   // upright sides that pass through the corners of cells: a block on the grid
@@ -139,9 +145,9 @@ TEST(NoAllocation, InDegenerateTests) {
   block.link = 2;
   block.vertices = 8;
   for (int i = 0; i < 8; ++i) {
-    block.vertex_mm[i][0] = i & 1 ? 6000 : 4800;
-    block.vertex_mm[i][1] = i & 2 ? 900 : -900;
-    block.vertex_mm[i][2] = i & 4 ? 2000 : 1000;
+    block.xyz_mm[0][i] = i & 1 ? 6000 : 4800;
+    block.xyz_mm[1][i] = i & 2 ? 900 : -900;
+    block.xyz_mm[2][i] = i & 4 ? 2000 : 1000;
   }
   block.planes = 5;
   block.plane[0] = {0, 0, 1, 999};
@@ -150,7 +156,9 @@ TEST(NoAllocation, InDegenerateTests) {
   block.plane[3] = {0, 16384, 0, -16384 * 900 - 1};
   block.plane[4] = {0, -16384, 0, -16384 * 900 - 1};
   sk_map_clear(map.get());
-  EXPECT_FALSE(choose_planes(*map, block, rules, *choice)); // every cell touches, none is known
+  const PlaneCandidates none{};
+  ASSERT_TRUE(sk_columns_of(map.get(), &rules, columns.get()));
+  EXPECT_FALSE(choose_planes(*map, *columns, rules, none, block, *choice)); // every cell touches, none is known
   EXPECT_EQ(allocations, before) << "seed " << seed + 1;
   EXPECT_GT(touched, 0);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 #include "geometry/slice_planes.hpp"
 
@@ -31,14 +32,27 @@ protected:
     slice.link = link;
     slice.vertices = 8;
     for (int i = 0; i < 8; ++i) {
-      slice.vertex_mm[i][0] = i & 1 ? x1 : x0;
-      slice.vertex_mm[i][1] = i & 2 ? y1 : y0;
-      slice.vertex_mm[i][2] = i & 4 ? z1 : z0;
+      slice.xyz_mm[0][i] = i & 1 ? x1 : x0;
+      slice.xyz_mm[1][i] = i & 2 ? y1 : y0;
+      slice.xyz_mm[2][i] = i & 4 ? z1 : z0;
     }
-    const Direction down[3] = {direction_of(-2.2), direction_of(-1.2), direction_of(-0.6)};
-    set_planes(slice, plane_normals(0.0, down, 3), 1.0, 0.0);
+    slice.planes = 1;
+    slice.plane[0] = {0, 0, 1, z0 - 1};
+    candidates = {};
+    for (const auto& [x, y] : {std::pair{0, -1}, std::pair{0, 1}, std::pair{1, 0}, std::pair{-1, 0}}) offer(x * normal_scale, y * normal_scale, 0);
   }
-  bool choose() { return choose_planes(*map, slice, rules, *choice); }
+  // A normal for the search to try.
+  void offer(int32_t nx, int32_t ny, int32_t nz) {
+    const int k = candidates.count++;
+    candidates.nx[k] = nx;
+    candidates.ny[k] = ny;
+    candidates.nz[k] = nz;
+    candidates.offset[k] = static_cast<float>(plane_offset(slice, nx, ny, nz) + 1);
+  }
+  bool choose() {
+    const auto columns = std::make_unique<sk_columns>();
+    return sk_columns_of(map.get(), &rules, columns.get()) && choose_planes(*map, *columns, rules, candidates, slice, *choice);
+  }
   int32_t verdict() const {
     sk_clearance_result result{};
     sk_clear_slice(map.get(), &slice, choice.get(), &rules, &result);
@@ -52,6 +66,7 @@ protected:
   std::unique_ptr<sk_height_map> map;
   std::unique_ptr<sk_choice> choice;
   sk_slice slice{};
+  PlaneCandidates candidates{};
   sk_clearance_rules rules{};
 };
 
@@ -82,12 +97,13 @@ TEST_F(SeparationUnit, UnknownAndHighCellsBesideTheSliceGetAnUprightPlane) {
   slice.vertices = 8;
   for (int i = 0; i < 8; ++i) {
     const int32_t x = i & 1 ? 6000 : 4000, y = i & 2 ? 300 : -300;
-    slice.vertex_mm[i][0] = static_cast<int32_t>(x * c - y * c);
-    slice.vertex_mm[i][1] = static_cast<int32_t>(x * c + y * c);
-    slice.vertex_mm[i][2] = i & 4 ? 2000 : 1000;
+    slice.xyz_mm[0][i] = static_cast<int32_t>(x * c - y * c);
+    slice.xyz_mm[1][i] = static_cast<int32_t>(x * c + y * c);
+    slice.xyz_mm[2][i] = i & 4 ? 2000 : 1000;
   }
-  const Direction down[1] = {direction_of(-1.5707963267948966)};
-  set_planes(slice, plane_normals(0.0, down, 1), c, c);
+  candidates.count = 0;
+  slice.planes = 1;
+  for (const auto& [x, y] : {std::pair{1, -1}, std::pair{-1, 1}, std::pair{1, 1}, std::pair{-1, -1}}) offer(x * 11585, y * 11585, 0);
   forget(4350, 2750);
   raise(2750, 4350, 5000);
   map->seen_us[cell(2750)][cell(4050)] = now_us - rules.fresh_us - 1; // stale
@@ -140,9 +156,9 @@ TEST_F(SeparationUnit, TouchingIsNotSeparated) {
 // verifies: SK-GE-10
 TEST_F(SeparationUnit, SlantedPlanesClearGroundBelowASlopingFace) {
   block(2, 5000, 10, 8000, 290, 3000, 5000);
-  slice.vertex_mm[0][2] = slice.vertex_mm[2][2] = 600; // near end low
-  const Direction face[1] = {direction_of(std::atan2(-3000.0, 2400.0))}; // outward normal of the face from (5000, 600) to (8000, 3000)
-  set_planes(slice, plane_normals(0.0, face, 1), 1.0, 0.0);
+  slice.xyz_mm[2][0] = slice.xyz_mm[2][2] = 600; // near end low
+  slice.plane[0].d = 599;
+  offer(-2400 * 4, 0, 3000 * 4); // the face from (5000, 600) to (8000, 3000)
   raise(7300, 100, 800);
   EXPECT_TRUE(choose());
   EXPECT_EQ(verdict(), SK_CLEAR);
@@ -197,23 +213,46 @@ TEST_F(SeparationUnit, MalformedSlicesAndSlicesOutOfTheMapAreRefusedUntouched) {
     EXPECT_TRUE(refused());
   }
   slice = good;
-  slice.plane[3].ny = SK_NORMAL_MAX + 1;
+  slice.plane[0].ny = SK_NORMAL_MAX + 1;
   EXPECT_TRUE(refused());
   slice = good;
-  slice.vertex_mm[5][1] = 15700; // past the last cell
+  slice.xyz_mm[1][5] = 15700; // past the last cell
   EXPECT_TRUE(refused());
   slice = good;
-  slice.vertex_mm[5][2] = SK_COORD_MAX_MM + 1;
+  slice.xyz_mm[2][5] = SK_COORD_MAX_MM + 1;
   EXPECT_TRUE(refused());
 }
 
-// A plane whose offset fits no vertex is not trusted by the search either.
+// A plane that the slice came with and that does not hold is not used: it claims to have nearly everything below it.
 // verifies: SK-GE-10
-TEST_F(SeparationUnit, APlaneThatTouchesNoVertexIsNotUsed) {
+TEST_F(SeparationUnit, APlaneThatDoesNotHoldIsNotUsed) {
   raise(5500, 100, 900);
-  for (int k = 1; k < slice.planes; ++k) slice.plane[k].d += 4000000; // claims to have nearly everything below it
+  slice.plane[slice.planes++] = {0, 0, 1, 1000};
+  slice.plane[slice.planes++] = {normal_scale, 0, 0, int64_t{normal_scale} * 6190};
+  EXPECT_FALSE(choose());
+  EXPECT_EQ(plane_at(5500, 100), 0);
+  EXPECT_EQ(verdict(), SK_BLOCKED_COLLISION);
+}
+
+// A candidate's offset is a hint: wrong by metres it costs a plane, and no more.
+// verifies: SK-GE-10
+TEST_F(SeparationUnit, AWrongHintMisleadsNobody) {
+  raise(5500, 100, 900);
+  for (int k = 0; k < candidates.count; ++k) candidates.offset[k] += 4000.0F * normal_scale;
   EXPECT_FALSE(choose());
   EXPECT_EQ(verdict(), SK_BLOCKED_COLLISION);
+}
+
+// verifies: SK-GE-27
+TEST_F(SeparationUnit, PlanesAreAddedOnlyWhereTheyAreNeeded) {
+  EXPECT_TRUE(choose());
+  EXPECT_EQ(slice.planes, 1);
+  block(2, 5110, 10, 6190, 290, 1000, 2000);
+  forget(5000, 100); // beside the block: its square ends at 5100, and it is outside the rectangle
+  EXPECT_TRUE(choose());
+  EXPECT_EQ(slice.planes, 1);
+  block(2, 5100, 10, 6190, 290, 1000, 2000);
+  EXPECT_FALSE(choose());
 }
 
 // verifies: SK-GE-14

@@ -61,7 +61,7 @@ TEST_F(SweptSlicesUnit, OfAStandingPartAreAsWideAsThePart) {
   ASSERT_TRUE(build_slices(parameters, box, *set));
   for (int i = 0; i < set->count; ++i) {
     int32_t widest = 0;
-    for (int v = 0; v < SK_SLICE_VERTICES; ++v) widest = std::max(widest, std::abs(set->slice[i].vertex_mm[v][1]));
+    for (int v = 0; v < SK_SLICE_VERTICES; ++v) widest = std::max(widest, std::abs(set->slice[i].xyz_mm[1][v]));
     EXPECT_GE(widest, parameters.part[i].half_width_mm + 1);
     EXPECT_LE(widest, parameters.part[i].half_width_mm + 3);
   }
@@ -102,23 +102,31 @@ TEST_F(SweptSlicesUnit, RefuseMalformedBoxesAndParameters) {
 }
 
 // verifies: SK-GE-7
-TEST_F(SweptSlicesUnit, CarryPlanesThatHaveEveryVertexStrictlyOnTheirSide) {
+TEST_F(SweptSlicesUnit, HaveCandidatePlanesWithEveryVertexStrictlyOnTheirSide) {
   std::mt19937_64 random(seed);
   for (int n = 0; n < 100; ++n) {
     box = random_box(parameters, random);
     ASSERT_TRUE(build_slices(parameters, box, *set));
     for (int i = 0; i < set->count; ++i) {
-      const sk_slice& s = set->slice[i];
-      ASSERT_GE(s.planes, 8);
-      ASSERT_LE(s.planes, SK_SLICE_PLANES);
+      sk_slice s = set->slice[i];
+      ASSERT_EQ(s.planes, 1); // the rest when it is asked for
+      PlaneCandidates candidates;
+      plane_candidates_of(*set, i, candidates);
+      ASSERT_GE(candidates.count, 7);
+      ASSERT_LE(candidates.count, SK_SLICE_PLANES - 1);
+      for (int k = 0; k < candidates.count; ++k) {
+        const int32_t nx = candidates.nx[k], ny = candidates.ny[k], nz = candidates.nz[k];
+        s.plane[s.planes++] = {nx, ny, nz, plane_offset(s, nx, ny, nz)};
+        ASSERT_NEAR(static_cast<double>(s.plane[k + 1].d), static_cast<double>(candidates.offset[k]), 4.0 * normal_scale) << "the hint is off";
+      }
       int upright = 0, slanted = 0;
       for (int k = 0; k < s.planes; ++k) {
         const sk_plane& p = s.plane[k];
-        ASSERT_LE(std::max({std::abs(p.nx), std::abs(p.ny), std::abs(p.nz)}), normal_scale);
+        ASSERT_LE(std::max({std::abs(p.nx), std::abs(p.ny), std::abs(p.nz)}), 2 * normal_scale);
         ASSERT_GE(p.nz, 0);
         int64_t least = INT64_MAX;
         for (int v = 0; v < s.vertices; ++v)
-          least = std::min(least, int64_t{p.nx} * s.vertex_mm[v][0] + int64_t{p.ny} * s.vertex_mm[v][1] + int64_t{p.nz} * s.vertex_mm[v][2]);
+          least = std::min(least, int64_t{p.nx} * s.xyz_mm[0][v] + int64_t{p.ny} * s.xyz_mm[1][v] + int64_t{p.nz} * s.xyz_mm[2][v]);
         ASSERT_EQ(least, p.d + 1) << "seed " << seed << " plane " << k;
         upright += p.nz == 0 ? 1 : 0;
         slanted += p.nz != 0 && (p.nx != 0 || p.ny != 0) ? 1 : 0;
@@ -144,7 +152,7 @@ TEST_F(SweptSlicesUnit, AreAFunctionOfParametersAndBox) {
   for (int i = 0; i < set->count; ++i) {
     const sk_slice &a = set->slice[i], &b = other->slice[i];
     ASSERT_EQ(a.planes, b.planes);
-    ASSERT_EQ(std::memcmp(a.vertex_mm, b.vertex_mm, sizeof a.vertex_mm), 0);
+    ASSERT_EQ(std::memcmp(a.xyz_mm, b.xyz_mm, sizeof a.xyz_mm), 0);
     for (int k = 0; k < a.planes; ++k) ASSERT_EQ(std::memcmp(&a.plane[k].nx, &b.plane[k].nx, 3 * sizeof(int32_t)) == 0 && a.plane[k].d == b.plane[k].d, true);
   }
 }
