@@ -75,7 +75,9 @@ enum {
   BERM_STOP_MACHINE_FAULT = 13,      /* the machine reports an error of its own: fault */
   BERM_STOP_INTERNAL = 14,           /* a check of the kernel on itself failed: fault */
   BERM_STOP_CLOCK = 15,              /* the cycle came too late or time ran backwards: fault */
-  BERM_STOP_REASONS = 16
+  BERM_STOP_BASE_MOVED = 16,         /* the machine's base tilted or slipped, so that the map no longer fits: latched */
+  BERM_STOP_UNCOMMANDED = 17,        /* a joint moves otherwise than it was ever told to: fault, category 0 */
+  BERM_STOP_REASONS = 18
 };
 
 /* Result of the check of the newest request. */
@@ -230,7 +232,7 @@ typedef struct berm_state_segment {
 BERM_STATIC_ASSERT(sizeof(berm_request) == 64, "request layout");
 BERM_STATIC_ASSERT(offsetof(berm_request, crc32) == sizeof(berm_request) - 4, "the CRC is the last field");
 BERM_STATIC_ASSERT(sizeof(berm_request_segment) == 128, "request segment layout");
-BERM_STATIC_ASSERT(sizeof(berm_state) == 248, "state layout");
+BERM_STATIC_ASSERT(sizeof(berm_state) == 256, "state layout");
 BERM_STATIC_ASSERT(sizeof(berm_scan_block) == 40 + BERM_SCAN_BLOCK_SAMPLES * 18, "scan block layout");
 BERM_STATIC_ASSERT(sizeof(berm_decision) == 176, "decision layout");
 BERM_STATIC_ASSERT(sizeof(berm_slice) == 8 + BERM_SLICE_VERTICES * 12, "slice layout");

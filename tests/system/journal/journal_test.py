@@ -12,7 +12,7 @@ from berm_command import ROOT, load, main, one_clear_line, run
 
 SEED = 20240611  # of the damage below
 scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-journal-"))
-HEAD, FRAME = 552, 16  # cycle record: 128 + state 248 + decision 176
+HEAD, FRAME = 560, 16  # cycle record: 128 + state 256 + decision 176
 seen = {}
 
 
