@@ -111,8 +111,10 @@ class Loop {
   void write_row(std::FILE* trace, double t) {
     const berm_state& s = supervisor_->state();
     const plant::JointState& q = dynamics_.state();
-    fmt::print(trace, "{:.2f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{},{},{},{},{},{},{}\n", t, q.angle[0], q.angle[1], q.angle[2], q.angle[3], q.velocity[0], asked_.joint_velocity_urad_s[0],
+    fmt::print(trace, "{:.2f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{},{},{},{},{},{},{}", t, q.angle[0], q.angle[1], q.angle[2], q.angle[3], q.velocity[0], asked_.joint_velocity_urad_s[0],
                s.commanded_urad_s[0], s.kernel_state, s.stop_reason, s.blocked_x_mm, s.blocked_y_mm, s.blocked_height_mm);
+    for (int j = 0; j < 4; ++j) fmt::print(trace, ",{},{}", s.reach_low_urad[j], s.reach_high_urad[j]);
+    fmt::print(trace, "\n");
   }
 
   const Trial& trial_;
@@ -156,7 +158,9 @@ TrialResult run_trial(const Bench& bench, const Trial& trial, const std::string&
   if (!trace.empty()) {
     file = std::fopen(trace.c_str(), "we");
     if (file == nullptr) throw std::runtime_error("cannot write " + trace);
-    fmt::print(file, "time_s,swing_rad,boom_rad,stick_rad,bucket_rad,swing_rad_s,asked_urad_s,commanded_urad_s,kernel_state,stop_reason,blocked_x_mm,blocked_y_mm,blocked_height_mm\n");
+    fmt::print(file, "time_s,swing_rad,boom_rad,stick_rad,bucket_rad,swing_rad_s,asked_urad_s,commanded_urad_s,kernel_state,stop_reason,blocked_x_mm,blocked_y_mm,blocked_height_mm,"
+                     "reach_low_swing_urad,reach_high_swing_urad,reach_low_boom_urad,reach_high_boom_urad,reach_low_stick_urad,reach_high_stick_urad,"
+                     "reach_low_bucket_urad,reach_high_bucket_urad\n");
   }
   result.kernel = Loop(bench, trial, make_kernel(bench.parameters)).run(file);
   if (file != nullptr && std::fclose(file) != 0) throw std::runtime_error("cannot write " + trace);

@@ -2,19 +2,22 @@
 
 /*@ requires \valid_read(p) && 0 <= joint < SK_JOINTS && 0 <= row < BERM_BRAKE_REACHES;
   @ assigns \nothing;
-  @ ensures \result == true <==>
-  @   (\forall integer k; 0 <= k < BERM_BRAKE_SPEEDS ==> 0 <= p->brake_angle_urad[joint][row][k] <= SK_BRAKE_ANGLE_MAX_URAD);
+  @ ensures \result == true <==> sk_brake_row_fits(p, joint, row);
   @*/
 static bool sk_brakes_ok(const berm_parameters *p, int32_t joint, int32_t row)
 {
+  int32_t before = 0;
   int32_t k;
-  /*@ loop invariant 0 <= k <= BERM_BRAKE_SPEEDS;
+  /*@ loop invariant 0 <= k <= BERM_BRAKE_SPEEDS && before == (k > 0 ? p->brake_angle_urad[joint][row][k - 1] : 0);
     @ loop invariant \forall integer j; 0 <= j < k ==> 0 <= p->brake_angle_urad[joint][row][j] <= SK_BRAKE_ANGLE_MAX_URAD;
-    @ loop assigns k;
+    @ loop invariant \forall integer j; 0 < j < k ==> p->brake_angle_urad[joint][row][j - 1] <= p->brake_angle_urad[joint][row][j];
+    @ loop assigns k, before;
     @ loop variant BERM_BRAKE_SPEEDS - k;
     @*/
   for (k = 0; k < BERM_BRAKE_SPEEDS; k++) {
-    if (p->brake_angle_urad[joint][row][k] < 0 || p->brake_angle_urad[joint][row][k] > SK_BRAKE_ANGLE_MAX_URAD) { return false; }
+    int32_t angle = p->brake_angle_urad[joint][row][k];
+    if (angle < before || angle > SK_BRAKE_ANGLE_MAX_URAD) { return false; }
+    before = angle;
   }
   return true;
 }
@@ -39,29 +42,49 @@ static int64_t sk_way_of(int64_t time_us, int64_t speed_urad_s)
   return (2 * time_us * speed_urad_s + 999999) / 1000000;
 }
 
+/*@ requires 0 <= velocity_max_urad_s <= SK_REACH_SPEED_MAX_URAD_S && 0 <= level < SK_GOVERNOR_LEVELS;
+  @ assigns \nothing;
+  @ ensures \result == sk_level_speed_of(velocity_max_urad_s, level);
+  @ ensures 0 <= \result <= velocity_max_urad_s;
+  @*/
+static int32_t sk_level_speed(int32_t velocity_max_urad_s, int32_t level)
+{
+  int64_t product = (int64_t)velocity_max_urad_s * level;
+  /*@ assert 0 <= velocity_max_urad_s * level <= velocity_max_urad_s * (SK_GOVERNOR_LEVELS - 1); */
+  return (int32_t)(product / (SK_GOVERNOR_LEVELS - 1));
+}
+
 int64_t sk_governor_room(const berm_parameters *p, int32_t joint, int32_t row, int32_t level)
 {
-  int32_t column, speed;
-  int64_t time_us;
+  int32_t next, speed, angle;
+  int64_t time_us, room;
   if (level < 0 || level >= SK_GOVERNOR_LEVELS || !sk_governor_ok(p, joint, row)) { return -1; }
-  column = level + 1 < BERM_BRAKE_SPEEDS ? level + 1 : BERM_BRAKE_SPEEDS - 1;
-  speed = sk_column_speed(p->velocity_max_urad_s[joint], column);
+  next = level + 1 < SK_GOVERNOR_LEVELS ? level + 1 : SK_GOVERNOR_LEVELS - 1;
+  speed = sk_level_speed(p->velocity_max_urad_s[joint], next);
+  angle = sk_brake_angle(p, joint, row, speed);
+  /*@ assert total: 0 <= angle; */
   time_us = (int64_t)p->state_latency_us + p->cycle_us + p->command_latency_us;
   /*@ assert time_us == sk_reach_time_of(p); */
-  return sk_way_of(time_us, speed) + p->brake_angle_urad[joint][row][column] + p->angle_error_urad[joint];
+  room = p->angle_error_urad[joint] + (int64_t)angle + sk_way_of(time_us, speed);
+  /*@ assert entry: sk_brake_entry(p, joint, row, speed, angle); */
+  /*@ assert sum: room == p->angle_error_urad[joint] + angle + sk_twice_way(sk_reach_time_of(p), speed); */
+  /*@ assert room: sk_room_for(p, joint, row, speed, room); */
+  return room;
 }
 
 int32_t sk_governor_level(const berm_parameters *p, int32_t joint, int32_t row, int64_t clear_urad)
 {
   int32_t level;
   /*@ loop invariant 1 <= level <= SK_GOVERNOR_LEVELS;
-    @ loop invariant \forall integer k; 1 <= k < level ==> sk_governor_fits(p, joint, row) && sk_room_of(p, joint, row, k) <= clear_urad;
+    @ loop invariant \forall integer k; 1 <= k < level ==> sk_governor_fits(p, joint, row) && sk_level_clear(p, joint, row, k, clear_urad);
     @ loop assigns level;
     @ loop variant SK_GOVERNOR_LEVELS - level;
     @*/
   for (level = 1; level < SK_GOVERNOR_LEVELS; level++) {
     int64_t room = sk_governor_room(p, joint, row, level);
     if (room < 0 || room > clear_urad) { return level - 1; }
+    /*@ assert room: sk_room_is(p, joint, row, level, room) && room <= clear_urad; */
+    /*@ assert clear: sk_level_clear(p, joint, row, level, clear_urad); */
   }
   return SK_GOVERNOR_LEVELS - 1;
 }
@@ -71,8 +94,8 @@ int32_t sk_governor_speed(const berm_parameters *p, int32_t joint, int32_t level
   int32_t speed, creep;
   if (joint < 0 || joint >= SK_JOINTS || level < 0 || level >= SK_GOVERNOR_LEVELS || !sk_limits_ok(p, joint)) { return 0; }
   if (level == SK_GOVERNOR_LEVELS - 1) { return p->velocity_max_urad_s[joint]; }
-  speed = sk_column_speed(p->velocity_max_urad_s[joint], level) - 3 * p->velocity_error_urad_s[joint];
-  creep = p->creep_velocity_urad_s[joint] > 0 ? p->creep_velocity_urad_s[joint] : 0;
+  speed = sk_level_speed(p->velocity_max_urad_s[joint], level);
+  creep = p->creep_velocity_urad_s[joint];
   return speed > creep ? speed : creep;
 }
 

@@ -5,26 +5,30 @@
 #include "reach_box.h"
 SK_BEGIN
 
-#define SK_GOVERNOR_LEVELS BERM_BRAKE_SPEEDS /* level k: the speed of column k of the braking table; the last is unlimited */
+#define SK_GOVERNOR_LEVELS (4 * (BERM_BRAKE_SPEEDS - 1) + 1) /* four to a column of the braking table; the last is unlimited */
 #define SK_COMMAND_STEP_URAD_S 500           /* commands on the bus have this step */
 
-/*@ logic integer sk_governor_column(integer level) = level + 1 < BERM_BRAKE_SPEEDS ? level + 1 : BERM_BRAKE_SPEEDS - 1;
+/*@ logic integer sk_next_level(integer level) = level + 1 < SK_GOVERNOR_LEVELS ? level + 1 : SK_GOVERNOR_LEVELS - 1;
+  @ logic integer sk_level_speed_of(integer velocity_max, integer level) = velocity_max * level / (SK_GOVERNOR_LEVELS - 1); // rounded down
   @ logic integer sk_twice_way(integer time_us, integer speed) = sk_per_million(2 * time_us * speed);
-  @ // room that a level needs ahead: twice the latency's way and the stop angle, of the next faster column
-  @ logic integer sk_room_of{L}(berm_parameters *p, integer joint, integer row, integer level) =
-  @   \at(p->angle_error_urad[joint], L) + \at(p->brake_angle_urad[joint][row][sk_governor_column(level)], L) +
-  @   sk_twice_way(sk_reach_time_of{L}(p), sk_column_speed_of(\at(p->velocity_max_urad_s[joint], L), sk_governor_column(level)));
+  @ // room that a level needs ahead: twice the latency's way and the stop angle, of the next faster level
+  @ predicate sk_room_for{L}(berm_parameters *p, integer joint, integer row, integer speed, integer room) =
+  @   \exists integer angle; 0 <= angle && sk_brake_entry{L}(p, joint, row, speed, angle) &&
+  @     room == \at(p->angle_error_urad[joint], L) + angle + sk_twice_way(sk_reach_time_of{L}(p), speed);
+  @ predicate sk_room_is{L}(berm_parameters *p, integer joint, integer row, integer level, integer room) =
+  @   sk_room_for{L}(p, joint, row, sk_level_speed_of(\at(p->velocity_max_urad_s[joint], L), sk_next_level(level)), room);
+  @ predicate sk_level_clear{L}(berm_parameters *p, integer joint, integer row, integer level, integer clear) =
+  @   \exists integer room; sk_room_is{L}(p, joint, row, level, room) && room <= clear;
   @ predicate sk_governor_fits{L}(berm_parameters *p, integer joint, integer row) = 0 <= joint < SK_JOINTS && 0 <= row < BERM_BRAKE_REACHES &&
-  @   sk_times_fit{L}(p) && sk_limits_fit{L}(p, joint) &&
-  @   \forall integer k; 0 <= k < BERM_BRAKE_SPEEDS ==> 0 <= \at(p->brake_angle_urad[joint][row][k], L) <= SK_BRAKE_ANGLE_MAX_URAD;
+  @   sk_times_fit{L}(p) && sk_limits_fit{L}(p, joint) && sk_brake_row_fits{L}(p, joint, row);
   @*/
 
 /* Room (urad, from the measured angle) that the level needs, so that a joint told to slow down when its room falls below it need not be
- * stopped: the reach box of the next column and one latency more. -1 where an argument or parameter is out of its range. */
+ * stopped: the reach box of the next level and one latency more. -1 where an argument or parameter is out of its range. */
 /*@ requires \valid_read(p);
   @ assigns \nothing;
   @ ensures invalid: \result == -1 <==> !(0 <= level < SK_GOVERNOR_LEVELS && sk_governor_fits(p, joint, row));
-  @ ensures room: \result != -1 ==> \result == sk_room_of(p, joint, row, level) && 0 <= \result;
+  @ ensures room: \result != -1 ==> sk_room_is(p, joint, row, level, \result) && 0 <= \result;
   @*/
 int64_t sk_governor_room(const berm_parameters *p, int32_t joint, int32_t row, int32_t level);
 
@@ -32,19 +36,20 @@ int64_t sk_governor_room(const berm_parameters *p, int32_t joint, int32_t row, i
 /*@ requires \valid_read(p);
   @ assigns \nothing;
   @ ensures range: 0 <= \result < SK_GOVERNOR_LEVELS;
-  @ ensures found: \forall integer k; 1 <= k <= \result ==> sk_governor_fits(p, joint, row) && sk_room_of(p, joint, row, k) <= clear_urad;
-  @ ensures highest: \result + 1 < SK_GOVERNOR_LEVELS && sk_governor_fits(p, joint, row) ==> sk_room_of(p, joint, row, \result + 1) > clear_urad;
+  @ ensures found: \forall integer k; 1 <= k <= \result ==> sk_governor_fits(p, joint, row) && sk_level_clear(p, joint, row, k, clear_urad);
+  @ ensures highest: \result + 1 < SK_GOVERNOR_LEVELS && sk_governor_fits(p, joint, row) ==>
+  @   \exists integer room; sk_room_is(p, joint, row, \result + 1, room) && room > clear_urad;
   @*/
 int32_t sk_governor_level(const berm_parameters *p, int32_t joint, int32_t row, int64_t clear_urad);
 
-/* Speed (urad/s) that a level permits: that of its column less three times the speed error, so that the reach box stays in the column; the last
- * level velocity_max. Never less than the creep velocity. 0 where level, joint or parameters are out of range. */
+/* Speed (urad/s) that a level permits: its share of velocity_max, never less than the creep velocity. 0 where level, joint or parameters are out
+ * of range. */
 /*@ requires \valid_read(p);
   @ assigns \nothing;
   @ ensures range: 0 <= \result;
   @ ensures last: 0 <= joint < SK_JOINTS && level == SK_GOVERNOR_LEVELS - 1 && sk_limits_fit(p, joint) ==> \result == p->velocity_max_urad_s[joint];
-  @ ensures column: 0 <= joint < SK_JOINTS && 0 <= level < SK_GOVERNOR_LEVELS - 1 && sk_limits_fit(p, joint) ==> \result == sk_most(
-  @   sk_column_speed_of(p->velocity_max_urad_s[joint], level) - 3 * p->velocity_error_urad_s[joint], sk_most(0, p->creep_velocity_urad_s[joint]));
+  @ ensures share: 0 <= joint < SK_JOINTS && 0 <= level < SK_GOVERNOR_LEVELS - 1 && sk_limits_fit(p, joint) ==> \result == sk_most(
+  @   sk_level_speed_of(p->velocity_max_urad_s[joint], level), p->creep_velocity_urad_s[joint]);
   @ ensures invalid: !(0 <= joint < SK_JOINTS && 0 <= level < SK_GOVERNOR_LEVELS) || !sk_limits_fit(p, joint) ==> \result == 0;
   @*/
 int32_t sk_governor_speed(const berm_parameters *p, int32_t joint, int32_t level);

@@ -26,6 +26,7 @@ int32_t sk_column_speed(int32_t velocity_max_urad_s, int32_t column)
   @ assigns \nothing;
   @ ensures -1 <= \result < BERM_BRAKE_SPEEDS;
   @ ensures \result >= 0 ==> sk_first_column(velocity_max_urad_s, speed_urad_s, \result) && speed_urad_s <= velocity_max_urad_s;
+  @ ensures speed_urad_s <= velocity_max_urad_s ==> \result >= 0;
   @*/
 static int32_t sk_brake_column(int32_t velocity_max_urad_s, int32_t speed_urad_s)
 {
@@ -41,16 +42,37 @@ static int32_t sk_brake_column(int32_t velocity_max_urad_s, int32_t speed_urad_s
   return -1;
 }
 
+/*@ requires 0 <= rise <= SK_BRAKE_ANGLE_MAX_URAD && 0 <= way <= width <= 2147483647;
+  @ assigns \nothing;
+  @ ensures \result == sk_share_of(rise, way, width);
+  @ ensures 0 <= \result <= rise;
+  @*/
+static int64_t sk_share(int64_t rise, int64_t way, int64_t width)
+{
+  int64_t share;
+  if (width <= 0) { return rise; }
+  /*@ assert 0 <= rise * way <= SK_BRAKE_ANGLE_MAX_URAD * width; */
+  share = (rise * way + width - 1) / width;
+  return sk_least_of(share, rise);
+}
+
 int32_t sk_brake_angle(const berm_parameters *p, int32_t joint, int32_t row, int32_t speed_urad_s)
 {
-  int32_t column, angle;
+  int32_t column, before, low, high, from, to;
   if (joint < 0 || joint >= SK_JOINTS || row < 0 || row >= BERM_BRAKE_REACHES) { return -1; }
   if (p->velocity_max_urad_s[joint] < 0) { return -1; }
   column = sk_brake_column(p->velocity_max_urad_s[joint], speed_urad_s);
   if (column < 0) { return -1; }
-  angle = p->brake_angle_urad[joint][row][column];
-  if (angle < 0 || angle > SK_BRAKE_ANGLE_MAX_URAD) { return -1; }
-  return angle;
+  before = column > 0 ? column - 1 : 0;
+  low = p->brake_angle_urad[joint][row][before];
+  high = p->brake_angle_urad[joint][row][column];
+  /*@ assert rising: sk_brake_row_fits(p, joint, row) ==> p->brake_angle_urad[joint][row][before] <= p->brake_angle_urad[joint][row][column]; */
+  if (low < 0 || low > high || high > SK_BRAKE_ANGLE_MAX_URAD) { return -1; }
+  from = sk_column_speed(p->velocity_max_urad_s[joint], before);
+  to = sk_column_speed(p->velocity_max_urad_s[joint], column);
+  if (column == 0) { return high; } /* at rest, or moving the other way */
+  /*@ assert from < speed_urad_s <= to; */
+  return (int32_t)(low + sk_share(high - low, (int64_t)speed_urad_s - from, (int64_t)to - from));
 }
 
 bool sk_times_ok(const berm_parameters *p)

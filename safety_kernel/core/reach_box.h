@@ -8,7 +8,8 @@
  *   extent = travel + braking angle of speed              0 when speed <= 0: the joint never moves in this direction
  * each term rounded outward to the microradian. c = velocity_max in SK_REACH_ANY; in SK_REACH_COMMANDED the larger of s and the commands,
  * plus velocity_error, at most velocity_max.
- * Assumed: a joint is never faster than velocity_max, speeds up by no more than acceleration_max, and stops as the braking table says. */
+ * Assumed: a joint is never faster than velocity_max, speeds up by no more than acceleration_max, and stops as the braking table says; between
+ * two of the table's speeds its stop angle is at most on the chord (it is convex in speed: the faster, the more a further rad/s costs). */
 #ifndef SK_REACH_BOX_H
 #define SK_REACH_BOX_H
 #include "least_most.h"
@@ -40,9 +41,20 @@ enum {
   @ predicate sk_first_column(integer velocity_max, integer speed, integer column) =
   @   0 <= column < BERM_BRAKE_SPEEDS && speed <= sk_column_speed_of(velocity_max, column) &&
   @   \forall integer j; 0 <= j < column ==> sk_column_speed_of(velocity_max, j) < speed;
+  @ logic integer sk_column_before(integer column) = column > 0 ? column - 1 : 0;
+  @ // what of the rise between two columns belongs to way of width, rounded up
+  @ logic integer sk_share_of(integer rise, integer way, integer width) = width > 0 ? sk_least((rise * way + width - 1) / width, rise) : rise;
+  @ logic integer sk_chord_of(integer low, integer high, integer before, integer speed, integer at) =
+  @   low + sk_share_of(high - low, speed - before, at - before);
   @ predicate sk_brake_entry{L}(berm_parameters *p, integer joint, integer row, integer speed, integer angle) =
   @   \exists integer column; sk_first_column(\at(p->velocity_max_urad_s[joint], L), speed, column) &&
-  @     angle == \at(p->brake_angle_urad[joint][row][column], L);
+  @     angle == sk_chord_of(\at(p->brake_angle_urad[joint][row][sk_column_before(column)], L), \at(p->brake_angle_urad[joint][row][column], L),
+  @       sk_column_speed_of(\at(p->velocity_max_urad_s[joint], L), sk_column_before(column)), speed,
+  @       sk_column_speed_of(\at(p->velocity_max_urad_s[joint], L), column));
+  @ predicate sk_brake_row_fits{L}(berm_parameters *p, integer joint, integer row) =
+  @   (\forall integer k; 0 <= k < BERM_BRAKE_SPEEDS ==> 0 <= \at(p->brake_angle_urad[joint][row][k], L) <= SK_BRAKE_ANGLE_MAX_URAD) &&
+  @   (\forall integer k; 0 < k < BERM_BRAKE_SPEEDS ==>
+  @     \at(p->brake_angle_urad[joint][row][k - 1], L) <= \at(p->brake_angle_urad[joint][row][k], L));
   @ // a faster joint never has the shorter stop angle
   @ lemma sk_column_monotone: \forall integer velocity_max, slow, fast, i, j;
   @   slow <= fast && sk_first_column(velocity_max, slow, i) && sk_first_column(velocity_max, fast, j) ==> i <= j;
@@ -123,11 +135,13 @@ bool sk_limits_ok(const berm_parameters *p, int32_t joint);
   @*/
 int32_t sk_brake_row(const berm_parameters *p, int32_t reach_mm);
 
-/* Worst-case stop angle of joint for |speed|, row: the first column at or above the speed (rounded up, never interpolated down); -1 when the
- * speed is above the table, or joint, row or the entry out of range. */
+/* Worst-case stop angle of joint for |speed|, row: on the chord from the column below the speed to the first at or above it, rounded up; -1 when the
+ * speed is above the table, joint or row out of range, or the two entries out of range or falling. */
 /*@ requires \valid_read(p);
   @ assigns \nothing;
   @ ensures range: -1 <= \result <= SK_BRAKE_ANGLE_MAX_URAD;
+  @ ensures total: 0 <= joint < SK_JOINTS && 0 <= row < BERM_BRAKE_REACHES && sk_brake_row_fits(p, joint, row) &&
+  @   0 <= speed_urad_s <= p->velocity_max_urad_s[joint] ==> 0 <= \result;
   @ ensures entry: \result >= 0 ==> 0 <= joint < SK_JOINTS && 0 <= row < BERM_BRAKE_REACHES && sk_brake_entry(p, joint, row, speed_urad_s, \result);
   @ ensures within: \result >= 0 ==> speed_urad_s <= p->velocity_max_urad_s[joint];
   @*/

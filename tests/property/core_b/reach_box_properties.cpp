@@ -153,7 +153,7 @@ TEST(ReachBoxProperties, EndsWhereAJointCanGet) {
         if (speed <= 0.0 || way < 0.0) continue;
         ++compared;
         RC_ASSERT(end >= start + way + s.stop_angle_at(speed) - kRounding);
-        RC_ASSERT(end <= start + way + s.stop_angle_at(speed + 2.0) + 9.0);
+        RC_ASSERT(end <= start + way + s.stop_angle_at(speed + 3.0) + 10.0);
       }
       RC_ASSERT(box.speed_urad_s[s.joint] <= fastest + 1.0 + kRounding);
     }
@@ -183,7 +183,7 @@ TEST(ReachBoxProperties, MoreCommandsGiveAWiderBox) {
 
 // verifies: SK-RB-1, SK-RB-2
 TEST(ReachBoxProperties, BrakingTableIsNeverReadTooLow) {
-  EXPECT_TRUE(rc::check("row and angle are those of the next reach and speed", [] {
+  EXPECT_TRUE(rc::check("the row is that of the next reach, the angle on the chord to the next speed", [] {
     const berm_parameters p = chance(30) ? demonstration_machine() : random_parameters();
     const int joint = draw(0, 3), row = draw(0, 3);
     const double velocity_max = p.velocity_max_urad_s[joint];
@@ -191,8 +191,8 @@ TEST(ReachBoxProperties, BrakingTableIsNeverReadTooLow) {
     std::array<double, 8> table{};
     for (std::size_t column = 0; column < 8; ++column) table[column] = p.brake_angle_urad[joint][row][column];
     const std::int32_t angle = sk_brake_angle(&p, joint, row, speed);
-    RC_ASSERT(angle >= stop_angle(table, velocity_max, speed));
-    RC_ASSERT(angle <= stop_angle(table, velocity_max, speed + 1.0));
+    RC_ASSERT(angle >= stop_angle(table, velocity_max, speed) - 1e-6);
+    RC_ASSERT(angle <= stop_angle(table, velocity_max, speed + 1.0) + 1.0);
     RC_ASSERT(sk_brake_angle(&p, joint, row, p.velocity_max_urad_s[joint] + draw(1, 1'000'000)) == -1);
     const std::int32_t reach_mm = draw(0, 15'000), found = sk_brake_row(&p, reach_mm);
     for (int r = 0; r < 4; ++r) RC_ASSERT((p.brake_reach_mm[r] >= reach_mm) == (found >= 0 && r >= found));

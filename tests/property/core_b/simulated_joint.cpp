@@ -49,7 +49,12 @@ void SimulatedJoint::brake(double stop_angle) {
 
 double stop_angle(const std::array<double, 8>& table, double velocity_max, double speed) {
   for (int column = 0; column < 8; ++column)
-    if (velocity_max * column / 7.0 >= std::fabs(speed)) return table[static_cast<std::size_t>(column)];
+    if (velocity_max * column / 7.0 >= std::fabs(speed)) {
+      const auto c = static_cast<std::size_t>(column);
+      if (column == 0) return table[0];
+      const double above = std::fabs(speed) * 7.0 / velocity_max - (column - 1);  // share of the column's width
+      return table[c - 1] + (table[c] - table[c - 1]) * above;
+    }
   return table[7];
 }
 

@@ -51,18 +51,20 @@ TEST_F(ReachBox, RowIsTheFirstThatReachesFarEnough) {
 }
 
 // verifies: SK-RB-2
-TEST_F(ReachBox, BrakeAngleIsThatOfTheNextFasterColumn) {
+TEST_F(ReachBox, BrakeAngleIsOnTheChordToTheNextFasterColumn) {
   EXPECT_EQ(sk_brake_angle(&parameters, 2, 1, kMin32), 2);
   EXPECT_EQ(sk_brake_angle(&parameters, 2, 1, 0), 2);
-  EXPECT_EQ(sk_brake_angle(&parameters, 2, 1, 1), 20'002);
+  EXPECT_EQ(sk_brake_angle(&parameters, 2, 1, 1), 3);  // 0.2 rounded up
+  EXPECT_EQ(sk_brake_angle(&parameters, 2, 1, 50'000), 10'002);
   EXPECT_EQ(sk_brake_angle(&parameters, 2, 1, 100'000), 20'002);
-  EXPECT_EQ(sk_brake_angle(&parameters, 2, 1, 100'001), 40'002);
+  EXPECT_EQ(sk_brake_angle(&parameters, 2, 1, 100'001), 20'003);
+  EXPECT_EQ(sk_brake_angle(&parameters, 2, 1, 199'999), 40'002);
   EXPECT_EQ(sk_brake_angle(&parameters, 3, 3, 700'000), 280'003);
   EXPECT_EQ(sk_brake_angle(&parameters, 3, 3, 700'001), -1);
   EXPECT_EQ(sk_brake_angle(&parameters, 3, 3, kMax32), -1);
   parameters.velocity_max_urad_s[0] = 100;  // column 1 holds up to 14, not 14.28
   EXPECT_EQ(sk_brake_angle(&parameters, 0, 0, 14), 10'000);
-  EXPECT_EQ(sk_brake_angle(&parameters, 0, 0, 15), 20'000);
+  EXPECT_EQ(sk_brake_angle(&parameters, 0, 0, 15), 10'715);  // one of the 14 up to 28
 }
 
 // verifies: SK-RB-2
@@ -78,16 +80,19 @@ TEST_F(ReachBox, BrakeAngleRefusesWhatIsOutOfRange) {
   parameters.brake_angle_urad[2][1][1] = 100'000'001;
   EXPECT_EQ(sk_brake_angle(&parameters, 2, 1, 10), -1);
   parameters.brake_angle_urad[2][1][1] = 100'000'000;
-  EXPECT_EQ(sk_brake_angle(&parameters, 2, 1, 10), 100'000'000);
+  EXPECT_EQ(sk_brake_angle(&parameters, 2, 1, 100'000), 100'000'000);
+  parameters.brake_angle_urad[2][1][0] = 5;
+  parameters.brake_angle_urad[2][1][1] = 4;  // falls
+  EXPECT_EQ(sk_brake_angle(&parameters, 2, 1, 10), -1);
   parameters.velocity_max_urad_s[2] = -1;
   EXPECT_EQ(sk_brake_angle(&parameters, 2, 1, -5), -1);
 }
 
-// Standing: s = 2000, 102000 urad/s after 0.1 s, 10200 - 100000^2 / 2e6 = 5200 on the way, then column 2 of row 1.
+// Standing: s = 2000, 102000 urad/s after 0.1 s, 10200 - 100000^2 / 2e6 = 5200 on the way, then a fifth of that speed, as row 1 has it, and its 2 at rest.
 // verifies: SK-RB-4, SK-RB-8, SK-RB-10
 TEST_F(ReachBox, StandingAnyCommand) {
   ASSERT_TRUE(reach({}));
-  expect_box(500'000 - 1'000 - 5'200 - 40'002, 500'000 + 1'000 + 5'200 + 40'002, 102'000);
+  expect_box(500'000 - 1'000 - 5'200 - 20'402, 500'000 + 1'000 + 5'200 + 20'402, 102'000);
 }
 
 // At 0.65 rad/s upward: s = 652000, capped at 700000: 70000 - 48000^2 / 2e6 = 68848. Downward s = -648000 is still upward after 0.1 s.
@@ -103,10 +108,10 @@ TEST_F(ReachBox, MovingFastAnyCommand) {
 // verifies: SK-RB-4
 TEST_F(ReachBox, TurningRoundAnyCommand) {
   ASSERT_TRUE(reach({2, 1, 500'000, 50'000}));
-  expect_box(500'000 - 1'000 - 200 - 20'002, 500'000 + 1'000 + 10'200 + 40'002, 152'000);
+  expect_box(500'000 - 1'000 - 200 - 10'402, 500'000 + 1'000 + 10'200 + 30'402, 152'000);
   // at 0.06 the way back is longer than the way on: only the braking is left
   ASSERT_TRUE(reach({2, 1, 500'000, 60'000}));
-  expect_box(500'000 - 1'000 - 20'002, 500'000 + 1'000 + 11'200 + 40'002, 162'000);
+  expect_box(500'000 - 1'000 - 8'402, 500'000 + 1'000 + 11'200 + 32'402, 162'000);
 }
 
 // verifies: SK-RB-4
@@ -119,17 +124,17 @@ TEST_F(ReachBox, MeasuredAboveTheLargestWithinTheErrorCountsAsTheLargest) {
 TEST_F(ReachBox, StandingUnderCommands) {
   // c = 30000 + 2000 upward: 3200 - 30000^2 / 2e6 = 2750; c = 10000 + 2000 downward: 1200 - 10000^2 / 2e6 = 1150
   ASSERT_TRUE(reach({2, 1, 500'000, 0, SK_REACH_COMMANDED, -10'000, 30'000}));
-  expect_box(500'000 - 1'000 - 1'150 - 20'002, 500'000 + 1'000 + 2'750 + 20'002, 32'000);
+  expect_box(500'000 - 1'000 - 1'150 - 2'402, 500'000 + 1'000 + 2'750 + 6'402, 32'000);
   // all commands upward: downward only s + error = 4000 is left
   ASSERT_TRUE(reach({2, 1, 500'000, 0, SK_REACH_COMMANDED, 10'000, 30'000}));
-  expect_box(500'000 - 1'000 - 398 - 20'002, 500'000 + 1'000 + 2'750 + 20'002, 32'000);
+  expect_box(500'000 - 1'000 - 398 - 802, 500'000 + 1'000 + 2'750 + 6'402, 32'000);
 }
 
 // verifies: SK-RB-5, SK-RB-7
 TEST_F(ReachBox, MovingUnderCommands) {
   // faster than the commands: c = s + error; downward the joint has no reason to turn: c = -5000 + 2000 < 0
   ASSERT_TRUE(reach({2, 1, 500'000, 8'000, SK_REACH_COMMANDED, 5'000, 6'000}));
-  expect_box(500'000 - 1'000, 500'000 + 1'000 + 1'198 + 20'002, 12'000);
+  expect_box(500'000 - 1'000, 500'000 + 1'000 + 1'198 + 2'402, 12'000);
   // commands beyond the joint's largest speed: capped there
   ASSERT_TRUE(reach({2, 1, 500'000, 650'000, SK_REACH_COMMANDED, 650'000, 5'000'000}));
   expect_box(500'000 - 1'000, 500'000 + 1'000 + 68'848 + 140'002, 700'000);
@@ -143,14 +148,14 @@ TEST_F(ReachBox, EveryTermIsRoundedOutward) {
   parameters.velocity_error_urad_s[2] = 1;
   // s = 1, one more after a microsecond, 2e-6 urad of way counts as 1
   ASSERT_TRUE(reach({}));
-  expect_box(500'000 - 1'000 - 1 - 20'002, 500'000 + 1'000 + 1 + 20'002, 2);
+  expect_box(500'000 - 1'000 - 1 - 3, 500'000 + 1'000 + 1 + 3, 2);
   // from rest at 1 urad/s2 for 1.5 s: 1.125 urad. Speed 1.5 counts as 2, 3 urad; the ramp to 1.5 saves 1.125, counted as 1^2 / 2 = 0
   parameters.state_latency_us = 1'000'000;
   parameters.command_latency_us = 500'000;
   parameters.acceleration_max_urad_s2[2] = 1;
   parameters.velocity_error_urad_s[2] = 0;
   ASSERT_TRUE(reach({}));
-  expect_box(500'000 - 1'000 - 3 - 20'002, 500'000 + 1'000 + 3 + 20'002, 2);
+  expect_box(500'000 - 1'000 - 3 - 3, 500'000 + 1'000 + 3 + 3, 2);
 }
 
 // verifies: SK-RB-3
@@ -158,8 +163,8 @@ TEST_F(ReachBox, OtherJointsAreNotTouched) {
   for (int joint = 0; joint < SK_JOINTS; ++joint) {
     ASSERT_TRUE(reach({joint, 0, 0, 0}));
     sk_reach_box expected = untouched_box();
-    expected.low_urad[joint] = -1'000 - 5'200 - 20'000 - joint;
-    expected.high_urad[joint] = 1'000 + 5'200 + 20'000 + joint;
+    expected.low_urad[joint] = -1'000 - 5'200 - 10'200 - joint;
+    expected.high_urad[joint] = 1'000 + 5'200 + 10'200 + joint;
     expected.speed_urad_s[joint] = 102'000;
     EXPECT_TRUE(same(box, expected)) << joint;
   }
