@@ -75,6 +75,18 @@ int32_t sk_brake_angle(const berm_parameters *p, int32_t joint, int32_t row, int
   return (int32_t)(low + sk_share(high - low, (int64_t)speed_urad_s - from, (int64_t)to - from));
 }
 
+int32_t sk_brake_time(const berm_parameters *p, int32_t joint, int32_t row, int32_t speed_urad_s)
+{
+  int32_t column, time;
+  if (joint < 0 || joint >= SK_JOINTS || row < 0 || row >= BERM_BRAKE_REACHES) { return -1; }
+  if (p->velocity_max_urad_s[joint] < 0) { return -1; }
+  column = sk_brake_column(p->velocity_max_urad_s[joint], speed_urad_s);
+  if (column < 0) { return -1; }
+  time = p->brake_time_us[joint][row][column];
+  if (time < 0 || time > SK_BRAKE_TIME_MAX_US) { return -1; }
+  return time;
+}
+
 bool sk_times_ok(const berm_parameters *p)
 {
   return p->state_latency_us >= 0 && p->state_latency_us <= SK_REACH_LATENCY_MAX_US && p->cycle_us >= 0 &&

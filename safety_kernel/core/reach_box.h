@@ -23,6 +23,7 @@ SK_BEGIN
 #define SK_REACH_ERROR_MAX 1000000 /* of an angle (urad) and of a speed (urad/s) */
 #define SK_REACH_LATENCY_MAX_US 1000000
 #define SK_BRAKE_ANGLE_MAX_URAD 100000000
+#define SK_BRAKE_TIME_MAX_US 100000000
 
 typedef struct sk_reach_box {
   int32_t low_urad[SK_JOINTS];
@@ -55,6 +56,9 @@ enum {
   @   (\forall integer k; 0 <= k < BERM_BRAKE_SPEEDS ==> 0 <= \at(p->brake_angle_urad[joint][row][k], L) <= SK_BRAKE_ANGLE_MAX_URAD) &&
   @   (\forall integer k; 0 < k < BERM_BRAKE_SPEEDS ==>
   @     \at(p->brake_angle_urad[joint][row][k - 1], L) <= \at(p->brake_angle_urad[joint][row][k], L));
+  @ predicate sk_brake_time_entry{L}(berm_parameters *p, integer joint, integer row, integer speed, integer time) =
+  @   \exists integer column; sk_first_column(\at(p->velocity_max_urad_s[joint], L), speed, column) &&
+  @     time == \at(p->brake_time_us[joint][row][column], L);
   @ // a faster joint never has the shorter stop angle
   @ lemma sk_column_monotone: \forall integer velocity_max, slow, fast, i, j;
   @   slow <= fast && sk_first_column(velocity_max, slow, i) && sk_first_column(velocity_max, fast, j) ==> i <= j;
@@ -146,6 +150,16 @@ int32_t sk_brake_row(const berm_parameters *p, int32_t reach_mm);
   @ ensures within: \result >= 0 ==> speed_urad_s <= p->velocity_max_urad_s[joint];
   @*/
 int32_t sk_brake_angle(const berm_parameters *p, int32_t joint, int32_t row, int32_t speed_urad_s);
+
+/* The same of the time from obeying the stop to standstill, in us. */
+/*@ requires \valid_read(p);
+  @ assigns \nothing;
+  @ ensures range: -1 <= \result <= SK_BRAKE_TIME_MAX_US;
+  @ ensures entry: \result >= 0 ==>
+  @   0 <= joint < SK_JOINTS && 0 <= row < BERM_BRAKE_REACHES && sk_brake_time_entry(p, joint, row, speed_urad_s, \result);
+  @ ensures within: \result >= 0 ==> speed_urad_s <= p->velocity_max_urad_s[joint];
+  @*/
+int32_t sk_brake_time(const berm_parameters *p, int32_t joint, int32_t row, int32_t speed_urad_s);
 
 /* Interval of one joint into out->low/high/speed[joint]. Returns false, and changes nothing, when the speed is certainly above velocity_max (the
  * end of the braking table) or an input is out of its range (|angle| <= 10 rad, |velocity| and |commands| <= 5 rad/s, command_low <= command_high

@@ -13,6 +13,7 @@ Cycle::Cycle(const berm_parameters& parameters, bool map_only)
       self_(parameters),
       commands_(parameters.command_latency_us + parameters.state_latency_us + parameters.cycle_us),
       motion_(parameters),
+      motion_watch_(parameters),
       own_cells_(parameters) {
   sk_map_clear(&map_);
   sk_stop_init(&stop_);
@@ -101,6 +102,8 @@ void Cycle::judge_motion(std::int64_t now_us) {
     verdict_ = MotionVerdict{};
     verdict_.permission = Permission::kHeld;
     verdict_.reason = BERM_STOP_STATE_FRAME;
+    motion_fault_ = BERM_STOP_NONE;
+    motion_watch_.lose();
     return;
   }
   MotionQuery query{};
@@ -110,6 +113,7 @@ void Cycle::judge_motion(std::int64_t now_us) {
   std::copy(requested_urad_s_, requested_urad_s_ + SK_JOINTS, query.requested_urad_s);
   commands_.range(now_us, query.under_way_low_urad_s, query.under_way_high_urad_s);
   motion_.check(query, map_, verdict_);
+  motion_fault_ = motion_watch_.check(query, verdict_.box, frames_.angle_us(), frames_.velocity_us());
 }
 
 std::uint8_t Cycle::judge_hold(std::int64_t now_us) const {
@@ -128,6 +132,10 @@ void Cycle::step_stop_logic(const CycleInputs& in) {
   sk_stop_input stop_in{};
   stop_in.now_us = in.now_us;
   supervise(frames_, scans_.health(), app_, in.clock_fault, parameters_, stop_in);
+  if (motion_fault_ != BERM_STOP_NONE) {  // before any other fault: it alone removes power at once
+    stop_in.fault_reason = motion_fault_;
+    stop_in.fault_category_0 = true;
+  }
   hold_reason_ = judge_hold(in.now_us);
   stop_in.hold_reason = hold_reason_;
   stop_in.inputs_ready = inputs_ready(frames_, scans_.health(), parameters_, in.now_us);

@@ -17,6 +17,7 @@
 #include "io/frame_intake.hpp"
 #include "io/frame_output.hpp"
 #include "io/motion_check.hpp"
+#include "io/motion_watch.hpp"
 #include "io/own_cells.hpp"
 #include "io/scan_intake.hpp"
 #include "io/supervision.hpp"
@@ -97,6 +98,7 @@ class Cycle {
   JointHistory joints_;
   CommandHistory commands_;
   MotionCheck motion_;
+  MotionWatch motion_watch_;
   OwnCells own_cells_;
   StandstillWatch standstill_watch_;
   sk_height_map map_;
@@ -116,6 +118,7 @@ class Cycle {
   bool standstill_ = false;
   std::uint8_t hold_reason_ = BERM_STOP_NONE;
   MotionVerdict verdict_{};
+  std::uint8_t motion_fault_ = BERM_STOP_NONE;
   std::int32_t sent_urad_s_[4] = {};
   std::uint32_t map_points_ = 0;
 };

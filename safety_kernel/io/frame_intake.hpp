@@ -33,6 +33,7 @@ class FrameIntake {
   std::uint64_t rejected() const { return rejected_; }
   // True once a usable angle frame came in this cycle or before; when it came.
   std::int64_t angle_us() const { return guard_[kAngle].last_us; }
+  std::int64_t velocity_us() const { return guard_[kVelocity].last_us; }
 
   // Each message of the group was accepted at least once since start.
   bool state_heard() const;     // angle, velocity, machine state, e-stop status

@@ -38,13 +38,21 @@ std::array<double, 4> braking(const DynamicsConfig& config, const ImplementShape
 JointDynamics::JointDynamics(const DynamicsConfig& config, const ImplementShape& shape, std::uint64_t seed, const JointState& start)
     : config_(config), shape_(shape), noise_(seed, 11), state_(start) {}
 
+void JointDynamics::break_joint(const MachineFault& fault) {
+  switch (fault.kind) {
+    case MachineFaultKind::weak_brake: brake_share_[fault.joint] = fault.factor; break;
+    case MachineFaultKind::stuck_valve: valve_sticks_[fault.joint] = true; break;
+    case MachineFaultKind::runaway: driven_[fault.joint] = fault.factor * config_.joint[fault.joint].velocity_max; break;
+  }
+}
+
 std::array<double, 4> JointDynamics::targets(Drive drive, const DigForces& soil) const {
   std::array<double, 4> target{};
   if (drive == Drive::brake) return target;
   double flow = 0.0;
   for (std::size_t j = 0; j < 4; ++j) {
     const JointConfig& joint = config_.joint[j];
-    const double asked = std::clamp(obeyed_[j], -joint.velocity_max, joint.velocity_max);
+    const double asked = std::clamp(driven_[j].value_or(obeyed_[j]), -joint.velocity_max, joint.velocity_max);
     if (std::abs(asked) <= joint.dead_band) continue;
     target[j] = std::clamp(asked * (1.0 + wander_[j]), -joint.velocity_max, joint.velocity_max);
     flow += std::abs(target[j]) / joint.velocity_max;
@@ -95,9 +103,11 @@ void JointDynamics::step(double dt, Drive drive, const std::array<double, 4>& co
         obeyed_[j] = pending_[j].front().velocity;
         pending_[j].pop_front();
       }
+      if (valve_sticks_[j] && !driven_[j] && drive == Drive::obey && std::abs(obeyed_[j]) > config_.joint[j].dead_band) driven_[j] = obeyed_[j];
     }
     const std::array<double, 4> target = targets(drive, soil);
-    const std::array<double, 4> brake_limit = braking(config_, shape_, state_, payload_kg);
+    std::array<double, 4> brake_limit = braking(config_, shape_, state_, payload_kg);
+    for (std::size_t j = 0; j < 4; ++j) brake_limit[j] *= brake_share_[j];
     const double torque_limit = config_.swing_drive_torque / swing_inertia(config_, shape_, state_, payload_kg);
     for (std::size_t j = 0; j < 4; ++j) {
       const double acceleration = config_.joint[j].acceleration;

@@ -5,7 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <optional>
+#include <vector>
 
+#include "plant/machine/machine_fault.hpp"
 #include "plant/machine/plant_profile.hpp"
 #include "plant/machine/seeded_noise.hpp"
 #include "plant/world/world.hpp"
@@ -29,6 +32,10 @@ class JointDynamics {
   // From t to t + dt, obeying a command that arrived by t.
   void step(double dt, Drive drive, const std::array<double, 4>& command, const DigForces& soil, double payload_kg);
   const JointState& state() const { return state_; }
+  // Faults whose time has come act from the next step on, for good.
+  void break_joint(const MachineFault& fault);
+  // Joint's motion no longer follows what is commanded: it runs away, or its valve is stuck.
+  bool out_of_control(std::size_t joint) const { return driven_[joint].has_value(); }
 
  private:
   static constexpr double kSubstep = 0.001;
@@ -47,6 +54,9 @@ class JointDynamics {
   std::array<double, 4> wander_{};          // relative error of the speed reached
   std::array<double, 4> rest_{};            // time left before the motion may turn round
   std::array<double, 4> last_direction_{};  // sign of the last motion
+  std::array<double, 4> brake_share_{1.0, 1.0, 1.0, 1.0};  // of the deceleration that is left
+  std::array<bool, 4> valve_sticks_{};                     // when it is next opened
+  std::array<std::optional<double>, 4> driven_{};          // rad/s, whatever is commanded
   std::int64_t substep_ = 0;
 };
 

@@ -20,6 +20,7 @@ constexpr double kStandstillSpeed = radians(0.5);
 constexpr int kStandstillCycles = 20;
 constexpr double kFarthestClearance = 100.0;  // m, in the trace
 constexpr double kAfterFinish = 1.0;  // s
+constexpr const char* kJointNames[] = {"swing", "boom", "stick", "bucket"};
 constexpr double kAfterLoss = 2.0;    // s at standstill without a peer
 
 const std::string& made_folder(const std::string& path) {
@@ -62,7 +63,14 @@ PlantRun::PlantRun(const Scenario& scenario, const PlantProfile& profile, const 
       peers_(opened(bus_, options.can_address), options.kernel_fd, options.tick_fd, [this](const berm_can_frame& frame) { controller_.receive(frame, now_); }),
       trace_(made_folder(options.out) + "/trace.csv", world_.movers()), kernel_seen_(peers_.kernel()), app_seen_(peers_.app()) {}
 
+void PlantRun::break_machine() {
+  constexpr double kRounding = 1e-6;  // times are multiples of the cycle in floating point
+  for (const MachineFault& fault : scenario_.machine_fault)
+    if (now_ + kRounding >= fault.at_s && now_ + kRounding < fault.at_s + kCycle) dynamics_.break_joint(fault);
+}
+
 void PlantRun::advance(double t) {
+  break_machine();
   controller_.decide(now_, standing_cycles_ > 0);
   const JointState before = dynamics_.state();
   const PanState pan_before = pan_;
@@ -72,6 +80,11 @@ void PlantRun::advance(double t) {
     servo_[i].step(kCycle, goal.goal, goal.rate);
     pan_.angle[i] = servo_[i].angle();
     pan_.velocity[i] = servo_[i].velocity();
+  }
+  for (std::size_t j = 0; j < out_of_control_.size(); ++j) {
+    if (!dynamics_.out_of_control(j) || out_of_control_[j]) continue;
+    out_of_control_[j] = true;
+    record_.fault(t, fmt::format("{} out of control", kJointNames[j]));
   }
   soil_ = world_.step(t, kCycle, dynamics_.state(), before);
   std::vector<berm_scan_packet> packets;

@@ -41,6 +41,7 @@ class PlantRun {
 
  private:
   void advance(double t);
+  void break_machine();
   void send(double t);
   void keep_step();
   void observe(double t);
@@ -77,6 +78,7 @@ class PlantRun {
   PeerState kernel_seen_, app_seen_;
   double finished_at_ = -1.0, alone_since_ = -1.0;
   bool panel_stop_ = false;
+  std::array<bool, 4> out_of_control_{};  // noted
 };
 
 }  // namespace berm::plant

@@ -30,6 +30,25 @@ PanelEvent read_panel(StrictTable t) {
   return event;
 }
 
+MachineFault read_machine_fault(StrictTable t) {
+  MachineFault fault{};
+  const std::string kind = t.choice("kind", {"weak_brake", "stuck_valve", "runaway"});
+  const std::string joint = t.choice("joint", {"swing", "boom", "stick", "bucket"});
+  fault.joint = joint == "swing" ? 0 : joint == "boom" ? 1 : joint == "stick" ? 2 : 3;
+  fault.at_s = t.number("at_s", 0.0, 36000.0);
+  if (kind == "weak_brake") {
+    fault.kind = MachineFaultKind::weak_brake;
+    fault.factor = t.number("factor", 0.05, 1.0);
+  } else if (kind == "runaway") {
+    fault.kind = MachineFaultKind::runaway;
+    fault.factor = t.number("factor", -1.0, 1.0);
+  } else {
+    fault.kind = MachineFaultKind::stuck_valve;
+  }
+  t.finish();
+  return fault;
+}
+
 JointState read_start(StrictTable t, double& ballast_kg) {
   JointState start;
   start.angle[0] = t.degrees("swing_deg", -180.0, 180.0);
@@ -58,6 +77,7 @@ Scenario load_scenario(const std::string& path, const std::string& profiles) {
   double ballast_kg = 0.0;
   scenario.start = read_start(file.table("start"), ballast_kg);
   for (StrictTable& t : file.tables("panel")) scenario.panel.push_back(read_panel(t));
+  for (StrictTable& t : file.tables("machine_fault")) scenario.machine_fault.push_back(read_machine_fault(t));
   scenario.world = read_world(file);
   scenario.world.ballast_kg = ballast_kg;
   file.finish();

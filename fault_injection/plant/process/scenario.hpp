@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "plant/machine/machine_fault.hpp"
 #include "plant/machine/state_frames.hpp"
 #include "plant/process/world_config.hpp"
 #include "plant/world/world.hpp"
@@ -21,6 +22,7 @@ struct Scenario {
   double run_from_s = 0.0;              // the operator's run switch is on from here
   JointState start;
   std::vector<PanelEvent> panel;
+  std::vector<MachineFault> machine_fault;
   WorldConfig world;
 };
 

@@ -60,8 +60,8 @@ constexpr double kMiddle = -40.0 * kPi / 180;
 // verifies: SK-CY-22
 TEST(CycleMotion, AJointNearItsLimitMovesBackAndNotOut) {
   CycleRig rig;
-  ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, kStartLimit));
   rig.machine.angle_rad[kBucket] = kCurled;
+  ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, kStartLimit));
   rig.wanted_urad_s[kBucket] = -200000;
   rig.steps(40);
   EXPECT_EQ(rig.state().commanded_urad_s[kBucket], 0);
@@ -80,10 +80,9 @@ TEST(CycleMotion, AJointNearItsLimitMovesBackAndNotOut) {
 // verifies: SK-CY-23
 TEST(CycleMotion, AStillMachineInABlockedPlaceIsNotStoppedUntilItIsAskedToMoveThere) {
   CycleRig rig;
-  ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, kStartLimit));
-  rig.steps(50);
   rig.machine.angle_rad[kBucket] = kCurled;
-  rig.steps(50);
+  ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, kStartLimit));
+  rig.steps(100);
   EXPECT_EQ(rig.state().kernel_state, BERM_STATE_RUN);
   EXPECT_EQ(rig.state().stop_count[BERM_STOP_JOINT_RANGE], 0U);
   rig.wanted_urad_s[kBucket] = -200000;

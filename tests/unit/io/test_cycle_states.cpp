@@ -177,5 +177,67 @@ TEST_F(CycleStates, ALateCycleIsAFault) {
   EXPECT_TRUE(all_zero(rig.state().commanded_urad_s));
 }
 
+// verifies: SK-MS-20, SK-MS-1
+TEST_F(CycleStates, AJointThatMovesUntoldIsAFaultWithoutPower) {
+  run();
+  rig.steps(20);
+  rig.machine.velocity_rad_s[1] = 0.05;  // less what it loses in a cycle: more than three of the speed's errors (0.3 deg/s each)
+  rig.step();
+  EXPECT_EQ(rig.state().kernel_state, BERM_STATE_FAULT);
+  EXPECT_EQ(rig.state().stop_reason, BERM_STOP_UNCOMMANDED);
+  EXPECT_EQ(rig.state().stop_category, 0);
+  EXPECT_FALSE(rig.machine.heartbeat().enable);
+  EXPECT_EQ(rig.state().stop_count[BERM_STOP_UNCOMMANDED], 1U);
+  rig.steps(60);
+  EXPECT_EQ(rig.state().kernel_state, BERM_STATE_FAULT) << "latched";
+  rig.machine.reset_key = true;
+  EXPECT_TRUE(rig.reach_state(BERM_STATE_RUN, 60));
+}
+
+// verifies: SK-MS-20, SK-MS-3, SK-MS-7
+TEST_F(CycleStates, AJointBeyondItsStopAngleIsAFaultWithoutPower) {
+  run();
+  rig.steps(20);
+  rig.machine.angle_rad[1] += 0.03;  // the boom's column 1 of 0.67 degrees and twice its angle error, 0.17 degrees, less
+  rig.step();
+  EXPECT_EQ(rig.state().kernel_state, BERM_STATE_FAULT);
+  EXPECT_EQ(rig.state().stop_reason, BERM_STOP_BRAKING);
+  EXPECT_EQ(rig.state().stop_category, 0);
+  EXPECT_FALSE(rig.machine.heartbeat().enable);
+  rig.steps(60);
+  rig.machine.reset_key = true;
+  EXPECT_TRUE(rig.reach_state(BERM_STATE_RUN, 60)) << "it stands: nothing is in the way of the reset";
+}
+
+// verifies: SK-MS-21
+TEST_F(CycleStates, SupervisionBeginsWhenNoOlderCommandCanBeInForce) {
+  rig.machine.velocity_rad_s[0] = 0.1;  // a kernel before this one was swinging
+  rig.steps(5);
+  rig.machine.velocity_rad_s[0] = 0.3;  // on a command of its own, at most 0.12 s old when the first reading came
+  rig.steps(10);
+  ASSERT_NE(rig.state().kernel_state, BERM_STATE_FAULT);
+  rig.machine.velocity_rad_s[0] = 0.3;
+  rig.step();
+  EXPECT_EQ(rig.state().kernel_state, BERM_STATE_FAULT);
+  EXPECT_EQ(rig.state().stop_reason, BERM_STOP_UNCOMMANDED);
+}
+
+// verifies: SK-MS-22
+TEST_F(CycleStates, AReadingIsJudgedOnce) {
+  run();
+  rig.wanted_urad_s[1] = 100000;
+  rig.steps(60);
+  ASSERT_GT(rig.machine.velocity_rad_s[1], 0.05);
+  rig.wanted_urad_s[1] = 0;
+  rig.steps(11);
+  // The frames stop while the boom still falls back; the old speed is not held against the commands of now.
+  rig.machine.joints_silent = true;
+  rig.steps(4);
+  EXPECT_EQ(rig.state().stop_reason, BERM_STOP_NONE);
+  rig.machine.joints_silent = false;
+  rig.steps(50);
+  EXPECT_EQ(rig.state().stop_reason, BERM_STOP_NONE);
+}
+
 }  // namespace
 }  // namespace berm::kernel::test

@@ -137,5 +137,59 @@ TEST(JointDynamics, NoCommandSequenceExceedsTheKernelsAccelerationBound) {
   }
 }
 
+// The boom going up at a steady speed, then this for that long.
+struct BrokenBoom {
+  PlantProfile p = profile();
+  JointDynamics d{p.dynamics, p.shape, 1, pose(0, -20, -100, -60)};
+  void run(Drive drive, double boom, double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds / kCycle + 0.5); ++i) d.step(kCycle, drive, {0.0, boom, 0.0, 0.0}, kFree, 0);
+  }
+  double speed() const { return d.state().velocity[1]; }
+  double angle() const { return d.state().angle[1]; }
+};
+
+TEST(MachineFault, AWeakBrakeTakesTheWayByItsShareLonger) {
+  double way[2];
+  for (const bool weak : {false, true}) {
+    BrokenBoom boom;
+    boom.run(Drive::obey, 0.3, 1.5);
+    if (weak) boom.d.break_joint({MachineFaultKind::weak_brake, 1, 0.0, 0.5});
+    const double from = boom.angle();
+    boom.run(Drive::brake, 0.0, 2.0);  // power or not
+    EXPECT_EQ(boom.speed(), 0.0);
+    EXPECT_FALSE(boom.d.out_of_control(1));
+    way[weak ? 1 : 0] = boom.angle() - from;
+  }
+  EXPECT_NEAR(way[1], 2.0 * way[0], 0.001);
+}
+
+TEST(MachineFault, AStuckValveGoesOnUntilPowerIsRemoved) {
+  BrokenBoom boom;
+  boom.d.break_joint({MachineFaultKind::stuck_valve, 1, 0.0, 0.0});
+  boom.run(Drive::obey, 0.0, 0.2);
+  EXPECT_FALSE(boom.d.out_of_control(1)) << "it sticks when it is next opened";
+  boom.run(Drive::obey, 0.3, 1.0);
+  EXPECT_TRUE(boom.d.out_of_control(1));
+  boom.run(Drive::obey, 0.0, 0.5);
+  EXPECT_NEAR(boom.speed(), 0.3, 0.01);
+  boom.run(Drive::obey, -0.3, 0.5);
+  EXPECT_NEAR(boom.speed(), 0.3, 0.01);
+  boom.run(Drive::brake, 0.0, 1.0);
+  EXPECT_EQ(boom.speed(), 0.0);
+}
+
+TEST(MachineFault, ARunawayMovesUntoldUntilPowerIsRemoved) {
+  BrokenBoom boom;
+  boom.run(Drive::obey, 0.0, 0.5);
+  ASSERT_EQ(boom.speed(), 0.0);
+  boom.d.break_joint({MachineFaultKind::runaway, 1, 0.0, 0.5});
+  boom.run(Drive::brake, 0.0, 0.5);
+  EXPECT_EQ(boom.speed(), 0.0) << "not without power";
+  boom.run(Drive::obey, 0.0, 1.0);
+  EXPECT_NEAR(boom.speed(), 0.5 * boom.p.dynamics.joint[1].velocity_max, 0.01);
+  boom.run(Drive::brake, 0.0, 1.0);
+  EXPECT_EQ(boom.speed(), 0.0);
+}
+
 }  // namespace
 }  // namespace berm::plant::testing

@@ -1,0 +1,21 @@
+// Faults of the machine itself, planted by the scenario.
+#pragma once
+
+#include <cstddef>
+
+namespace berm::plant {
+
+enum class MachineFaultKind {
+  weak_brake,   // the joint brakes at a share of its deceleration, power or not
+  stuck_valve,  // the valve stays where it is when the joint is next driven: the joint goes on, whatever is commanded, until power is removed
+  runaway,      // the joint is driven, whatever is commanded, until power is removed
+};
+
+struct MachineFault {
+  MachineFaultKind kind;
+  std::size_t joint;  // 0 swing, 1 boom, 2 stick, 3 bucket
+  double at_s;
+  double factor;      // of the deceleration, or of velocity_max (signed); not used by a stuck valve
+};
+
+}  // namespace berm::plant
