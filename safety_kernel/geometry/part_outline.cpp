@@ -6,7 +6,7 @@
 #include "geometry/lanes.hpp"
 #include "geometry/turns.hpp"
 
-// Everything is done in the frame of the link's mean elevation, where the twelve directions and the part's vertices are constants. A direction's
+// Everything is done in the frame of the link's mean elevation and the part's tilt, where the twelve directions and the part's vertices are constants. A direction's
 // support of an arc of radius R about the mean direction m, half as wide as d, is R where the direction is within d of m, else
 // R cos(angle - d) = (m . u) cos d + |m x u| sin d. The derivation of the outline is in swept_slices.cpp.
 namespace berm::kernel {
@@ -37,6 +37,42 @@ struct ArcHalf {
   }
 };
 
+// A vertex in the frame tilted by the angle.
+void tilted(const int32_t (&corner)[2], double tilt, double& x, double& z) noexcept {
+  const double c = std::cos(tilt), s = std::sin(tilt);
+  x = c * corner[0] + s * corner[1];
+  z = c * corner[1] - s * corner[0];
+}
+
+// Twice the area between the part's support lines in the twelve directions from the tilt on.
+double outline_area(const berm_part& part, double tilt) noexcept {
+  double h[sweep_directions];
+  for (int i = 0; i < sweep_directions; ++i) {
+    h[i] = -1e30;
+    for (int v = 0; v < part.vertices; ++v) {
+      double x, z;
+      tilted(part.vertex_mm[v], tilt, x, z);
+      h[i] = std::max(h[i], x * static_cast<double>(twelve_r[i]) + z * static_cast<double>(twelve_z[i]));
+    }
+  }
+  double area = 0.0;
+  for (int i = 0; i < sweep_directions; ++i) // the edge's length by sin 30
+    area += h[i] * (h[(i + 1) % sweep_directions] + h[(i + sweep_directions - 1) % sweep_directions] - 2.0 * static_cast<double>(half_root_3) * h[i]);
+  return area;
+}
+
+// Of 0 to 29 degrees: the directions come again after 30.
+double best_tilt(const berm_part& part) noexcept {
+  double best = 0.0, least = outline_area(part, 0.0);
+  for (int degree = 1; degree < 30; ++degree) {
+    const double tilt = degree * pi / 180.0, area = outline_area(part, tilt);
+    if (area >= least) continue;
+    least = area;
+    best = tilt;
+  }
+  return best;
+}
+
 } // namespace
 
 ImplementShape::ImplementShape(const berm_parameters& parameters) noexcept
@@ -51,9 +87,13 @@ ImplementShape::ImplementShape(const berm_parameters& parameters) noexcept
     to.link = from.link;
     to.half_width_mm = static_cast<float>(from.half_width_mm);
     to.reach_mm = 0.0F;
+    const double tilt = best_tilt(from);
+    to.tilt_cosine = static_cast<float>(std::cos(tilt));
+    to.tilt_sine = static_cast<float>(std::sin(tilt));
     for (int v = 0; v < BERM_PART_VERTICES; ++v) {
-      const int32_t* corner = from.vertex_mm[std::min(v, from.vertices - 1)];
-      const float x = static_cast<float>(corner[0]), z = static_cast<float>(corner[1]);
+      double tilted_x, tilted_z;
+      tilted(from.vertex_mm[std::min(v, from.vertices - 1)], tilt, tilted_x, tilted_z);
+      const float x = static_cast<float>(tilted_x), z = static_cast<float>(tilted_z);
       Vertex& vertex = to.vertex[v];
       const float radius = std::sqrt(x * x + z * z);
       for (float& r : vertex.radius) r = radius;
@@ -95,7 +135,7 @@ BERM_LANES_CLONES bool BoxSweep::outline(const ImplementShape& shape, int part, 
   const ImplementShape::Part& body = shape.part[part];
   if (body.link == 0) return false;
   const int link = body.link - 1;
-  const float c = cosine_[link], s = sine_[link];
+  const float c = cosine_[link] * body.tilt_cosine - sine_[link] * body.tilt_sine, s = sine_[link] * body.tilt_cosine + cosine_[link] * body.tilt_sine;
 
   Four h[fours];
   const ArcHalf own(cosine_[link + 3], sine_[link + 3]);
@@ -111,7 +151,7 @@ BERM_LANES_CLONES bool BoxSweep::outline(const ImplementShape& shape, int part, 
   for (int i = 0; i < fours; ++i) h[i] += four(pin_along) * load4(twelve_r + 4 * i) + four(pin_up) * load4(twelve_z + 4 * i);
   for (int k = 0; k < link; ++k) {
     const float length = shape.length_mm[k];
-    const float x = length * (cosine_[k] * c + sine_[k] * s), z = length * (sine_[k] * c - cosine_[k] * s); // the link's elevation less this one's
+    const float x = length * (cosine_[k] * c + sine_[k] * s), z = length * (sine_[k] * c - cosine_[k] * s); // the link's elevation less this frame's
     const ArcHalf half(cosine_[k + 3], sine_[k + 3]);
     for (int i = 0; i < fours; ++i) {
       const Four r = load4(twelve_r + 4 * i), up = load4(twelve_z + 4 * i);

@@ -24,8 +24,8 @@ struct PartOutline {
   int32_t link;
 };
 
-// What of the parts' shapes does not change with the joints: worked out once. Of each vertex, in the directions of the outline's edges (which keep to the
-// link), how far it lies along and across.
+// What of the parts' shapes does not change with the joints: worked out once. Of each vertex, in the directions of the outline's edges, how far it lies along
+// and across. The edges keep to the link, tilted against it so that the outline of the part by itself is smallest.
 class ImplementShape {
 public:
   explicit ImplementShape(const berm_parameters& parameters) noexcept;
@@ -36,6 +36,7 @@ public:
   };
   struct Part {
     int32_t link; // 0 where the part is malformed
+    float tilt_cosine, tilt_sine; // of the first edge's normal against the link's x axis
     float half_width_mm, reach_mm; // farthest that a point of the part can ever be from the swing axis, the width left out
     Vertex vertex[BERM_PART_VERTICES]; // the last is repeated
   };

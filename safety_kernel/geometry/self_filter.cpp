@@ -56,7 +56,7 @@ bool SelfFilter::near_outline(const Part& part, const Eigen::Vector2d& in_link) 
 }
 
 bool SelfFilter::is_own(const Eigen::Vector3d& point, const ImplementPose& pose) const noexcept {
-  if (point.z() < body_height_m && std::hypot(point.x(), point.y()) < body_radius_ && std::isfinite(point.z())) return true;
+  if (point.z() < body_height_m && point.x() * point.x() + point.y() * point.y() < body_radius_ * body_radius_ && std::isfinite(point.z())) return true;
   for (int i = 0; i < parts_; ++i) {
     const Part& part = part_[i];
     if (std::fabs(point.y()) > part.half_width) continue;

@@ -41,12 +41,22 @@ void plane_candidates_of(const SliceSet& set, int i, PlaneCandidates& out) noexc
   }
 }
 
-int64_t plane_offset(const sk_slice& slice, int32_t nx, int32_t ny, int32_t nz) noexcept {
-  int64_t least = INT64_MAX;
-  for (int i = 0; i < slice.vertices; ++i) {
-    least = std::min(least, static_cast<int64_t>(nx) * slice.xyz_mm[0][i] + static_cast<int64_t>(ny) * slice.xyz_mm[1][i] + static_cast<int64_t>(nz) * slice.xyz_mm[2][i]);
+// In lanes of doubles, which hold these integers exactly: components within SK_NORMAL_MAX (2^20) times any int32, three of them, stay below 2^53.
+BERM_LANES_CLONES int64_t plane_offset(const sk_slice& slice, int32_t nx, int32_t ny, int32_t nz) noexcept {
+  static_assert(SK_NORMAL_MAX <= (1 << 20));
+  constexpr double farthest = 9007199254740992.0;
+  const double x = nx, y = ny, z = nz;
+  const FourDouble fx = {x, x, x, x}, fy = {y, y, y, y}, fz = {z, z, z, z};
+  FourDouble four_least = {farthest, farthest, farthest, farthest};
+  int i = 0;
+  for (; i + 4 <= slice.vertices; i += 4) {
+    const FourDouble here = fx * __builtin_convertvector(load4(slice.xyz_mm[0] + i), FourDouble) + fy * __builtin_convertvector(load4(slice.xyz_mm[1] + i), FourDouble) +
+                            fz * __builtin_convertvector(load4(slice.xyz_mm[2] + i), FourDouble);
+    four_least = here < four_least ? here : four_least;
   }
-  return least - 1;
+  double least = std::min(std::min(four_least[0], four_least[1]), std::min(four_least[2], four_least[3]));
+  for (; i < slice.vertices; ++i) least = std::min(least, x * slice.xyz_mm[0][i] + y * slice.xyz_mm[1][i] + z * slice.xyz_mm[2][i]);
+  return static_cast<int64_t>(least) - 1;
 }
 
 } // namespace berm::kernel

@@ -65,7 +65,7 @@ void Cycle::take_points(const CycleInputs& in) {
   if (in.footprint_count == 0 || (!map_only_ && joints_.size() == 0)) return;
   const JointAngles angles = joints_.at(in.now_us).angles;
   const ImplementPose pose = self_.pose(angles);
-  const Eigen::AngleAxisd to_upper(-angles.swing, Eigen::Vector3d::UnitZ());
+  const Eigen::Matrix3d to_upper = Eigen::AngleAxisd(-angles.swing, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const auto own = [&](const sk_point& p) { return self_.is_own(to_upper * (Eigen::Vector3d(p.x_mm, p.y_mm, p.z_mm) * 1e-3), pose); };
   for (int i = 0; i < in.footprint_count; ++i) {
     Vlp16Footprint f = in.footprint[i];

@@ -23,6 +23,21 @@ constexpr double kPi = 3.14159265358979323846;
 // Elevation rank of each laser in firing order: -15, 1, -13, 3, -11, 5, -9, 7, -7, 9, -5, 11, -3, 13, -1, 15 degrees.
 constexpr std::uint8_t kChannelOfLaser[kVlp16Channels] = {0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15};
 
+// Of the channels' elevations, -15 to 15 degrees.
+constexpr double kChannelCosine[kVlp16Channels] = {
+    0.9659258262890683, 0.9743700647852352, 0.981627183447664, 0.9876883405951378,
+    0.992546151641322, 0.9961946980917455, 0.9986295347545738, 0.9998476951563913,
+    0.9998476951563913, 0.9986295347545738, 0.9961946980917455, 0.992546151641322,
+    0.9876883405951378, 0.981627183447664, 0.9743700647852352, 0.9659258262890683};
+constexpr double kChannelSine[kVlp16Channels] = {
+    -0.25881904510252074, -0.224951054343865, -0.1908089953765448, -0.15643446504023087,
+    -0.12186934340514748, -0.08715574274765817, -0.05233595624294383, -0.01745240643728351,
+    0.01745240643728351, 0.05233595624294383, 0.08715574274765817, 0.12186934340514748,
+    0.15643446504023087, 0.1908089953765448, 0.224951054343865, 0.25881904510252074};
+
+// To the nearest, for what fits.
+std::int32_t rounded(double v) { return static_cast<std::int32_t>(v < 0.0 ? v - 0.5 : v + 0.5); }
+
 std::uint32_t u16(const std::uint8_t* p) { return static_cast<std::uint32_t>(p[0]) | (static_cast<std::uint32_t>(p[1]) << 8); }
 
 Vlp16Result check(const std::uint8_t* bytes, std::size_t size) {
@@ -79,16 +94,18 @@ Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packe
 }
 
 Vlp16Footprint vlp16_project(const Vlp16Mount& mount, const Vlp16Return& point) {
-  const double elevation = (2.0 * point.channel - 15.0) * kPi / 180.0;
-  const double level = point.range_mm * std::cos(elevation);
-  const std::int32_t z_mm = static_cast<std::int32_t>(std::ceil(mount.z_m * 1e3 + point.range_mm * std::sin(elevation)));
-  const auto edge = [&](double clockwise_mdeg) -> sk_point {
-    const double heading = mount.yaw_rad - clockwise_mdeg * 1e-3 * kPi / 180.0;
-    return {static_cast<std::int32_t>(std::lround(mount.x_m * 1e3 + level * std::cos(heading))),
-            static_cast<std::int32_t>(std::lround(mount.y_m * 1e3 + level * std::sin(heading))), z_mm};
+  const std::size_t channel = point.channel % kVlp16Channels;
+  const double level = point.range_mm * kChannelCosine[channel];
+  const std::int32_t z_mm = static_cast<std::int32_t>(std::ceil(mount.z_m * 1e3 + point.range_mm * kChannelSine[channel]));
+  constexpr double mdeg = 1e-3 * kPi / 180.0;
+  const double heading = mount.yaw_rad - point.azimuth_mdeg * mdeg, aside = point.spread_mdeg * mdeg;
+  const double ahead_x = level * std::cos(heading), ahead_y = level * std::sin(heading);
+  // The edges by their small angle: to 1e-9 rad for all that a packet can say (1.1 degrees).
+  const double square = aside * aside, cosine = 1.0 - square * (0.5 - square / 24.0), sine = aside * (1.0 - square / 6.0);
+  const auto edge = [&](double left) -> sk_point {
+    return {rounded(mount.x_m * 1e3 + ahead_x * cosine - left * ahead_y * sine), rounded(mount.y_m * 1e3 + ahead_y * cosine + left * ahead_x * sine), z_mm};
   };
-  const double azimuth_mdeg = point.azimuth_mdeg, spread_mdeg = point.spread_mdeg;
-  return {edge(azimuth_mdeg - spread_mdeg), edge(azimuth_mdeg + spread_mdeg)};
+  return {edge(1.0), edge(-1.0)};
 }
 
 }  // namespace berm::kernel

@@ -7,6 +7,7 @@
 #include "geometry/reach.hpp"
 #include "geometry/swept_slices.hpp"
 #include "implement_sampler.hpp"
+#include "reach_boxes.hpp"
 
 namespace berm::kernel::test {
 namespace {
@@ -71,6 +72,56 @@ TEST(SweptSlices, CoverTheSweepOfEveryMachineProfile) {
     EXPECT_EQ(tally.missed, 0);
     EXPECT_EQ(tally.refused, 0);
   }
+}
+
+// Every position of the joints, every speed and command, and every width up to the joints' whole ranges; the payload's heap is part of the bucket's outline. A short
+// run by default; the whole is BERM_SAMPLES=100000000 ./berm test -R SlicesSoundness
+// verifies: SK-GE-4
+// verifies: SK-GE-8
+TEST(SlicesSoundness, NoPointOfTheImplementsLiesOutsideAtAnySpeedAndWidth) {
+  const auto machines = compiled_machines();
+  ASSERT_FALSE(machines.empty());
+  const long wanted = sample_count(5000000) / static_cast<long>(machines.size());
+  std::mt19937_64 random(seed + 3);
+  const auto set = std::make_unique<SliceSet>();
+  for (const CompiledMachine& machine : machines) {
+    Tally at_speed, any_width;
+    double widest_degrees[4] = {};
+    while (at_speed.points + any_width.points < wanted && !HasFatalFailure() && at_speed.missed + any_width.missed == 0) {
+      const bool moving = random() % 4 != 0;
+      const sk_reach_box box = moving ? box_at_speed(machine.parameters, uniform(random, 0.0, 1.0), random).box : box_of_any_width(machine.parameters, random);
+      for (int j = 0; j < 4; ++j) widest_degrees[j] = std::max(widest_degrees[j], (box.high_urad[j] - box.low_urad[j]) * 1e-6 * 180.0 / 3.141592653589793);
+      check_box(machine.parameters, box, *set, random, moving ? at_speed : any_width);
+    }
+    std::cout << machine.name << ": seed " << seed + 3 << ", " << at_speed.points + any_width.points << " points outside " << at_speed.missed + any_width.missed << "; " << at_speed.boxes
+              << " boxes of speeds and commands, " << any_width.boxes << " of any width; widest " << widest_degrees[0] << ", " << widest_degrees[1] << ", " << widest_degrees[2] << ", "
+              << widest_degrees[3] << " degrees\n";
+    EXPECT_EQ(at_speed.missed + any_width.missed, 0);
+    EXPECT_EQ(at_speed.refused + any_width.refused, 0);
+    EXPECT_GT(at_speed.boxes, 10);
+    EXPECT_GT(any_width.boxes, 10);
+  }
+}
+
+// The same samples, against slices of a box that ends two degrees short: they are found outside, or the tests above would say nothing.
+TEST(SlicesSoundness, SamplesFindSlicesThatEndTwoDegreesShort) {
+  std::mt19937_64 random(seed + 4);
+  const auto set = std::make_unique<SliceSet>();
+  for (const CompiledMachine& machine : compiled_machines())
+    for (int joint = 0; joint < 4; ++joint) {
+      long outside = 0;
+      for (int i = 0; i < 20; ++i) {
+        const sk_reach_box whole = box_at_speed(machine.parameters, 1.0, random).box;
+        sk_reach_box shorter = whole;
+        shorter.high_urad[joint] = std::max(whole.low_urad[joint], whole.high_urad[joint] - 34907);
+        ASSERT_TRUE(build_slices(machine.parameters, shorter, *set));
+        std::vector<ExactHull> hulls;
+        for (int k = 0; k < set->count; ++k) hulls.emplace_back(set->slice[k]);
+        const ImplementSampler sampler(machine.parameters, whole);
+        for (int k = 0; k < 2000; ++k) outside += covered(hulls, 0, sampler.draw(random)) ? 0 : 1;
+      }
+      EXPECT_GT(outside, 0) << machine.name << ", joint " << joint << ", seed " << seed + 4;
+    }
 }
 
 // Parts behind the axis, links of no length, wide parts, any angle: where the formulas change their sign.

@@ -16,6 +16,12 @@ CycleRig::CycleRig(const berm_parameters& block)
 }
 
 void CycleRig::step() {
+  gather();
+  cycle->step(*in, *out);
+  obey();
+}
+
+void CycleRig::gather() {
   // The app answers the state of the cycle before.
   if (app_talks && machine.cycle() > 0) {
     const berm_request request = berm::test::make_request(++request_sequence_, out->state.time_us, wanted_urad_s);
@@ -29,7 +35,9 @@ void CycleRig::step() {
   for (const auto& frame : extra_frames) in->frame[in->frame_count++] = frame;
   extra_frames.clear();
   for (const auto& packet : machine.packets()) in->packet[in->packet_count++] = packet;
-  cycle->step(*in, *out);
+}
+
+void CycleRig::obey() {
   machine.obey({out->frames.frame, out->frames.frame + out->frames.count});
 }
 

@@ -18,6 +18,9 @@ class CycleRig {
   std::vector<berm_can_frame> extra_frames;  // arrive after the machine's, once
 
   void step();
+  // The same in three: what comes in, the kernel's cycle (cycle->step(*in, *out)), and the machine that obeys.
+  void gather();
+  void obey();
   void steps(int count) {
     for (int i = 0; i < count; ++i) step();
   }

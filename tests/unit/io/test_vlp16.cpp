@@ -182,6 +182,25 @@ TEST(Vlp16, PointsStandWhereTheMountPutsThem) {
   EXPECT_NEAR(aside.y_mm, 2000, 1);
 }
 
+// Every channel, all round, with the widest spread: both edges where plain trigonometry puts them.
+// verifies: SK-CY-53, SK-CY-54
+TEST(Vlp16, EveryChannelsEdgesAreThoseOfPlainTrigonometry) {
+  const Vlp16Mount mount{1.0, -2.0, 3.0, 0.7};
+  for (std::uint8_t channel = 0; channel < kVlp16Channels; ++channel)
+    for (std::uint32_t azimuth = 0; azimuth < 360000; azimuth += 1234)
+      for (const std::uint32_t spread : {0U, 286U, 1086U}) {
+        constexpr std::int32_t kRange = 100000;
+        const Vlp16Footprint f = vlp16_project(mount, {channel, 0, azimuth, spread, kRange});
+        const double elevation = (2.0 * channel - 15.0) * kPi / 180.0, level = kRange * std::cos(elevation);
+        const double left = 0.7 - (azimuth * 1e-3 - spread * 1e-3) * kPi / 180.0, right = 0.7 - (azimuth * 1e-3 + spread * 1e-3) * kPi / 180.0;
+        ASSERT_NEAR(f.left.x_mm, 1000 + level * std::cos(left), 0.501);
+        ASSERT_NEAR(f.left.y_mm, -2000 + level * std::sin(left), 0.501);
+        ASSERT_NEAR(f.right.x_mm, 1000 + level * std::cos(right), 0.501);
+        ASSERT_NEAR(f.right.y_mm, -2000 + level * std::sin(right), 0.501);
+        ASSERT_NEAR(f.left.z_mm, 3000.5 + kRange * std::sin(elevation), 0.501);
+      }
+}
+
 // verifies: SK-CY-54
 TEST(Vlp16, AFootprintIsAsWideAsTheBeamAndOneFiringsTurn) {
   const Vlp16Footprint f = vlp16_project(Vlp16Mount{}, {8, 0, 0, 286, 10000});
