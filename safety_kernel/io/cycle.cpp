@@ -36,6 +36,7 @@ void Cycle::step(const CycleInputs& in, CycleOutputs& out) {
   map_points_ += scans_.points() - points_before;
   take_points(in);
   if (!map_only_) {
+    learn_base(in.now_us);
     own_cells_.stamp(map_, in.now_us, parameters_.generation_us);
     take_request(in);
     judge_motion(in.now_us);
@@ -72,6 +73,15 @@ void Cycle::take_points(const CycleInputs& in) {
     if (!map_only_ && own(f.left) && own(f.right)) continue;
     if (sk_raster_segment(&map_, &f.left, &f.right, in.now_us, parameters_.generation_us) > 0) ++map_points_;
   }
+}
+
+void Cycle::learn_base(std::int64_t now_us) {
+  sk_base_state& base = frames_.base();
+  const bool reset = frames_.operator_fresh(now_us) && frames_.picture().panel.reset && stop_.latched && stop_.reset_seen_released;
+  const bool learns_anew = base.moved && standstill_ && (reset || stop_.code == SK_STATE_INIT);
+  const bool learnt = (!base.learned || learns_anew) && sk_base_learn(&base, &parameters_, now_us);
+  // The map begins with its reference; while the base has moved nothing is kept, for it may still be moving.
+  if (learnt || base.moved) sk_map_clear(&map_);
 }
 
 void Cycle::take_request(const CycleInputs& in) {
