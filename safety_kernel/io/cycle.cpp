@@ -32,11 +32,13 @@ void Cycle::step(const CycleInputs& in, CycleOutputs& out) {
   const std::uint32_t points_before = scans_.points();
   map_points_ = 0;
   take_frames(in);
+  if (!map_only_) learn_base(in.now_us);
   take_scans(in, out.blocks);
   map_points_ += scans_.points() - points_before;
   take_points(in);
   if (!map_only_) {
-    learn_base(in.now_us);
+    // Nothing is kept while the base has moved, for it may still be moving.
+    if (frames_.base().moved) sk_map_clear(&map_);
     own_cells_.stamp(map_, in.now_us, parameters_.generation_us);
     take_request(in);
     judge_motion(in.now_us);
@@ -79,9 +81,8 @@ void Cycle::learn_base(std::int64_t now_us) {
   sk_base_state& base = frames_.base();
   const bool reset = frames_.operator_fresh(now_us) && frames_.picture().panel.reset && stop_.latched && stop_.reset_seen_released;
   const bool learns_anew = base.moved && standstill_ && (reset || stop_.code == SK_STATE_INIT);
-  const bool learnt = (!base.learned || learns_anew) && sk_base_learn(&base, &parameters_, now_us);
-  // The map begins with its reference; while the base has moved nothing is kept, for it may still be moving.
-  if (learnt || base.moved) sk_map_clear(&map_);
+  // The map begins with its reference.
+  if ((!base.learned || learns_anew) && sk_base_learn(&base, &parameters_, now_us)) sk_map_clear(&map_);
 }
 
 void Cycle::take_request(const CycleInputs& in) {

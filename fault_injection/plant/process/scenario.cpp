@@ -58,6 +58,7 @@ Scenario load_scenario(const std::string& path, const std::string& profiles) {
   double ballast_kg = 0.0;
   scenario.start = read_start(file.table("start"), ballast_kg);
   for (StrictTable& t : file.tables("panel")) scenario.panel.push_back(read_panel(t));
+  scenario.base_motions = read_base_motions(file);
   scenario.world = read_world(file);
   scenario.world.ballast_kg = ballast_kg;
   file.finish();

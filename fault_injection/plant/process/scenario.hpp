@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "plant/machine/state_frames.hpp"
+#include "plant/process/base_motion.hpp"
 #include "plant/process/world_config.hpp"
 #include "plant/world/world.hpp"
 
@@ -21,6 +22,7 @@ struct Scenario {
   double run_from_s = 0.0;              // the operator's run switch is on from here
   JointState start;
   std::vector<PanelEvent> panel;
+  std::vector<BaseMotionConfig> base_motions;
   WorldConfig world;
 };
 
