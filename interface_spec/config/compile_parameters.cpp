@@ -78,6 +78,10 @@ void compile_rules(const MachineFile& m, const SiteFile& site, berm_parameters& 
   p.cycle_us = up(k.cycle, kMicro);
   p.standstill_urad_s = down(k.standstill_speed, kMicro);
   p.standstill_us = up(k.standstill, kMicro);
+  p.base_tilt_urad = down(k.base_tilt, kMicro);
+  p.base_tilt_hard_urad = down(k.base_tilt_hard, kMicro);
+  p.base_azimuth_urad = down(k.base_azimuth, kMicro);
+  p.base_frame_age_us = down(k.base_frame_age, kMicro);
   p.dig_zones = static_cast<std::int32_t>(site.dig_zone.size());
   for (std::size_t i = 0; i < site.dig_zone.size(); ++i) {  // inwards
     const auto& z = site.dig_zone[i];

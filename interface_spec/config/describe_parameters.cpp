@@ -85,6 +85,10 @@ void rules(const berm_parameters& p, Listing& out) {
   out.row("cycle_us", p.cycle_us);
   out.row("standstill_urad_s", p.standstill_urad_s);
   out.row("standstill_us", p.standstill_us);
+  out.row("base_tilt_urad", p.base_tilt_urad);
+  out.row("base_tilt_hard_urad", p.base_tilt_hard_urad);
+  out.row("base_azimuth_urad", p.base_azimuth_urad);
+  out.row("base_frame_age_us", p.base_frame_age_us);
 }
 
 }  // namespace

@@ -121,6 +121,11 @@ KernelFile read_kernel(StrictTable table) {
   k.operator_age = table.number("operator_age", 0.05, 1.0);
   k.standstill_speed = table.degrees("standstill_deg_s", 0.05, 2.0);
   k.standstill = table.number("standstill", 0.05, 2.0);
+  k.base_tilt = table.degrees("base_tilt_deg", 0.1, 2.0);
+  k.base_tilt_hard = table.degrees("base_tilt_hard_deg", 0.1, 5.0);
+  if (k.base_tilt_hard < k.base_tilt) table.fail("base_tilt_hard_deg", "below base_tilt_deg");
+  k.base_azimuth = table.degrees("base_azimuth_deg", 0.1, 2.0);
+  k.base_frame_age = table.number("base_frame_age", 0.1, 1.0);
   table.finish();
   return k;
 }

@@ -39,7 +39,8 @@ struct ScannerFile {
 
 struct KernelFile {  // seconds, metres, radians
   double cycle, margin, fresh, generation, dig_swing_limit, scanner_silent, spurious_range, range_min, range_max, self_margin, request_age, request_hold,
-      request_silent, state_frame_age, machine_state_age, operator_age, standstill_speed, standstill;
+      request_silent, state_frame_age, machine_state_age, operator_age, standstill_speed, standstill,
+      base_tilt, base_tilt_hard, base_azimuth, base_frame_age;
 };
 
 struct MachineFile {

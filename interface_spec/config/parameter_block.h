@@ -74,6 +74,11 @@ typedef struct berm_parameters {
   int32_t state_frame_age_us, machine_state_age_us, operator_age_us;
   int32_t cycle_us;
   int32_t standstill_urad_s, standstill_us;       /* 0.5 deg/s for 200 ms */
+  /* motion of the base: see core/base_motion.h */
+  int32_t base_tilt_urad;                         /* roll or pitch farther from the map's own than this, for most of 300 ms: the base has moved */
+  int32_t base_tilt_hard_urad;                    /* farther than this in one frame: it has moved */
+  int32_t base_azimuth_urad;                      /* the same for the azimuth of the tracks, for most of 300 ms */
+  int32_t base_frame_age_us;                      /* no Roll_Pitch or Vehicle_Azimuth for longer: fault */
   int32_t crc32;                                  /* bit pattern of the CRC-32 */
 } berm_parameters;
 

@@ -275,6 +275,24 @@ static int32_t check_times(const berm_parameters *p)
   return SK_RULE_NONE;
 }
 
+/*@ requires \valid_read(p);
+  @ assigns \nothing;
+  @ ensures codes: \result == SK_RULE_NONE || SK_RULE_BASE_TILT <= \result <= SK_RULE_BASE_FRAME_AGE;
+  @ ensures whole: \result == SK_RULE_NONE <==> sk_base_ok(p);
+  @ ensures why_base_tilt: \result == SK_RULE_BASE_TILT ==> !sk_rule_base_tilt(p);
+  @ ensures why_base_tilt_hard: \result == SK_RULE_BASE_TILT_HARD ==> !sk_rule_base_tilt_hard(p);
+  @ ensures why_base_azimuth: \result == SK_RULE_BASE_AZIMUTH ==> !sk_rule_base_azimuth(p);
+  @ ensures why_base_frame_age: \result == SK_RULE_BASE_FRAME_AGE ==> !sk_rule_base_frame_age(p);
+  @*/
+static int32_t check_base(const berm_parameters *p)
+{
+  if (!sk_is_within(p->base_tilt_urad, 1000, 35000)) { return SK_RULE_BASE_TILT; }
+  if (!sk_is_within(p->base_tilt_hard_urad, p->base_tilt_urad, 90000)) { return SK_RULE_BASE_TILT_HARD; }
+  if (!sk_is_within(p->base_azimuth_urad, 1000, 35000)) { return SK_RULE_BASE_AZIMUTH; }
+  if (!sk_is_within(p->base_frame_age_us, 1, 1000000)) { return SK_RULE_BASE_FRAME_AGE; }
+  return SK_RULE_NONE;
+}
+
 int32_t sk_parameters_check(const berm_parameters *p)
 {
   int32_t rule = check_head(p);
@@ -285,5 +303,6 @@ int32_t sk_parameters_check(const berm_parameters *p)
   if (rule == SK_RULE_NONE) { rule = check_sensors(p); }
   if (rule == SK_RULE_NONE) { rule = check_map(p); }
   if (rule == SK_RULE_NONE) { rule = check_times(p); }
+  if (rule == SK_RULE_NONE) { rule = check_base(p); }
   return rule;
 }

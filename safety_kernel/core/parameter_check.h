@@ -67,6 +67,10 @@ SK_BEGIN
   @ ensures why_cycle: \result == SK_RULE_CYCLE ==> !sk_rule_cycle(p);
   @ ensures why_standstill_speed: \result == SK_RULE_STANDSTILL_SPEED ==> !sk_rule_standstill_speed(p);
   @ ensures why_standstill_time: \result == SK_RULE_STANDSTILL_TIME ==> !sk_rule_standstill_time(p);
+  @ ensures why_base_tilt: \result == SK_RULE_BASE_TILT ==> !sk_rule_base_tilt(p);
+  @ ensures why_base_tilt_hard: \result == SK_RULE_BASE_TILT_HARD ==> !sk_rule_base_tilt_hard(p);
+  @ ensures why_base_azimuth: \result == SK_RULE_BASE_AZIMUTH ==> !sk_rule_base_azimuth(p);
+  @ ensures why_base_frame_age: \result == SK_RULE_BASE_FRAME_AGE ==> !sk_rule_base_frame_age(p);
   @*/
 int32_t sk_parameters_check(const berm_parameters *p);
 

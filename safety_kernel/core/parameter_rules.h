@@ -26,7 +26,8 @@ enum {
   SK_RULE_REQUEST_AGE = 49, SK_RULE_REQUEST_HOLD = 50, SK_RULE_REQUEST_SILENT = 51,
   SK_RULE_STATE_FRAME_AGE = 52, SK_RULE_MACHINE_STATE_AGE = 53, SK_RULE_OPERATOR_AGE = 54, SK_RULE_CYCLE = 55,
   SK_RULE_STANDSTILL_SPEED = 56, SK_RULE_STANDSTILL_TIME = 57,
-  SK_RULES = 58
+  SK_RULE_BASE_TILT = 58, SK_RULE_BASE_TILT_HARD = 59, SK_RULE_BASE_AZIMUTH = 60, SK_RULE_BASE_FRAME_AGE = 61,
+  SK_RULES = 62
 };
 
 /*@ predicate sk_within(integer v, integer low, integer high) = low <= v <= high;
@@ -166,9 +167,17 @@ enum {
   @   sk_rule_request_age(p) && sk_rule_request_hold(p) && sk_rule_request_silent(p) && sk_rule_state_frame_age(p) && sk_rule_machine_state_age(p) &&
   @   sk_rule_operator_age(p) && sk_rule_cycle(p) && sk_rule_standstill_speed(p) && sk_rule_standstill_time(p);
   @
+  @ // motion of the base
+  @ predicate sk_rule_base_tilt(berm_parameters *p) = sk_within(p->base_tilt_urad, 1000, 35000);
+  @ predicate sk_rule_base_tilt_hard(berm_parameters *p) = sk_within(p->base_tilt_hard_urad, p->base_tilt_urad, 90000);
+  @ predicate sk_rule_base_azimuth(berm_parameters *p) = sk_within(p->base_azimuth_urad, 1000, 35000);
+  @ predicate sk_rule_base_frame_age(berm_parameters *p) = sk_within(p->base_frame_age_us, 1, 1000000);
+  @ predicate sk_base_ok(berm_parameters *p) =
+  @   sk_rule_base_tilt(p) && sk_rule_base_tilt_hard(p) && sk_rule_base_azimuth(p) && sk_rule_base_frame_age(p);
+  @
   @ predicate sk_parameters_ok(berm_parameters *p) =
   @   sk_head_ok(p) && sk_kinematics_ok(p) && sk_joints_ok(p) && sk_braking_ok(p) && sk_parts_ok(p) && sk_sensors_ok(p) && sk_map_rules_ok(p) &&
-  @   sk_times_ok(p);
+  @   sk_times_ok(p) && sk_base_ok(p);
   @*/
 
 SK_END

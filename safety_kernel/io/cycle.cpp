@@ -33,10 +33,13 @@ void Cycle::step(const CycleInputs& in, CycleOutputs& out) {
   const std::uint32_t points_before = scans_.points();
   map_points_ = 0;
   take_frames(in);
+  if (!map_only_) learn_base(in.now_us);
   take_scans(in, out.blocks);
   map_points_ += scans_.points() - points_before;
   take_points(in);
   if (!map_only_) {
+    // Nothing is kept while the base has moved, for it may still be moving.
+    if (frames_.base().moved) sk_map_clear(&map_);
     own_cells_.stamp(map_, in.now_us, parameters_.generation_us);
     take_request(in);
     judge_motion(in.now_us);
@@ -73,6 +76,14 @@ void Cycle::take_points(const CycleInputs& in) {
     if (!map_only_ && own(f.left) && own(f.right)) continue;
     if (sk_raster_segment(&map_, &f.left, &f.right, in.now_us, parameters_.generation_us) > 0) ++map_points_;
   }
+}
+
+void Cycle::learn_base(std::int64_t now_us) {
+  sk_base_state& base = frames_.base();
+  const bool reset = frames_.operator_fresh(now_us) && frames_.picture().panel.reset && stop_.latched && stop_.reset_seen_released;
+  const bool learns_anew = base.moved && standstill_ && (reset || stop_.code == SK_STATE_INIT);
+  // The map begins with its reference.
+  if ((!base.learned || learns_anew) && sk_base_learn(&base, &parameters_, now_us)) sk_map_clear(&map_);
 }
 
 void Cycle::take_request(const CycleInputs& in) {

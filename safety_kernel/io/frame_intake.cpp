@@ -25,6 +25,7 @@ bool is_guard(std::uint32_t id) {
 FrameIntake::FrameIntake(const berm_parameters& parameters) : parameters_(parameters) {
   static_assert(sizeof kGuardedId / sizeof kGuardedId[0] == kMessages, "one id a message");
   for (int m = 0; m < kMessages; ++m) sk_guard_init(&guard_[m], kGuardedId[m]);
+  sk_base_init(&base_);
 }
 
 void FrameIntake::take(const berm_can_frame& frame, std::int64_t now_us) {
@@ -37,7 +38,7 @@ void FrameIntake::take(const berm_can_frame& frame, std::int64_t now_us) {
     if (!take_guarded(m, frame, now_us)) ++rejected_;
     return;
   }
-  if (!take_plain(frame)) ++rejected_;
+  if (!take_plain(frame, now_us)) ++rejected_;
 }
 
 void FrameIntake::take_guard(const berm_can_frame& frame, std::int64_t now_us) {
@@ -82,7 +83,7 @@ bool FrameIntake::decode(int message, const berm_can_frame& frame) {
   }
 }
 
-bool FrameIntake::take_plain(const berm_can_frame& frame) {
+bool FrameIntake::take_plain(const berm_can_frame& frame, std::int64_t now_us) {
   if (frame.id == BERM_CAN_PAYLOAD) {
     berm_payload payload{};
     if (!berm_decode_payload(&frame, &payload)) return false;
@@ -91,8 +92,14 @@ bool FrameIntake::take_plain(const berm_can_frame& frame) {
     berm_pressure pressure{};
     if (!berm_decode_pressure(&frame, &pressure)) return false;
     picture_.boom_pressure_kpa = pressure.kpa[0];
-  } else if (frame.id == BERM_CAN_ROLL_PITCH || frame.id == BERM_CAN_VEHICLE_AZIMUTH) {
-    return frame.length == 8;
+  } else if (frame.id == BERM_CAN_ROLL_PITCH) {
+    berm_roll_pitch level{};
+    if (!berm_decode_roll_pitch(&frame, &level)) return false;
+    sk_base_attitude(&base_, &parameters_, level.roll_urad, level.pitch_urad, now_us);
+  } else if (frame.id == BERM_CAN_VEHICLE_AZIMUTH) {
+    berm_vehicle_azimuth azimuth{};
+    if (!berm_decode_vehicle_azimuth(&frame, &azimuth)) return false;
+    sk_base_azimuth(&base_, &parameters_, azimuth.track_urad, now_us);
   }
   return true;
 }

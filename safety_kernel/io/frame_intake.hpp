@@ -8,6 +8,7 @@
 
 #include "can/berm_can.h"
 #include "config/parameter_block.h"
+#include "core/base_motion.h"
 #include "core/frame_guard.h"
 
 namespace berm::kernel {
@@ -30,6 +31,9 @@ class FrameIntake {
   void take(const berm_can_frame& frame, std::int64_t now_us);
 
   const MachinePicture& picture() const { return picture_; }
+  // Roll_Pitch and Vehicle_Azimuth have no guard on the real machine's bus either: they stop, and never permit.
+  const sk_base_state& base() const { return base_; }
+  sk_base_state& base() { return base_; }
   std::uint64_t rejected() const { return rejected_; }
   // True once a usable angle frame came in this cycle or before; when it came.
   std::int64_t angle_us() const { return guard_[kAngle].last_us; }
@@ -51,13 +55,14 @@ class FrameIntake {
 
   void take_guard(const berm_can_frame& frame, std::int64_t now_us);
   bool take_guarded(int message, const berm_can_frame& frame, std::int64_t now_us);
-  bool take_plain(const berm_can_frame& frame);
+  bool take_plain(const berm_can_frame& frame, std::int64_t now_us);
   bool decode(int message, const berm_can_frame& frame);
   bool heard(int message) const { return guard_[message].last_us >= 0; }
 
   const berm_parameters& parameters_;
   sk_guard_state guard_[kMessages];
   MachinePicture picture_;
+  sk_base_state base_;
   std::uint64_t rejected_ = 0;
 };
 

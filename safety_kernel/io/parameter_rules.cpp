@@ -65,6 +65,10 @@ constexpr const char* kText[] = {
     "cycle_us: within 1000..100000",
     "standstill_urad_s: within 1..100000",
     "standstill_us: within 1..2000000",
+    "base_tilt_urad: within 1000..35000",
+    "base_tilt_hard_urad: within base_tilt_urad..90000",
+    "base_azimuth_urad: within 1000..35000",
+    "base_frame_age_us: within 1..1000000",
 };
 static_assert(sizeof kText / sizeof kText[0] == SK_RULES, "one text a rule");
 

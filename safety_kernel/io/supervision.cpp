@@ -26,6 +26,7 @@ std::uint8_t fault_of(const FrameIntake& frames, const ScanHealth& scans, bool c
   if (clock_fault) return BERM_STOP_CLOCK;
   if (!frames.state_heard()) return BERM_STOP_NONE;  // still in INIT
   if (!frames.joints_fresh(now_us) || !frames.machine_fresh(now_us)) return BERM_STOP_STATE_FRAME;
+  if (frames.base().learned && !sk_base_fresh(&frames.base(), &p, now_us)) return BERM_STOP_STATE_FRAME;
   if (!machine_healthy(frames.picture())) return BERM_STOP_MACHINE_FAULT;
   if (scans.silent(now_us, p.scanner_silent_us)) return BERM_STOP_SCANNER_SILENT;
   return BERM_STOP_NONE;
@@ -34,6 +35,7 @@ std::uint8_t fault_of(const FrameIntake& frames, const ScanHealth& scans, bool c
 std::uint8_t latch_of(const FrameIntake& frames, const AppPulse& app, const berm_parameters& p, std::int64_t now_us) {
   const MachinePicture& picture = frames.picture();
   if (picture.estop.pressed) return BERM_STOP_EMERGENCY;
+  if (frames.base().moved) return BERM_STOP_BASE_MOVED;
   // A panel or spotter that falls silent is one whose stop would not be heard.
   const bool operator_lost = frames.operator_heard() && !frames.operator_fresh(now_us);
   if (picture.panel.stop || picture.spotter.stop || operator_lost || frames.spotter_lost(now_us)) return BERM_STOP_OPERATOR;
@@ -56,7 +58,7 @@ bool StandstillWatch::check(const std::int32_t (&velocity_urad_s)[4], bool fresh
 }
 
 bool inputs_ready(const FrameIntake& frames, const ScanHealth& scans, const berm_parameters& parameters, std::int64_t now_us) {
-  return frames.state_heard() && frames.joints_fresh(now_us) && frames.machine_fresh(now_us) && frames.operator_heard() && frames.operator_fresh(now_us) &&
+  return frames.state_heard() && frames.base().learned && frames.joints_fresh(now_us) && frames.machine_fresh(now_us) && frames.operator_heard() && frames.operator_fresh(now_us) &&
          scans.both_heard() && !scans.silent(now_us, parameters.scanner_silent_us);
 }
 

@@ -29,7 +29,7 @@ double boom_pressure_kpa(const DynamicsConfig& config, const ImplementShape& sha
   return std::max(0.0, moment / (kBoomPistonArea * kBoomLeverArm) / 1000.0);
 }
 
-StateFrames::StateFrames(const PlantProfile& profile, std::uint64_t seed) : profile_(profile), noise_(seed, 12) {}
+StateFrames::StateFrames(const PlantProfile& profile, std::uint64_t seed) : profile_(profile), noise_(seed, 12), track_noise_(seed, 13) {}
 
 void StateFrames::guarded(std::vector<berm_can_frame>& out, GuardSender& guard, const berm_can_frame& frame) {
   out.push_back(guard.guard_for(frame));
@@ -70,8 +70,8 @@ void StateFrames::every_50_ms(std::vector<berm_can_frame>& out, const MachineSna
 }
 
 void StateFrames::every_100_ms(std::vector<berm_can_frame>& out, const MachineSnapshot& now) {
-  const double swing = std::remainder(now.joints.angle[0], 2.0 * std::numbers::pi);
-  const berm_vehicle_azimuth azimuth{micro(swing + noise_.bounded(profile_.sensors.angle)), 0};
+  const double upper = std::remainder(now.joints.angle[0] + now.base.yaw, 2.0 * std::numbers::pi);
+  const berm_vehicle_azimuth azimuth{micro(upper + noise_.bounded(profile_.sensors.angle)), micro(now.base.yaw + track_noise_.bounded(profile_.sensors.angle))};
   out.push_back(berm_encode_vehicle_azimuth(&azimuth));
   const double weighed = now.payload_kg * (1.0 + noise_.bounded(profile_.sensors.payload_relative)) + noise_.bounded(profile_.sensors.payload_offset);
   const berm_payload payload{static_cast<std::uint16_t>(std::lround(std::clamp(weighed, 0.0, 60000.0))), !now.digging};
@@ -82,7 +82,8 @@ std::vector<berm_can_frame> StateFrames::frames(std::uint64_t cycle, const Machi
   std::vector<berm_can_frame> out;
   every_cycle(out, now);
   if (cycle % 2 == 1) {
-    const berm_roll_pitch level{micro(noise_.bounded(profile_.sensors.roll_pitch)), micro(noise_.bounded(profile_.sensors.roll_pitch))};
+    const berm_roll_pitch level{micro(now.base.roll + noise_.bounded(profile_.sensors.roll_pitch)),
+                                micro(now.base.pitch + noise_.bounded(profile_.sensors.roll_pitch))};
     out.push_back(berm_encode_roll_pitch(&level));
   }
   if (cycle % 5 == 1) every_50_ms(out, now);

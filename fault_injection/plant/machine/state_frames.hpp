@@ -9,6 +9,7 @@
 #include "plant/machine/guard_receiver.hpp"
 #include "plant/machine/plant_profile.hpp"
 #include "plant/machine/seeded_noise.hpp"
+#include "plant/world/base_pose.hpp"
 #include "plant/world/world.hpp"
 
 namespace berm::plant {
@@ -19,6 +20,7 @@ struct PanelInput {
 
 struct MachineSnapshot {                 // true values
   JointState joints;
+  BasePose base;
   double payload_kg = 0.0;
   bool digging = false;                  // soil resists a joint: the weighing is not valid
   bool pilot_unlocked = false;
@@ -43,6 +45,7 @@ class StateFrames {
 
   PlantProfile profile_;
   SeededNoise noise_;
+  SeededNoise track_noise_;  // a stream of its own
   GuardSender angle_guard_, velocity_guard_, machine_guard_, estop_guard_, operator_guard_, spotter_guard_;
   std::uint8_t alive_ = 0;
 };

@@ -48,26 +48,27 @@ bool wholly_inside(const std::vector<Zone>& zones, double x, double y, double ha
 
 }  // namespace
 
-double gap_outside_zones(const Profile& part, double swing, const Ground& g, const std::vector<Zone>& zones) {
+double gap_outside_zones(const Upright& upright, const Ground& g, const std::vector<Zone>& zones) {
+  const Profile& part = upright.part;
   const std::vector<Corner> chain = lower_chain(part.corner);
   double gap = 1e9;
   if (chain.size() < 2 || g.height == nullptr) return gap;
-  const double c = std::cos(swing), s = std::sin(swing), half = g.cell / 2;
+  const double c = std::cos(upright.bearing), s = std::sin(upright.bearing), half = g.cell / 2;
   // Half the sides of the bounding rectangle of a cell's square, along r and across.
   const double spread = half * (std::abs(c) + std::abs(s)), side = part.half_width + spread;
   const double r_low = chain.front().x() - spread, r_high = chain.back().x() + spread;
   const auto range = [&](double from, double to, double low, int count) {
     return std::pair{std::clamp(static_cast<int>(std::floor((from - low) / g.cell)), 0, count - 1), std::clamp(static_cast<int>(std::floor((to - low) / g.cell)), 0, count - 1)};
   };
-  const auto [ix_low, ix_high] = range(std::min(r_low * c, r_high * c) - side * std::abs(s), std::max(r_low * c, r_high * c) + side * std::abs(s), g.x_low, g.count_x);
-  const auto [iy_low, iy_high] = range(std::min(r_low * s, r_high * s) - side * std::abs(c), std::max(r_low * s, r_high * s) + side * std::abs(c), g.y_low, g.count_y);
+  const auto [ix_low, ix_high] = range(upright.x + std::min(r_low * c, r_high * c) - side * std::abs(s), upright.x + std::max(r_low * c, r_high * c) + side * std::abs(s), g.x_low, g.count_x);
+  const auto [iy_low, iy_high] = range(upright.y + std::min(r_low * s, r_high * s) - side * std::abs(c), upright.y + std::max(r_low * s, r_high * s) + side * std::abs(c), g.y_low, g.count_y);
   for (int iy = iy_low; iy <= iy_high; ++iy) {
     const double y = g.y_low + (iy + 0.5) * g.cell;
     const double* row = g.height + static_cast<ptrdiff_t>(iy) * g.count_x;
     for (int ix = ix_low; ix <= ix_high; ++ix) {
       const double x = g.x_low + (ix + 0.5) * g.cell;
-      if (std::abs(c * y - s * x) > side) continue;
-      const double r = c * x + s * y;
+      if (std::abs(c * (y - upright.y) - s * (x - upright.x)) > side) continue;
+      const double r = c * (x - upright.x) + s * (y - upright.y);
       if (r < r_low || r > r_high) continue;
       const double here = lowest_within(chain, r - spread, r + spread) - row[ix];
       if (here < gap && !wholly_inside(zones, x, y, half)) gap = here;
@@ -76,12 +77,13 @@ double gap_outside_zones(const Profile& part, double swing, const Ground& g, con
   return gap;
 }
 
-double gap_over_floor(const Profile& part, double swing, const std::vector<Zone>& zones) {
-  const double c = std::cos(swing), s = std::sin(swing);
+double gap_over_floor(const Upright& upright, const std::vector<Zone>& zones) {
+  const Profile& part = upright.part;
+  const double c = std::cos(upright.bearing), s = std::sin(upright.bearing);
   double gap = 1e9;
   for (const Corner& q : part.corner) {
     for (const double across : {-part.half_width, part.half_width}) {
-      const double x = q.x() * c - across * s, y = q.x() * s + across * c;
+      const double x = upright.x + q.x() * c - across * s, y = upright.y + q.x() * s + across * c;
       for (const Zone& z : zones) {
         if (x >= z.x_low && x <= z.x_high && y >= z.y_low && y <= z.y_high) gap = std::min(gap, q.y() - z.floor);
       }

@@ -12,9 +12,14 @@ struct Profile {                       // a part in the swing plane: (r, z) corn
   double half_width = 0;
 };
 
+struct Upright {                       // a part along a bearing from a point on the ground
+  Profile part;
+  double x = 0, y = 0, bearing = 0;
+};
+
 // Least gap over columns outside every zone; 1e9 when there is none below the part.
-double gap_outside_zones(const Profile& part, double swing, const Ground& ground, const std::vector<Zone>& zones);
+double gap_outside_zones(const Upright& upright, const Ground& ground, const std::vector<Zone>& zones);
 // Least height of the part's corners over the floor of the zones they are in; 1e9 when none is.
-double gap_over_floor(const Profile& part, double swing, const std::vector<Zone>& zones);
+double gap_over_floor(const Upright& upright, const std::vector<Zone>& zones);
 
 }  // namespace berm::plant::oracle

@@ -1,5 +1,6 @@
 #include "plant/oracle/oracle.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -34,14 +35,38 @@ std::vector<Profile> profiles(const ImplementShape& shape, const std::array<doub
 
 Point swung(double r, double across, double z, double c, double s) { return {c * r - s * across, s * r + c * across, z}; }
 
-Body extruded(const Profile& p, double swing) {
+Eigen::Isometry3d placed(const Stand& stand) {
+  return Eigen::Translation3d(stand.x, stand.y, 0) * Eigen::AngleAxisd(stand.yaw, Point::UnitZ()) * Eigen::AngleAxisd(stand.pitch, Point::UnitY()) *
+         Eigen::AngleAxisd(stand.roll, Point::UnitX());
+}
+
+std::vector<Point> corners_of(const Profile& p, double swing, const Eigen::Isometry3d& place) {
   const double c = std::cos(swing), s = std::sin(swing);
   std::vector<Point> corner;
   for (const Eigen::Vector2d& q : p.corner) {
-    corner.push_back(swung(q.x(), -p.half_width, q.y(), c, s));
-    corner.push_back(swung(q.x(), p.half_width, q.y(), c, s));
+    corner.push_back(place * swung(q.x(), -p.half_width, q.y(), c, s));
+    corner.push_back(place * swung(q.x(), p.half_width, q.y(), c, s));
   }
-  return Body::polytope(std::move(corner));
+  return corner;
+}
+
+// A part over the world's ground: the least upright prism along the swing plane's bearing that holds it.
+Upright upright(const Profile& p, double swing, const Eigen::Isometry3d& place) {
+  const Point ahead = place.linear() * Point(std::cos(swing), std::sin(swing), 0);
+  Upright out;
+  out.bearing = std::atan2(ahead.y(), ahead.x());
+  const double c = std::cos(out.bearing), s = std::sin(out.bearing);
+  double left = -1e9, right = 1e9;
+  for (const Point& q : corners_of(p, swing, place)) {
+    const Point from = q - place.translation();
+    out.part.corner.emplace_back(c * from.x() + s * from.y(), q.z());
+    left = std::max(left, c * from.y() - s * from.x());
+    right = std::min(right, c * from.y() - s * from.x());
+  }
+  out.part.half_width = (left - right) / 2;
+  out.x = place.translation().x() - s * (left + right) / 2;
+  out.y = place.translation().y() + c * (left + right) / 2;
+  return out;
 }
 
 }  // namespace
@@ -57,16 +82,21 @@ Body body_of(const Block& b) {
   return Body::polytope(std::move(corner));
 }
 
-std::vector<Body> Oracle::machine(const std::array<double, 4>& joints) const {
+std::vector<Body> Oracle::machine(const std::array<double, 4>& joints, const Stand& stand) const {
+  const Eigen::Isometry3d place = placed(stand);
   std::vector<Body> all;
-  for (const Profile& p : profiles(shape_, joints)) all.push_back(extruded(p, joints[0]));
-  for (const AxisBox& b : shape_.upper_body) all.push_back(body_of({"", 0, 0, 0, joints[0], b.low, b.high}));
+  for (const Profile& p : profiles(shape_, joints)) all.push_back(Body::polytope(corners_of(p, joints[0], place)));
+  for (const AxisBox& b : shape_.upper_body) {
+    Body body = body_of({"", 0, 0, 0, joints[0], b.low, b.high});
+    for (Point& q : body.corner) q = place * q;
+    all.push_back(Body::polytope(std::move(body.corner)));
+  }
   return all;
 }
 
-Judgement Oracle::judge(const std::array<double, 4>& joints, const Site& site) const {
+Judgement Oracle::judge(const std::array<double, 4>& joints, const Site& site, const Stand& stand) const {
   Judgement out;
-  const std::vector<Body> own = machine(joints);
+  const std::vector<Body> own = machine(joints, stand);
   const auto against = [&](const Body& other, const std::string& name) {
     for (const Body& part : own) {
       // The spheres that hold the bodies cannot be nearer than this; skip what cannot become the nearest.
@@ -85,8 +115,9 @@ Judgement Oracle::judge(const std::array<double, 4>& joints, const Site& site) c
 
   double floor_gap = 1e9;
   for (const Profile& p : profiles(shape_, joints)) {
-    out.ground_gap = std::min(out.ground_gap, gap_outside_zones(p, joints[0], site.ground, site.zones));
-    floor_gap = std::min(floor_gap, gap_over_floor(p, joints[0], site.zones));
+    const Upright u = upright(p, joints[0], placed(stand));
+    out.ground_gap = std::min(out.ground_gap, gap_outside_zones(u, site.ground, site.zones));
+    floor_gap = std::min(floor_gap, gap_over_floor(u, site.zones));
   }
   if (!out.contact && out.ground_gap <= 0) {
     out.contact = true;

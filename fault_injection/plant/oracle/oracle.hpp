@@ -42,6 +42,11 @@ struct Site {
   Ground ground;
 };
 
+// How the base stands: its origin on the ground, turned by yaw, then pitch (front down), then roll (left up).
+struct Stand {
+  double x = 0, y = 0, yaw = 0, roll = 0, pitch = 0;
+};
+
 struct Judgement {
   bool contact = false;
   double closest = 1e9;               // to the nearest person or block; 0 in contact with one
@@ -53,9 +58,9 @@ class Oracle {
  public:
   explicit Oracle(const ImplementShape& shape) : shape_(shape) {}
   // Joint angles: swing, boom, stick, bucket.
-  [[nodiscard]] Judgement judge(const std::array<double, 4>& joints, const Site& site) const;
-  // The machine's solids in the base frame: implements first, in the order of the shape's parts, then the upper body.
-  [[nodiscard]] std::vector<Body> machine(const std::array<double, 4>& joints) const;
+  [[nodiscard]] Judgement judge(const std::array<double, 4>& joints, const Site& site, const Stand& stand = {}) const;
+  // The machine's solids in the world: implements first, in the order of the shape's parts, then the upper body.
+  [[nodiscard]] std::vector<Body> machine(const std::array<double, 4>& joints, const Stand& stand = {}) const;
 
  private:
   ImplementShape shape_;

@@ -59,7 +59,7 @@ void sleep_to(timespec& next) {
 PlantRun::PlantRun(const Scenario& scenario, const PlantProfile& profile, const RunOptions& options)
     : scenario_(scenario), profile_(profile), options_(options), scans_(options.scan_port),
       world_(scenario.world, profile_.shape, options.seed, options.trucks), dynamics_(profile.dynamics, profile.shape, options.seed, scenario.start),
-      controller_(profile), frames_(profile, options.seed), servo_{PanServo(profile.shape.scanner[0]), PanServo(profile.shape.scanner[1])},
+      controller_(profile), base_(scenario.base_motions), frames_(profile, options.seed), servo_{PanServo(profile.shape.scanner[0]), PanServo(profile.shape.scanner[1])},
       peers_(opened(bus_, options.can_address), options.kernel_fd, options.tick_fd, [this](const berm_can_frame& frame) { controller_.receive(frame, now_); }),
       trace_(made_folder(options.out) + "/trace.csv", world_.movers()), kernel_seen_(peers_.kernel()), app_seen_(peers_.app()) {}
 
@@ -86,6 +86,9 @@ void PlantRun::advance(double t) {
     out_of_control_[j] = true;
     record_.fault(t, fmt::format("{} out of control", kJointNames[j]));
   }
+  base_.step(t, dynamics_.state().angle[0]);
+  if (base_.moving()) record_.fault(t, "base motion");
+  world_.stand(base_.pose());
   soil_ = world_.step(t, kCycle, dynamics_.state(), before);
   std::vector<berm_scan_packet> packets;
   world_.scan(t, kCycle, before, dynamics_.state(), pan_before, pan_, packets);
@@ -98,6 +101,7 @@ void PlantRun::advance(double t) {
 void PlantRun::send(double t) {
   MachineSnapshot snapshot;
   snapshot.joints = dynamics_.state();
+  snapshot.base = base_.pose();
   snapshot.payload_kg = world_.payload_kg();
   const auto& factor = soil_.resist_speed_factor;
   snapshot.digging = std::any_of(factor.begin(), factor.end(), [](double f) { return f < 1.0; });

@@ -10,6 +10,7 @@
 #include "plant/machine/machine_controller.hpp"
 #include "plant/machine/pan_servo.hpp"
 #include "plant/machine/state_frames.hpp"
+#include "plant/process/base_motion.hpp"
 #include "plant/process/event_lines.hpp"
 #include "plant/process/peers.hpp"
 #include "plant/process/run_record.hpp"
@@ -60,6 +61,7 @@ class PlantRun {
   World world_;
   JointDynamics dynamics_;
   MachineController controller_;
+  BaseMotion base_;
   StateFrames frames_;
   std::array<PanServo, 2> servo_;
   Peers peers_;

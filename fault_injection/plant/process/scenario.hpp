@@ -6,6 +6,7 @@
 
 #include "plant/machine/machine_fault.hpp"
 #include "plant/machine/state_frames.hpp"
+#include "plant/process/base_motion.hpp"
 #include "plant/process/world_config.hpp"
 #include "plant/world/world.hpp"
 
@@ -23,6 +24,7 @@ struct Scenario {
   JointState start;
   std::vector<PanelEvent> panel;
   std::vector<MachineFault> machine_fault;
+  std::vector<BaseMotionConfig> base_motions;
   WorldConfig world;
 };
 

@@ -30,11 +30,11 @@ Vec3 Scanner::direction(int index, double pan) const {
 
 uint16_t Scanner::raw(double range) const { return static_cast<uint16_t>(std::clamp<long long>(std::llround(range * 1000 / BERM_SCAN_RANGE_LSB_MM), 1, 65535)); }
 
-Scanner::Sample Scanner::measure(const Ray& base, const Ray& upper, const Scene& scene) {
+Scanner::Sample Scanner::measure(const Ray& world, const Ray& base, const Ray& upper, const Scene& scene) {
   Sample s;
   // The draws do not depend on what is hit, so that one changed object does not change every later sample's noise.
   const double noise = random_.normal(), what = random_.uniform(), where = random_.uniform(), film = random_.uniform();
-  const std::optional<double> hit = scene.cast(base, upper, config_.range_max);
+  const std::optional<double> hit = scene.cast(world, base, upper, config_.range_max);
   int echoes = 0;
   const auto add = [&](double range) {  // nearest first; never more than three
     int k = echoes++;
@@ -58,7 +58,8 @@ Scanner::Sample Scanner::measure(const Ray& base, const Ray& upper, const Scene&
   return s;
 }
 
-void Scanner::step(double t, double dt, const ScanPose& before, const ScanPose& now, const Scene& scene, std::vector<berm_scan_packet>& out) {
+void Scanner::step(double t, double dt, const ScanPose& before, const ScanPose& now, const Scene& scene, std::vector<berm_scan_packet>& out,
+                   const BaseFrame& stand) {
   const int64_t end = std::llround(t * 1e9), begin = end - std::llround(dt * 1e9);
   const auto fraction = [&](int64_t sample) {
     return std::clamp(static_cast<double>(time_ns(sample) - begin) / static_cast<double>(end - begin), 0.0, 1.0);
@@ -92,7 +93,8 @@ void Scanner::step(double t, double dt, const ScanPose& before, const ScanPose& 
       const double f = fraction(next_ + i);
       const Ray upper{head_, direction(index + i, pan_at(f))};
       const PlanarFrame body(0, 0, 0, before.swing + f * (now.swing - before.swing));
-      const Sample s = measure({body.out(upper.origin), body.out(upper.direction)}, upper, scene);
+      const Ray base{body.out(upper.origin), body.out(upper.direction)};
+      const Sample s = measure(stand.out(base), base, upper, scene);
       for (int k = 0; k < BERM_SCAN_ECHOES; ++k) {
         p.range[i][k] = s.echo[k];
         if (s.echo[k] != 0) most = std::max(most, k + 1);

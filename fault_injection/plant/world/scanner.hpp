@@ -6,6 +6,7 @@
 
 #include "plant/machine/implement_shape.hpp"
 #include "plant/process/world_config.hpp"
+#include "plant/world/base_pose.hpp"
 #include "plant/world/random.hpp"
 #include "plant/world/scene.hpp"
 #include "plant/world/world.hpp"
@@ -21,7 +22,8 @@ class Scanner {
   Scanner(const ScannerConfig& config, const ScannerMount& mount, uint8_t number, uint64_t seed);
   // The samples in (t - dt, t]. Sample n is taken at (n + 1) / rate, counted from the start in whole nanoseconds, so nothing drifts.
   // Packets do not span scanlines or calls.
-  void step(double t, double dt, const ScanPose& before, const ScanPose& now, const Scene& scene, std::vector<berm_scan_packet>& out);
+  void step(double t, double dt, const ScanPose& before, const ScanPose& now, const Scene& scene, std::vector<berm_scan_packet>& out,
+            const BaseFrame& stand = BaseFrame());
 
   // Direction of a sample in the upper body's frame.
   [[nodiscard]] Vec3 direction(int index, double pan) const;
@@ -29,7 +31,7 @@ class Scanner {
  private:
   struct Sample { uint16_t echo[BERM_SCAN_ECHOES] = {0, 0, 0}; };
   [[nodiscard]] int64_t time_ns(int64_t sample) const { return (sample + 1) * 1'000'000'000 / rate_; }
-  Sample measure(const Ray& base, const Ray& upper, const Scene& scene);
+  Sample measure(const Ray& world, const Ray& base, const Ray& upper, const Scene& scene);
   [[nodiscard]] uint16_t raw(double range) const;
 
   ScannerConfig config_;

@@ -73,8 +73,8 @@ void Scene::place_machine(const ImplementShape& shape, const LinkFrames& links, 
   for (const AxisBox& b : shape.tracks) track_.push_back({PlanarFrame(), point(b.low), point(b.high)});
 }
 
-double Scene::cast_truck(const TruckSolid& truck, const Ray& base, double range) const {
-  const Ray local = truck.frame.in(base);
+double Scene::cast_truck(const TruckSolid& truck, const Ray& world, double range) const {
+  const Ray local = truck.frame.in(world);
   if (!cast_box(local, truck.low, truck.high, range)) return range;
   for (const BoxSolid& p : truck.part) nearer(cast_box(local, p.low, p.high, range), range);
   nearer(truck.heap->grid().cast(local, range), range);
@@ -82,33 +82,33 @@ double Scene::cast_truck(const TruckSolid& truck, const Ray& base, double range)
 }
 
 // The ground outside the map: the two levels, and the slopes between them taken as steps.
-double Scene::cast_beyond(const Ray& base, double range) const {
-  if (base.direction.z >= 0) return range;
+double Scene::cast_beyond(const Ray& world, double range) const {
+  if (world.direction.z >= 0) return range;
   const HeightGrid& g = terrain_->grid();
   const double far_x = g.x_low() + g.count_x() * g.cell_x(), far_y = g.y_low() + g.count_y() * g.cell_y();
   const double levels[] = {0.0, terrain_->as_built(far_x + 1000, far_y + 1000)};
   for (const double level : levels) {
-    const double t = (level - base.origin.z) / base.direction.z;
+    const double t = (level - world.origin.z) / world.direction.z;
     if (t <= 0 || t >= range) continue;
-    const Vec3 p = base.at(t);
+    const Vec3 p = world.at(t);
     if (!g.contains(p.x, p.y) && level >= terrain_->as_built(p.x, p.y) - 1e-9) range = t;
   }
   return range;
 }
 
-std::optional<double> Scene::cast(const Ray& base, const Ray& upper, double range_max) const {
+std::optional<double> Scene::cast(const Ray& world, const Ray& base, const Ray& upper, double range_max) const {
   double range = range_max;
   if (cast_box(upper, implement_low_, implement_high_, range)) {
     for (const PrismSolid& s : implement_) nearer(s.cast(upper, range), range);
   }
   for (const BoxSolid& b : upper_body_) nearer(cast_box(upper, b.low, b.high, range), range);
   for (const BoxSolid& b : track_) nearer(cast_box(base, b.low, b.high, range), range);
-  for (const TruckSolid& t : truck_) range = cast_truck(t, base, range);
-  for (const BoxSolid& b : box_) nearer(b.cast(base, range), range);
-  for (const CylinderSolid& p : person_) nearer(p.cast(base, range), range);
+  for (const TruckSolid& t : truck_) range = cast_truck(t, world, range);
+  for (const BoxSolid& b : box_) nearer(b.cast(world, range), range);
+  for (const CylinderSolid& p : person_) nearer(p.cast(world, range), range);
   if (terrain_ != nullptr) {
-    nearer(terrain_->grid().cast(base, range), range);
-    range = cast_beyond(base, range);
+    nearer(terrain_->grid().cast(world, range), range);
+    range = cast_beyond(world, range);
   }
   return range < range_max ? std::optional<double>(range) : std::nullopt;
 }

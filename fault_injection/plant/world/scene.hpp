@@ -21,8 +21,8 @@ class Scene {
   // The machine at one pose of boom, stick and bucket, with its load heaped over the mouth. Upper body's frame: the swing stays out of it.
   void place_machine(const ImplementShape& shape, const LinkFrames& links, double heap_volume);
 
-  // Range of the first hit. Both rays are the same one: in the base frame and in the upper body's.
-  [[nodiscard]] std::optional<double> cast(const Ray& base, const Ray& upper, double range_max) const;
+  // Range of the first hit. The rays are the same one: in the world, in the base frame and in the upper body's.
+  [[nodiscard]] std::optional<double> cast(const Ray& world, const Ray& base, const Ray& upper, double range_max) const;
 
  private:
   // A truck's boxes and heap behind one bounding box.
@@ -32,8 +32,8 @@ class Scene {
     std::vector<BoxSolid> part;
     const BedHeap* heap = nullptr;
   };
-  [[nodiscard]] double cast_truck(const TruckSolid& truck, const Ray& base, double range) const;
-  [[nodiscard]] double cast_beyond(const Ray& base, double range) const;
+  [[nodiscard]] double cast_truck(const TruckSolid& truck, const Ray& world, double range) const;
+  [[nodiscard]] double cast_beyond(const Ray& world, double range) const;
 
   const Terrain* terrain_ = nullptr;
   std::vector<TruckSolid> truck_;

@@ -37,12 +37,12 @@ double lowest_at(const std::vector<SwingPlanePoint>& hull, double r) {
 template <class Visit>
 void for_cells(const HeightGrid& g, const BucketPose& p, double r_low, double r_high, double half_width, Visit visit) {
   const double c = p.cos_swing, s = p.sin_swing;
-  const double x1 = r_low * c, x2 = r_high * c, y1 = r_low * s, y2 = r_high * s, wx = half_width * std::abs(s), wy = half_width * std::abs(c);
+  const double x1 = p.x + r_low * c, x2 = p.x + r_high * c, y1 = p.y + r_low * s, y2 = p.y + r_high * s, wx = half_width * std::abs(s), wy = half_width * std::abs(c);
   const int ix_low = g.index_x(std::min(x1, x2) - wx), ix_high = g.index_x(std::max(x1, x2) + wx);
   const int iy_low = g.index_y(std::min(y1, y2) - wy), iy_high = g.index_y(std::max(y1, y2) + wy);
   for (int iy = iy_low; iy <= iy_high; ++iy) {
     for (int ix = ix_low; ix <= ix_high; ++ix) {
-      const double x = g.centre_x(ix), y = g.centre_y(iy), r = c * x + s * y, lateral = -s * x + c * y;
+      const double x = g.centre_x(ix) - p.x, y = g.centre_y(iy) - p.y, r = c * x + s * y, lateral = -s * x + c * y;
       if (r >= r_low && r <= r_high && std::abs(lateral) <= half_width) visit(ix, iy, r, lateral);
     }
   }
@@ -52,8 +52,11 @@ void for_cells(const HeightGrid& g, const BucketPose& p, double r_low, double r_
 
 SoilCut::SoilCut(const ImplementShape& shape, const SoilConfig& soil) : shape_(shape), resistance_(soil.resistance), swell_(soil.swell) {}
 
-BucketPose SoilCut::pose(const LinkFrames& links) const {
+BucketPose SoilCut::pose(const LinkFrames& level, const BasePose& base) const {
+  const LinkFrames links = standing(level, base);
   BucketPose p;
+  p.x = base.x;
+  p.y = base.y;
   p.swing = links.swing;
   p.cos_swing = std::cos(links.swing);
   p.sin_swing = std::sin(links.swing);
@@ -117,7 +120,7 @@ void SoilCut::push(const BucketPose& now, const Vec3& v, double volume, Terrain&
   }
   if (cell.empty()) {  // off the map's rim
     const double r = std::max(0.0, r_low - push_near);
-    cell.emplace_back(g.index_x(r * now.cos_swing), g.index_y(r * now.sin_swing));
+    cell.emplace_back(g.index_x(now.x + r * now.cos_swing), g.index_y(now.y + r * now.sin_swing));
   }
   for (const auto& [ix, iy] : cell) terrain.deposit(ix, iy, volume / static_cast<double>(cell.size()));
 }
@@ -127,7 +130,7 @@ bool SoilCut::held_by_ground(const BucketPose& now, const Terrain& terrain) cons
   const SwingPlanePoint lip = now.frame.out(shape_.bucket, 0);
   const double ahead = now.frame.sin_angle >= 0 ? 0.15 : -0.15;
   for (const double lateral : {-0.6 * shape_.bucket_half_width, 0.0, 0.6 * shape_.bucket_half_width}) {
-    const double r = lip.r + ahead, x = r * now.cos_swing - lateral * now.sin_swing, y = r * now.sin_swing + lateral * now.cos_swing;
+    const double r = lip.r + ahead, x = now.x + r * now.cos_swing - lateral * now.sin_swing, y = now.y + r * now.sin_swing + lateral * now.cos_swing;
     if (terrain.grid().contains(x, y) && terrain.height(terrain.grid().index_x(x), terrain.grid().index_y(y)) > lip.z + 0.02) return true;
   }
   return false;
@@ -144,7 +147,7 @@ void SoilCut::empty(const BucketPose& now, double dt, const Terrain& terrain, Bu
   for (int i = 0; i < across; ++i) {
     for (int k = 0; k < along; ++k) {
       const double lateral = shape_.bucket_half_width * ((2 * i + 1.0) / across - 1.0), r = edge.r + spread * k;
-      landing.drop(r * now.cos_swing - lateral * now.sin_swing, r * now.sin_swing + lateral * now.cos_swing, out / (across * along), book);
+      landing.drop(now.x + r * now.cos_swing - lateral * now.sin_swing, now.y + r * now.sin_swing + lateral * now.cos_swing, out / (across * along), book);
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "plant/world/bucket_load.hpp"
+#include "plant/world/base_pose.hpp"
 #include "plant/world/link_frames.hpp"
 #include "plant/world/landing.hpp"
 #include "plant/world/terrain.hpp"
@@ -13,6 +14,7 @@ namespace berm::plant {
 
 // The bucket's outline in the swing plane at one moment.
 struct BucketPose {
+  double x = 0, y = 0;  // the swing axis on the ground
   double swing = 0, cos_swing = 1, sin_swing = 0;
   LinkFrame frame;
   std::vector<SwingPlanePoint> outline;  // of all bucket parts
@@ -22,7 +24,7 @@ class SoilCut {
  public:
   SoilCut(const ImplementShape& shape, const SoilConfig& soil);
 
-  [[nodiscard]] BucketPose pose(const LinkFrames& links) const;
+  [[nodiscard]] BucketPose pose(const LinkFrames& links, const BasePose& base = {}) const;
   // Cuts, fills the bucket and pushes the rest ahead. Returns the loose volume cut.
   double cut(const BucketPose& before, const BucketPose& now, double dt, Terrain& terrain, BucketLoad& load, SoilBook& book);
   // Lets out what does not rest in the bucket.

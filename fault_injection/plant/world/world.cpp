@@ -10,6 +10,7 @@
 #include "plant/machine/implement_shape.hpp"
 #include "plant/oracle/oracle.hpp"
 #include "plant/process/world_config.hpp"
+#include "plant/world/base_pose.hpp"
 #include "plant/world/link_frames.hpp"
 #include "plant/world/landing.hpp"
 #include "plant/world/movers.hpp"
@@ -88,6 +89,7 @@ struct World::State {
   oracle::Oracle oracle;
   std::array<Scanner, 2> scanner;
   Scene scene;
+  BasePose base;
   size_t current = 0;
   std::vector<Overflow> over;
 };
@@ -96,11 +98,13 @@ World::World(const WorldConfig& config, const ImplementShape& shape, std::uint64
     : state_(std::make_unique<State>(config, shape, seed, trucks)) {}
 World::~World() = default;
 
+void World::stand(const BasePose& base) { state_->base = base; }
+
 DigForces World::step(double t, double dt, const JointState& now, const JointState& previous) {
   State& w = *state_;
   w.movers.step(t, dt, now.angle[0], w.terrain);
   w.move_trucks(t);
-  const BucketPose before = w.cut.pose(link_frames(w.shape, previous)), here = w.cut.pose(link_frames(w.shape, now));
+  const BucketPose before = w.cut.pose(link_frames(w.shape, previous), w.base), here = w.cut.pose(link_frames(w.shape, now), w.base);
   const double taken = w.cut.cut(before, here, dt, w.terrain, w.load, w.book);
   w.cut.empty(here, dt, w.terrain, w.load, w.landing, w.book);
   w.terrain.settle(ground_budget);
@@ -114,8 +118,9 @@ void World::scan(double t, double dt, const JointState& before, const JointState
   State& w = *state_;
   w.scene.place_site(w.terrain, w.truck, w.movers, w.config.boxes);
   w.scene.place_machine(w.shape, link_frames(w.shape, now), std::max(0.0, w.load.volume() - w.load.struck()));
+  const BaseFrame base(w.base);
   for (size_t i = 0; i < w.scanner.size(); ++i) {
-    w.scanner[i].step(t, dt, {before.angle[0], pan_before.angle[i]}, {now.angle[0], pan_now.angle[i]}, w.scene, out);
+    w.scanner[i].step(t, dt, {before.angle[0], pan_before.angle[i]}, {now.angle[0], pan_now.angle[i]}, w.scene, out, base);
   }
 }
 
@@ -144,7 +149,8 @@ oracle::Site World::State::site() const {
 }
 
 OracleVerdict World::judge(double, const JointState& joints) {
-  const oracle::Judgement j = state_->oracle.judge(joints.angle, state_->site());
+  const BasePose& b = state_->base;
+  const oracle::Judgement j = state_->oracle.judge(joints.angle, state_->site(), {b.x, b.y, b.yaw, b.roll, b.pitch});
   return {j.contact, j.closest, j.ground_gap, j.what};
 }
 

@@ -17,6 +17,7 @@ struct PanState { std::array<double, 2> angle{}; std::array<double, 2> velocity{
 
 struct ImplementShape;  // machine/implement_shape.hpp
 struct WorldConfig;     // process/world_config.hpp
+struct BasePose;        // world/base_pose.hpp
 
 struct DigForces { std::array<double, 4> resist_speed_factor{1.0, 1.0, 1.0, 1.0}; };  // 0..1: what the soil leaves of each joint's speed
 
@@ -44,6 +45,8 @@ class World {
   World& operator=(const World&) = delete;
   ~World();
 
+  // How the base stands from here on; as the scenario has it until told otherwise: level, at the origin.
+  void stand(const BasePose& base);
   // From t - dt to t: moves people and trucks, cuts, carries, dumps, settles.
   DigForces step(double t, double dt, const JointState& now, const JointState& previous);
   // Samples of both scanners in (t - dt, t], appended as packets. 12 kHz, 400 a turn; at most 120 a packet; packets do not span scanlines.

@@ -66,6 +66,14 @@ void MiniMachine::make_frames() {
     add_guarded(berm_encode_front_angle(&angle));
     add_guarded(berm_encode_front_velocity(&velocity));
   }
+  if (!attitude_silent && cycle_ % 2 == 1) {
+    const berm_roll_pitch level{roll_urad, pitch_urad};
+    frames_.push_back(berm_encode_roll_pitch(&level));
+  }
+  if (!azimuth_silent && cycle_ % 10 == 1) {
+    const berm_vehicle_azimuth azimuth{0, track_urad};
+    frames_.push_back(berm_encode_vehicle_azimuth(&azimuth));
+  }
   if (cycle_ % 5 != 1) return;
   berm_machine_state state{};
   state.engine_on = true;

@@ -41,6 +41,9 @@ class MiniMachine {
   bool estop_pressed = false;
   bool spotter_present = false;
   bool system_error = false;
+  bool attitude_silent = false;  // Roll_Pitch
+  bool azimuth_silent = false;   // Vehicle_Azimuth
+  std::int32_t roll_urad = 0, pitch_urad = 0, track_urad = 0;
   double ground_m = 0.0;
   Wall wall;
   double angle_rad[4];     // swing, boom, stick, bucket

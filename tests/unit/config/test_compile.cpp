@@ -96,6 +96,10 @@ void expect_rules_safe(const KernelFile& k, const berm_parameters& p) {
   expect_down(k.operator_age * 1e6, p.operator_age_us, "operator_age");
   expect_down(k.standstill_speed * 1e6, p.standstill_urad_s, "standstill_speed");
   expect_up(k.standstill * 1e6, p.standstill_us, "standstill");
+  expect_down(k.base_tilt * 1e6, p.base_tilt_urad, "base_tilt");
+  expect_down(k.base_tilt_hard * 1e6, p.base_tilt_hard_urad, "base_tilt_hard");
+  expect_down(k.base_azimuth * 1e6, p.base_azimuth_urad, "base_azimuth");
+  expect_down(k.base_frame_age * 1e6, p.base_frame_age_us, "base_frame_age");
 }
 
 void expect_places_safe(const MachineFile& m, const SiteFile& site, const berm_parameters& p) {
@@ -135,7 +139,8 @@ void disturb(MachineFile& m, SiteFile& site, std::mt19937_64& random) {
   for (ScannerFile& s : m.scanner) shake(s.pan_low, s.pan_high, s.pan_rate_max);
   KernelFile& k = m.kernel;
   shake(k.cycle, k.margin, k.fresh, k.generation, k.dig_swing_limit, k.scanner_silent, k.spurious_range, k.range_min, k.range_max, k.self_margin, k.request_age,
-        k.request_hold, k.request_silent, k.state_frame_age, k.machine_state_age, k.operator_age, k.standstill_speed, k.standstill);
+        k.request_hold, k.request_silent, k.state_frame_age, k.machine_state_age, k.operator_age, k.standstill_speed, k.standstill,
+        k.base_tilt, k.base_tilt_hard, k.base_azimuth, k.base_frame_age);
   for (DigZoneFile& zone : site.dig_zone) shake(zone.x_low, zone.x_high, zone.y_low, zone.y_high, zone.floor, zone.ceiling);
 }
 

@@ -108,10 +108,10 @@ TEST_P(MotionSupervision, BrakingEndsWithinTheTablesAngle) {
   EXPECT_EQ(tried({1'010'000, 522'003, 90'000}), BERM_STOP_BRAKING);
   EXPECT_EQ(tried({1'010'000, 522'003, 0}), BERM_STOP_BRAKING);           // even if it stands there
   EXPECT_EQ(tried({1'010'000, 522'003, 90'000, 0, 1}), BERM_STOP_NONE);   // asked to move on; within the ceiling
-  // one unit faster: the next column
+  // one unit faster: on the chord to the next column
   sk_motion_begin(&state);
   ASSERT_EQ(step({1'000'000, 500'000, 98'001}), BERM_STOP_NONE);
-  EXPECT_EQ(side().limit_urad, 542'002);
+  EXPECT_EQ(side().limit_urad, 522'003);
   // above the table within the error: its last column
   sk_motion_begin(&state);
   ASSERT_EQ(step({1'000'000, 500'000, 702'000}), BERM_STOP_NONE);
@@ -132,16 +132,16 @@ TEST_P(MotionSupervision, BrakingEndsWithinTheTablesTime) {
 
 // verifies: SK-MS-5
 TEST_P(MotionSupervision, EveryReadingTightensTheBounds) {
-  ASSERT_EQ(step({1'000'000, 500'000, 390'000}), BERM_STOP_NONE);  // column 4
-  EXPECT_EQ(side().limit_urad, 582'002);
+  ASSERT_EQ(step({1'000'000, 500'000, 390'000}), BERM_STOP_NONE);  // a fifth of it with e, as row 1 has it
+  EXPECT_EQ(side().limit_urad, 580'402);
   EXPECT_EQ(side().deadline_us, 1'820'000);
-  ASSERT_EQ(step({1'100'000, 510'000, 190'000}), BERM_STOP_NONE);  // column 2
-  EXPECT_EQ(side().limit_urad, 552'002);
+  ASSERT_EQ(step({1'100'000, 510'000, 190'000}), BERM_STOP_NONE);
+  EXPECT_EQ(side().limit_urad, 550'402);
   EXPECT_EQ(side().deadline_us, 1'520'000);
   ASSERT_EQ(step({1'200'000, 545'000, 190'000}), BERM_STOP_NONE);  // later and farther: the earlier ones hold
-  EXPECT_EQ(side().limit_urad, 552'002);
+  EXPECT_EQ(side().limit_urad, 550'402);
   EXPECT_EQ(side().deadline_us, 1'520'000);
-  EXPECT_EQ(step({1'210'000, 552'003, 190'000}), BERM_STOP_BRAKING);
+  EXPECT_EQ(step({1'210'000, 550'403, 190'000}), BERM_STOP_BRAKING);
 }
 
 // verifies: SK-MS-6
