@@ -39,6 +39,8 @@ static int32_t sk_brake_column(int32_t velocity_max_urad_s, int32_t speed_urad_s
   for (column = 0; column < BERM_BRAKE_SPEEDS; column++) {
     if (sk_column_speed(velocity_max_urad_s, column) >= speed_urad_s) { return column; }
   }
+  /*@ assert last: sk_column_speed_of(velocity_max_urad_s, BERM_BRAKE_SPEEDS - 1) == velocity_max_urad_s; */
+  /*@ assert slower: sk_column_speed_of(velocity_max_urad_s, BERM_BRAKE_SPEEDS - 1) < speed_urad_s; */
   return -1;
 }
 
