@@ -1,0 +1,62 @@
+"""A short validation sweep: no contact where the nominal motion has some, what it finds is named so that it can be repeated, bad input is refused.
+
+verifies: SK-CY-20
+"""
+import json
+import pathlib
+import tempfile
+
+from berm_command import main, one_clear_line, run
+
+RUNS, SEED = 40, 11
+scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-validate-"))
+
+
+def sweep(name, *more):
+    out = scratch / f"{name}.json"
+    done = run("berm_validate", "--runs", RUNS, "--seed", SEED, "--json", out, *more, timeout=200)
+    print(done.stdout[-3000:], done.stderr, flush=True)
+    assert done.returncode in (0, 1), done.stderr
+    result = json.loads(out.read_text())
+    held = result["misses"] == 0 and result["needless_stops"] <= 0.005 * RUNS
+    assert done.returncode == (0 if held else 1), "the exit status does not say what the result says"
+    return result
+
+
+def no_obstacle_is_touched_that_the_nominal_motion_touches():
+    picture = scratch / "sweep.svg"
+    result = sweep("first", "--picture", picture)
+    assert result["runs"] == RUNS and result["seed"] == SEED
+    assert result["misses"] == 0
+    assert result["nominal_contacts"] > 0, "no obstacle was in the way: nothing was shown"
+    assert result["stopped_runs"] >= result["nominal_contacts"] - result["governed_runs"]
+    assert result["closest_approach_m"] > 0.0
+    assert len(result["failures"]) == result["misses"] + result["needless_stops"]
+    assert "<svg" in picture.read_text()
+    again = sweep("again", "--jobs", 1)
+    for moment in ("wall_seconds",):
+        del result[moment], again[moment]
+    assert again == result, "the same seed gave another result"
+
+
+def a_failure_names_the_run_that_repeats_it():
+    result = json.loads((scratch / "first.json").read_text())
+    for failure in result["failures"][:2]:
+        done = run("berm_validate", "--seed", SEED, "--only", failure["run"], timeout=60)
+        assert done.returncode == 1 and failure["scenario"] in done.stdout, done.stdout
+    right = next(i for i in range(RUNS) if i not in {f["run"] for f in result["failures"]})
+    trace = scratch / "one.csv"
+    done = run("berm_validate", "--seed", SEED, "--only", right, "--trace", trace, timeout=60)
+    assert done.returncode == 0, done.stdout
+    lines = trace.read_text().splitlines()
+    assert len(lines) > 300 and all(line.count(",") == lines[0].count(",") for line in lines)
+
+
+def bad_input_is_one_line():
+    one_clear_line(run("berm_validate", "--runs", 0), "--runs")
+    one_clear_line(run("berm_validate", "--trace", "t.csv"), "--only")
+    one_clear_line(run("berm_validate", "--machine", "no_such"), "no_such")
+    one_clear_line(run("berm_validate", "--surprise"), "--surprise")
+
+
+main([no_obstacle_is_touched_that_the_nominal_motion_touches, a_failure_names_the_run_that_repeats_it, bad_input_is_one_line])
