@@ -11,7 +11,14 @@ constexpr double metres_per_mm = 1e-3;
 constexpr double rad_per_urad = 1e-6;
 constexpr int neighbour_samples = 2;
 
-bool differs(uint32_t a, uint32_t b, uint32_t threshold) noexcept { return (a > b ? a - b : b - a) > threshold; }
+struct Neighbour {
+  uint32_t range_mm = 0; // 0 where nothing came back
+  bool own = false;
+
+  bool supports(uint32_t range, uint32_t threshold) const noexcept {
+    return range_mm != 0 && !own && (range > range_mm ? range - range_mm : range_mm - range) <= threshold;
+  }
+};
 
 } // namespace
 
@@ -30,20 +37,21 @@ void last_echoes(const berm_scan_packet& packet, uint32_t (&range_mm)[BERM_SCAN_
   }
 }
 
-int filter_spurious(uint32_t* range_mm, int count, uint32_t threshold_mm) noexcept {
-  uint32_t before[neighbour_samples] = {0, 0}; // the two samples before, as they came, nearest first
+int filter_spurious(uint32_t* range_mm, const uint8_t* own, int count, uint32_t threshold_mm) noexcept {
+  Neighbour before[neighbour_samples] = {}; // the two samples before, as they came, nearest first
   int dropped = 0;
   for (int i = 0; i < count; ++i) {
     const uint32_t here = range_mm[i];
-    const uint32_t previous = before[0] != 0 ? before[0] : before[1];
-    uint32_t next = 0;
-    for (int j = i + 1; j <= i + neighbour_samples && j < count && next == 0; ++j) next = range_mm[j];
+    const Neighbour previous = before[0].range_mm != 0 ? before[0] : before[1];
+    Neighbour next{};
+    for (int j = i + 1; j <= i + neighbour_samples && j < count && next.range_mm == 0; ++j) next = {range_mm[j], own[j] != 0};
     before[1] = before[0];
-    before[0] = here;
+    before[0] = {here, own[i] != 0};
     if (here == 0) continue;
-    // Supported by a neighbour that agrees, or by lying between two: ground that recedes, however steeply.
-    const bool agrees = (previous != 0 && !differs(here, previous, threshold_mm)) || (next != 0 && !differs(here, next, threshold_mm));
-    const bool between = previous != 0 && next != 0 && here >= std::min(previous, next) && here <= std::max(previous, next);
+    // Supported by a neighbour that agrees, or by lying between two: ground that recedes, however steeply. The own machine supports nothing.
+    const bool agrees = previous.supports(here, threshold_mm) || next.supports(here, threshold_mm);
+    const bool two = previous.range_mm != 0 && next.range_mm != 0 && !previous.own && !next.own;
+    const bool between = two && here >= std::min(previous.range_mm, next.range_mm) && here <= std::max(previous.range_mm, next.range_mm);
     if (agrees || between) continue;
     range_mm[i] = 0;
     ++dropped;

@@ -25,6 +25,7 @@ bool ScanIntake::take(const berm_scan_packet& packet, const JointHistory& joints
     last_echoes(line.packet, range, echoes);
     const int count = line.packet.count;
     for (int i = 0; i < kNeighbours; ++i) line.before[i] = count - kNeighbours + i >= 0 ? range[count - kNeighbours + i] : 0U;
+    std::copy(line.last_own, line.last_own + kNeighbours, line.before_own);
   } else {
     std::fill(line.before, line.before + kNeighbours, 0U);
     line.chained = false;
@@ -42,27 +43,36 @@ void ScanIntake::flush(const JointHistory& joints, std::int64_t now_us, sk_heigh
     if (line.waiting && now_us - line.arrived_us >= kWaitUs) work_off(line, nullptr, joints, now_us, map, blocks);
 }
 
-void ScanIntake::filter(const Line& line, const berm_scan_packet* next, const std::uint32_t* raw, std::uint32_t* kept) const {
+void ScanIntake::filter(const Line& line, const berm_scan_packet* next, const std::uint32_t* raw, const Located* located, const JointHistory& joints,
+                        std::uint32_t* kept) const {
   std::uint32_t window[kNeighbours + BERM_SCAN_PACKET_SAMPLES + kNeighbours] = {};
+  std::uint8_t own[kNeighbours + BERM_SCAN_PACKET_SAMPLES + kNeighbours] = {};
   const int count = line.packet.count;
   std::copy(line.before, line.before + kNeighbours, window);
+  std::copy(line.before_own, line.before_own + kNeighbours, own);
   std::copy(raw, raw + count, window + kNeighbours);
+  for (int i = 0; i < count; ++i) own[kNeighbours + i] = located[i].own;
   if (next != nullptr) {
     std::uint32_t range[BERM_SCAN_PACKET_SAMPLES];
     std::uint8_t echoes[BERM_SCAN_PACKET_SAMPLES];
     last_echoes(*next, range, echoes);
-    std::copy(range, range + std::min<int>(kNeighbours, next->count), window + kNeighbours + count);
+    for (int i = 0; i < std::min<int>(kNeighbours, next->count); ++i) {
+      window[kNeighbours + count + i] = range[i];
+      own[kNeighbours + count + i] = locate(*next, i, range[i], joints).own;
+    }
   }
-  filter_spurious(window, kNeighbours + count + kNeighbours, static_cast<std::uint32_t>(parameters_.spurious_range_mm));
+  filter_spurious(window, own, kNeighbours + count + kNeighbours, static_cast<std::uint32_t>(parameters_.spurious_range_mm));
   std::copy(window + kNeighbours, window + kNeighbours + count, kept);
 }
 
-bool ScanIntake::locate(const berm_scan_packet& packet, int sample, std::uint32_t range_mm, const JointHistory& joints, sk_point& point, bool& own) const {
+ScanIntake::Located ScanIntake::locate(const berm_scan_packet& packet, int sample, std::uint32_t range_mm, const JointHistory& joints) const {
+  Located located{};
   Eigen::Vector3d upper;
-  if (range_mm == 0 || !projection_.in_upper_body(packet, sample, range_mm, upper)) return false;
+  if (range_mm == 0 || !projection_.in_upper_body(packet, sample, range_mm, upper)) return located;
   const JointAngles angles = joints.at(sample_time_us(packet, sample)).angles;
-  own = self_.is_own(upper, angles);
-  return ScanProjection::in_base(upper, angles.swing, point);
+  located.own = self_.is_own(upper, angles) ? 1 : 0;
+  located.found = ScanProjection::in_base(upper, angles.swing, located.point) ? 1 : 0;
+  return located;
 }
 
 void ScanIntake::insert(Line& line, const sk_point& point, std::int64_t now_us, sk_height_map& map) const {
@@ -92,18 +102,20 @@ void ScanIntake::work_off(Line& line, const berm_scan_packet* next, const JointH
   berm_scan_block& block = blocks.block[blocks.count < ScanBlocks::kCapacity ? blocks.count++ : ScanBlocks::kCapacity - 1];
   start_block(line, block);
   last_echoes(line.packet, block.range_mm, block.echoes);
+  const int count = line.packet.count;
+  Located located[BERM_SCAN_PACKET_SAMPLES];
+  for (int i = 0; i < count; ++i) located[i] = locate(line.packet, i, block.range_mm[i], joints);
   std::uint32_t kept[BERM_SCAN_PACKET_SAMPLES];
-  filter(line, next, block.range_mm, kept);
-  for (int i = 0; i < line.packet.count; ++i) {
-    sk_point point{};
-    bool own = false;
-    const bool located = locate(line.packet, i, block.range_mm[i], joints, point, own);
-    if (located) {
+  filter(line, next, block.range_mm, located, joints, kept);
+  for (int i = 0; i < kNeighbours; ++i) line.last_own[i] = count - kNeighbours + i >= 0 ? located[count - kNeighbours + i].own : 0;
+  for (int i = 0; i < count; ++i) {
+    const sk_point& point = located[i].point;
+    if (located[i].found != 0) {
       block.point_mm[i][0] = point.x_mm;
       block.point_mm[i][1] = point.y_mm;
       block.point_mm[i][2] = point.z_mm;
     }
-    if (!located || own || kept[i] == 0) {
+    if (located[i].found == 0 || located[i].own != 0 || kept[i] == 0) {
       line.chained = false;
       continue;
     }

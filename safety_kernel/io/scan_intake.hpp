@@ -48,6 +48,8 @@ class ScanIntake {
     std::int64_t arrived_us = 0;
     berm_scan_packet packet{};
     std::uint32_t before[kNeighbours] = {};  // raw ranges of the samples before the packet, 0 where the chain is broken
+    std::uint8_t before_own[kNeighbours] = {};
+    std::uint8_t last_own[kNeighbours] = {};  // of the packet's own last samples, once it is worked off
     bool chained = false;                 // last is the point of the sample just before the packet
     sk_point last{};
     std::int32_t pan_urad = 0;
@@ -56,8 +58,14 @@ class ScanIntake {
   static bool continues(const berm_scan_packet& earlier, const berm_scan_packet& later);
   // next: the packet after it on the same scanline, or null.
   void work_off(Line& line, const berm_scan_packet* next, const JointHistory& joints, std::int64_t now_us, sk_height_map& map, ScanBlocks& blocks);
-  void filter(const Line& line, const berm_scan_packet* next, const std::uint32_t* raw, std::uint32_t* kept) const;
-  bool locate(const berm_scan_packet& packet, int sample, std::uint32_t range_mm, const JointHistory& joints, sk_point& point, bool& own) const;
+  struct Located {
+    sk_point point;
+    std::uint8_t found;  // 0: no return, or none that can be placed
+    std::uint8_t own;    // 1: on the own machine
+  };
+  Located locate(const berm_scan_packet& packet, int sample, std::uint32_t range_mm, const JointHistory& joints) const;
+  void filter(const Line& line, const berm_scan_packet* next, const std::uint32_t* raw, const Located* located, const JointHistory& joints,
+              std::uint32_t* kept) const;
   void insert(Line& line, const sk_point& point, std::int64_t now_us, sk_height_map& map) const;
   void start_block(const Line& line, berm_scan_block& block) const;
 

@@ -9,9 +9,10 @@ namespace {
 
 constexpr uint32_t threshold = 1000;
 
-std::vector<uint32_t> filtered(std::vector<uint32_t> ranges) {
+std::vector<uint32_t> filtered(std::vector<uint32_t> ranges, std::vector<uint8_t> own = {}) {
   const std::vector<uint32_t> before = ranges;
-  const int dropped = filter_spurious(ranges.data(), static_cast<int>(ranges.size()), threshold);
+  own.resize(ranges.size(), 0);
+  const int dropped = filter_spurious(ranges.data(), own.data(), static_cast<int>(ranges.size()), threshold);
   int changed = 0;
   for (size_t i = 0; i < ranges.size(); ++i) {
     EXPECT_TRUE(ranges[i] == before[i] || ranges[i] == 0);
@@ -74,6 +75,26 @@ TEST(Spurious, JudgesByTheRawNeighbours) {
   EXPECT_EQ(filtered({9000, 9000, 2000, 6000, 6000}), (Ranges{9000, 9000, 0, 6000, 6000}));
 }
 
+// A lone return over the own bucket: what agrees with it, or encloses it, is the machine itself.
+// verifies: SK-GE-23
+TEST(Spurious, TheOwnMachineSupportsNothing) {
+  EXPECT_EQ(filtered({4000, 4000, 4500, 4000, 4000}, {1, 1, 0, 1, 1})[2], 0u);
+  EXPECT_EQ(filtered({4000, 4000, 6000, 8000, 8000}, {1, 1, 0, 1, 1})[2], 0u);
+  EXPECT_EQ(filtered({5348, 5348, 6784, 26320, 30080}, {1, 1, 0, 0, 0})[2], 0u) << "over the bucket's edge, far ground behind";
+  EXPECT_EQ(filtered({30080, 26320, 6784, 5348, 5348}, {0, 0, 0, 1, 1})[2], 0u);
+  EXPECT_EQ(filtered({4000, 0, 4500, 0, 4000}, {1, 0, 0, 0, 1})[2], 0u);
+  EXPECT_EQ(filtered({4000, 4000, 4500}, {1, 1, 0})[2], 0u);
+}
+
+// Ground or a person beside the bucket's edge is no less seen than elsewhere.
+// verifies: SK-GE-23
+TEST(Spurious, BesideTheOwnMachineAReturnKeepsItsOtherNeighbour) {
+  EXPECT_EQ(filtered({4000, 4000, 7000, 7500}, {1, 1, 0, 0})[2], 7000u);
+  EXPECT_EQ(filtered({4000, 4000, 7000, 9500, 12000}, {1, 1, 0, 0, 0}), (Ranges{4000, 4000, 0, 9500, 0})) << "ground that recedes loses its first sample";
+  EXPECT_EQ(filtered({9500, 7000, 4000, 4000}, {0, 0, 1, 1})[1], 7000u);
+  EXPECT_EQ(filtered({4000, 6000, 6500, 4000}, {1, 0, 0, 1}), (Ranges{0, 6000, 6500, 0})) << "two that agree between the arm's sides";
+}
+
 // The smallest object that is never hidden: two samples in a row that agree, wherever they lie in the run and whatever is behind them.
 // verifies: SK-GE-23
 TEST(Spurious, NeverHidesTwoAgreeingSamplesInARow) {
@@ -93,7 +114,7 @@ TEST(Spurious, NeverHidesTwoAgreeingSamplesInARow) {
 // verifies: SK-GE-23
 TEST(Spurious, AnEmptyRunIsFine) {
   uint32_t none = 7;
-  EXPECT_EQ(filter_spurious(&none, 0, threshold), 0);
+  EXPECT_EQ(filter_spurious(&none, nullptr, 0, threshold), 0);
   EXPECT_EQ(none, 7u);
 }
 
