@@ -247,6 +247,8 @@ class LoadRun {
         say(fmt::format("{:7.1f} s  the kernel stopped the machine: {}", recorder_.time_s(), event.value("reason", "?")));
       } else if (name == "held") {
         say(fmt::format("{:7.1f} s  the app holds back: {}", recorder_.time_s(), held_by(event)));
+      } else if (name == "operator_needed") {
+        say(fmt::format("{:7.1f} s  operator needed, {}: {}", recorder_.time_s(), operator_needed_for(event), event.value("advice", "")));
       } else if (name == "resumed" || name == "released") {
         say(fmt::format("{:7.1f} s  moving again", recorder_.time_s()));
       }

@@ -94,6 +94,13 @@ std::string held_by(const json& held) {
   return held.contains("height_m") ? fmt::format("{}, height {:.1f} m", place, held.value("height_m", 0.0)) : place;
 }
 
+std::string operator_needed_for(const json& event) {
+  const std::string reason = event.value("reason", "?");
+  if (!event.contains("x_m")) return reason;
+  return fmt::format("{} for {:.0f} s at ({:.1f}, {:.1f}) height {:.1f} m", reason, event.value("stopped_s", 0.0), event.value("x_m", 0.0), event.value("y_m", 0.0),
+                     event.value("height_m", 0.0));
+}
+
 json flat_json(const RunResult& r) {
   json out;
   out["scenario"] = r.options.scenario;

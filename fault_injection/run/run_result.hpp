@@ -29,6 +29,8 @@ struct RunResult {
 
 // What an app's event "held" names: what stands in the way, and where.
 std::string held_by(const nlohmann::json& held);
+// What an app's event "operator_needed" is for: the stop's reason, how long, and where.
+std::string operator_needed_for(const nlohmann::json& event);
 // The documented flat object.
 nlohmann::json flat_json(const RunResult& result);
 // What a person reads.

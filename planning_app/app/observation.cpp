@@ -31,6 +31,9 @@ Observation observe(const berm_state& state) {
   o.kernel_state = state.kernel_state;
   o.stop_reason = state.stop_reason;
   o.blocked_bearing = std::atan2(static_cast<double>(state.blocked_y_mm), static_cast<double>(state.blocked_x_mm));
+  o.blocked_x = state.blocked_x_mm * 1e-3;
+  o.blocked_y = state.blocked_y_mm * 1e-3;
+  o.blocked_height = state.blocked_height_mm * 1e-3;
   o.truck_parked = (state.panel & BERM_PANEL_TRUCK_PARKED) != 0;
   return o;
 }

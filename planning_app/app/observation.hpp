@@ -20,6 +20,7 @@ struct Observation {
   std::uint8_t kernel_state = BERM_STATE_INIT;
   std::uint8_t stop_reason = BERM_STOP_NONE;
   double blocked_bearing = 0.0; // of the blocking cell, for the ground's stop reasons
+  double blocked_x = 0.0, blocked_y = 0.0, blocked_height = 0.0;
   bool truck_parked = false;
 
   bool running() const { return kernel_state == BERM_STATE_RUN; }

@@ -10,6 +10,7 @@ constexpr double patience = 2.5;        // s before a retreat
 constexpr double rescan_after = 0.5;    // s
 constexpr double rescan_every = 6.0;    // s; the kernel's map forgets, and who stood in the way may have left
 constexpr double one_way = 4.0;         // s of creeping in one direction before the next is tried
+constexpr double call_after = 30.0;     // s: two rounds of creeping and four of looking have not helped
 constexpr double creep_share = 0.9;
 constexpr double range_room = radians(8.0);
 
@@ -38,6 +39,24 @@ Joints Recovery::retreat(const Observation& o, double blocked_s) const {
   return v;
 }
 
+// What a person must do, once a stop. True when the call was made just now.
+bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
+  const bool latched = o.kernel_state == BERM_STATE_FAULT || (o.kernel_state == BERM_STATE_STOPPED && !by_ground(o.stop_reason) && o.stop_reason != BERM_STOP_REQUEST_HOLD);
+  if (called_ || !(latched || (by_ground(o.stop_reason) && o.time_s - since_s_ > call_after))) return false;
+  called_ = true;
+  nlohmann::ordered_json fields{{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}, {"stopped_s", o.time_s - since_s_}};
+  if (latched) {
+    fields["advice"] = "mend the cause, then press reset";
+  } else if (o.stop_reason == BERM_STOP_JOINT_RANGE) {
+    fields["advice"] = "move the joint back into its range by hand";
+  } else {
+    fields.update({{"x_m", o.blocked_x}, {"y_m", o.blocked_y}, {"height_m", o.blocked_height}});
+    fields["advice"] = "clear the place; if nothing stands there, press relearn";
+  }
+  log.event("operator_needed", fields);
+  return true;
+}
+
 Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
   Advice advice;
   if (o.running()) {
@@ -46,7 +65,7 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
       advice.resumed = true;
       advice.moved = moved_;
     }
-    stopped_ = moved_ = false;
+    stopped_ = moved_ = called_ = false;
     return advice;
   }
   advice.in_charge = true;
@@ -57,6 +76,7 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
     if (o.kernel_state == BERM_STATE_STOPPING || o.kernel_state == BERM_STATE_STOPPED || o.kernel_state == BERM_STATE_FAULT)
       log.event("stopped", {{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}});
   }
+  advice.operator_called = call_operator(o, log);
   if (!by_ground(o.stop_reason)) return advice;
   const double blocked = o.time_s - since_s_;
   if (o.time_s > next_rescan_s_) {

@@ -1,5 +1,6 @@
 // What to do while the kernel does not permit motion: hold; and when it is the ground that stopped the machine and stays blocked, look again
-// with both scanners and retreat slowly, which the kernel permits when the slow motion's own box is clear.
+// with both scanners and retreat slowly, which the kernel permits when the slow motion's own box is clear. What none of this mends is the
+// operator's: who is told once what to do.
 #pragma once
 
 #include "app/observation.hpp"
@@ -17,15 +18,18 @@ public:
     bool rescan = false;      // just now: begin a full sweep
     bool resumed = false;     // just now: the plan is in charge again
     bool moved = false;       // with resumed: the implements were moved meanwhile
+    bool operator_called = false;  // just now
   };
   Advice step(const Observation& o, const ProgressLog& log);
 
 private:
   Joints retreat(const Observation& o, double blocked_s) const;
+  bool call_operator(const Observation& o, const ProgressLog& log);
 
   MachineModel machine_;
   bool stopped_ = false;
   bool moved_ = false;
+  bool called_ = false;
   double since_s_ = 0.0;
   double next_rescan_s_ = 0.0;
 };

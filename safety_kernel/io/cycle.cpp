@@ -34,6 +34,7 @@ void Cycle::step(const CycleInputs& in, CycleOutputs& out) {
   map_points_ = 0;
   take_frames(in);
   if (!map_only_) learn_base(in.now_us);
+  if (!map_only_) relearn_map(in.now_us);
   take_scans(in, out.blocks);
   map_points_ += scans_.points() - points_before;
   take_points(in);
@@ -84,6 +85,11 @@ void Cycle::learn_base(std::int64_t now_us) {
   const bool learns_anew = base.moved && standstill_ && (reset || stop_.code == SK_STATE_INIT);
   // The map begins with its reference.
   if ((!base.learned || learns_anew) && sk_base_learn(&base, &parameters_, now_us)) sk_map_clear(&map_);
+}
+
+// At standstill alone; a key that stays down keeps the map empty, and the machine where it stands.
+void Cycle::relearn_map(std::int64_t now_us) {
+  if (standstill_ && frames_.operator_fresh(now_us) && frames_.picture().panel.relearn) sk_map_clear(&map_);
 }
 
 void Cycle::take_request(const CycleInputs& in) {

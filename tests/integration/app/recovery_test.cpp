@@ -57,8 +57,28 @@ TEST(Recovery, WaitsForTheOperator) {
   for (int k = 0; k < 3000; ++k) {
     const auto advice = recovery.step(stopped(0.01 * k, BERM_STOP_OPERATOR), log);
     ASSERT_TRUE(advice.in_charge);
+    ASSERT_EQ(advice.operator_called, k == 0) << "at once, for nothing else can help; and once";
     for (const double v : advice.velocity) ASSERT_EQ(v, 0.0);
   }
+}
+
+// No dead end without a word.
+TEST(Recovery, CallsTheOperatorWhenLookingAndCreepingDoNotHelp) {
+  Recovery recovery(berm::app_bench::zx200());
+  const ProgressLog log(-1);
+  int calls = 0;
+  for (int k = 0; k < 9000; ++k) {
+    const auto advice = recovery.step(stopped(0.01 * k, BERM_STOP_COLLISION_PREDICTED), log);
+    calls += advice.operator_called;
+    ASSERT_TRUE(calls == 0 || 0.01 * k > 29.9);
+  }
+  EXPECT_EQ(calls, 1);
+  Observation o = stopped(91.0, BERM_STOP_NONE);
+  o.kernel_state = BERM_STATE_RUN;
+  EXPECT_FALSE(recovery.step(o, log).operator_called);
+  calls = 0;
+  for (int k = 0; k < 4000; ++k) calls += recovery.step(stopped(100.0 + 0.01 * k, BERM_STOP_STALE_GROUND), log).operator_called;
+  EXPECT_EQ(calls, 1) << "each stop has its own";
 }
 
 TEST(Recovery, ComesBackIntoTheJointsRange) {

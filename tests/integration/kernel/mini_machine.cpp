@@ -82,7 +82,7 @@ void MiniMachine::make_frames() {
   const berm_estop estop{estop_pressed, true, 0};
   add_guarded(berm_encode_estop(&estop));
   if (!operator_silent) {
-    const berm_operator panel{run_switch, operator_stop, reset_key, false, 0};
+    const berm_operator panel{run_switch, operator_stop, reset_key, relearn_key, 0};
     add_guarded(berm_encode_operator(&panel));
   }
   if (spotter_present) {

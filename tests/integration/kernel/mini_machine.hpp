@@ -36,6 +36,7 @@ class MiniMachine {
   bool scanners_silent = false;
   bool operator_silent = false;
   bool reset_key = false;
+  bool relearn_key = false;
   bool run_switch = true;
   bool operator_stop = false;
   bool estop_pressed = false;

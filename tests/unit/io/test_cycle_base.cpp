@@ -62,6 +62,27 @@ TEST_F(CycleBase, ATiltStopsVoidsTheMapAndTheResetLearnsItAnew) {
   EXPECT_EQ(rig.state().kernel_state, BERM_STATE_RUN) << "the tilt is the new reference";
 }
 
+// verifies: SK-CY-35
+TEST_F(CycleBase, TheOperatorHasTheMapLearnedAnewAtStandstill) {
+  run();
+  rig.wanted_urad_s[1] = 50000;
+  rig.steps(20);
+  const int seen = seen_cells();
+  ASSERT_GT(seen, 100);
+  rig.machine.relearn_key = true;
+  rig.steps(20);
+  ASSERT_NE(rig.state().joint_velocity_urad_s[1], 0);
+  EXPECT_GE(seen_cells(), seen) << "never while it moves";
+  rig.wanted_urad_s[1] = 0;
+  rig.steps(100);
+  EXPECT_EQ(seen_cells(), 0);
+  EXPECT_EQ(rig.state().kernel_state, BERM_STATE_STOPPED);
+  EXPECT_EQ(rig.state().stop_reason, BERM_STOP_UNKNOWN_GROUND);
+  rig.machine.relearn_key = false;
+  EXPECT_TRUE(rig.reach_state(BERM_STATE_RUN, kStartLimit));
+  EXPECT_GT(seen_cells(), 100);
+}
+
 // verifies: SK-BM-10
 TEST_F(CycleBase, TurningTracksStopTheMachine) {
   run();
