@@ -3,12 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <toml.hpp>
 
 namespace berm::config {
 
@@ -50,12 +49,11 @@ class StrictTable {
   const std::string& file() const { return file_; }
 
  private:
-  StrictTable(std::string file, std::string path, toml::value value);
-  const toml::value& at(const std::string& key);
-  double checked(const std::string& key, const toml::value& value, double low, double high) const;
+  struct Node;  // a value of the TOML library: its header costs every includer seconds to compile
+  StrictTable(std::string file, std::string path, std::shared_ptr<const Node> node);
 
   std::string file_, path_;
-  toml::value value_;
+  std::shared_ptr<const Node> node_;
   std::set<std::string> seen_;
 };
 
