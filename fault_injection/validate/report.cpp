@@ -15,7 +15,7 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Totals {
-  int misses = 0, needless = 0, governed = 0, stopped = 0, arrived = 0, nominal_hits = 0, held_off = 0;
+  int misses = 0, needless = 0, hidden = 0, governed = 0, stopped = 0, arrived = 0, nominal_hits = 0, held_off = 0;
   double closest_m = 1e9, time_lost_p95 = 0.0;
 };
 
@@ -34,6 +34,7 @@ Totals totals_of(const std::vector<TrialResult>& results) {
   for (const TrialResult& r : results) {
     t.misses += r.outcome == Outcome::miss;
     t.needless += r.outcome == Outcome::needless_stop;
+    t.hidden += r.past_hidden;
     const bool governed = r.kernel.governed && !r.kernel.stopped && r.kernel.arrived;
     t.governed += governed;
     t.stopped += r.kernel.stopped;
@@ -64,7 +65,7 @@ ordered_json flat_json(const Sweep& sweep) {
   for (const auto& r : sweep.results)
     if (r.outcome != Outcome::right)
       failures.push_back({{"run", r.trial.run}, {"kind", r.outcome == Outcome::miss ? "miss" : "needless stop"}, {"why", r.why}, {"scenario", describe(r.trial)}, {"command", command(r.trial)}});
-  return {{"seed", sweep.seed}, {"runs", sweep.results.size()}, {"misses", t.misses}, {"needless_stops", t.needless}, {"governed_runs", t.governed},
+  return {{"seed", sweep.seed}, {"runs", sweep.results.size()}, {"misses", t.misses}, {"needless_stops", t.needless}, {"needless_past_hidden_space", t.hidden}, {"governed_runs", t.governed},
           {"time_lost_s_p95", t.time_lost_p95}, {"closest_approach_m", t.closest_m}, {"stopped_runs", t.stopped}, {"nominal_contacts", t.nominal_hits},
           {"wall_seconds", sweep.wall_seconds}, {"failures", failures}};
 }
@@ -77,6 +78,7 @@ std::string summary_text(const Sweep& sweep) {
   row("runs", fmt::format("{}", sweep.results.size()));
   row("misses (contact)", fmt::format("{}", t.misses));
   row("needless stops", fmt::format("{} ({:.2f} %)", t.needless, 100.0 * t.needless / n));
+  row("  past hidden space", fmt::format("{}: the obstacle hid it from the scanners all the while; the others {:.2f} %", t.hidden, 100.0 * (t.needless - t.hidden) / n));
   row("nominal motion touches", fmt::format("{}, of which the kernel let {} happen", t.nominal_hits, t.nominal_hits - t.held_off));
   row("stopped by the kernel", fmt::format("{}", t.stopped));
   row("slowed, not stopped", fmt::format("{}; time lost, 95th percentile {:.2f} s", t.governed, t.time_lost_p95));

@@ -50,7 +50,7 @@ class Kernel final : public Supervisor {
 
 class Obedient final : public Supervisor {
  public:
-  const std::vector<berm_can_frame>& step(std::uint64_t cycle, const std::vector<berm_can_frame>& frames, const std::vector<berm_scan_packet>&,
+  const std::vector<berm_can_frame>& step(std::uint64_t cycle, const std::vector<berm_can_frame>& frames, const std::vector<berm_scan_packet>& packets,
                                           const berm_request* request) override {
     state_.cycle = cycle;
     state_.time_us = static_cast<std::int64_t>(cycle) * cycle_us;
@@ -61,11 +61,16 @@ class Obedient final : public Supervisor {
       if (berm_decode_front_angle(&frame, &angle)) std::copy(angle.angle_urad, angle.angle_urad + 4, state_.joint_angle_urad);
       if (berm_decode_front_velocity(&frame, &velocity)) std::copy(velocity.velocity_urad_s, velocity.velocity_urad_s + 4, state_.joint_velocity_urad_s);
     }
+    for (const auto& packet : packets) state_.pan_angle_urad[packet.scanner] = packet.pan_end_urad;
     berm_velocity_cmd command{};
     if (request != nullptr) std::copy(request->joint_velocity_urad_s, request->joint_velocity_urad_s + 4, command.velocity_urad_s);
     std::copy(command.velocity_urad_s, command.velocity_urad_s + 4, state_.commanded_urad_s);
     sent_.clear();
     add(berm_encode_velocity_cmd(&command), velocity_counter_);
+    for (std::uint8_t i = 0; i < 2 && request != nullptr; ++i) {
+      const berm_pan_cmd pan{i, request->pan_goal_urad[i], request->pan_rate_urad_s[i]};
+      sent_.push_back(berm_encode_pan_cmd(&pan));
+    }
     berm_heartbeat heartbeat{};
     heartbeat.enable = true;
     heartbeat.stop_category = 255;

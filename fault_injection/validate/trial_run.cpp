@@ -12,7 +12,9 @@
 #include "plant/machine/machine_controller.hpp"
 #include "plant/machine/pan_servo.hpp"
 #include "plant/machine/state_frames.hpp"
+#include "plant/oracle/oracle.hpp"
 #include "validate/commander.hpp"
+#include "validate/seen_space.hpp"
 #include "validate/supervisor.hpp"
 
 namespace berm::validate {
@@ -23,15 +25,30 @@ constexpr double cycle_s = 0.01;
 constexpr double longest_survey_s = 15.0, longest_motion_s = 30.0, stopped_for_s = 1.5;
 constexpr double still = 0.004;           // rad/s
 constexpr double needless_beyond_m = 0.25;
+constexpr double far_away_m = 60.0;
+constexpr std::uint64_t note_every = 10;  // cycles
+constexpr double seen_before_s = 0.5;     // what is seen later than this before the implements come is no help: they could not stand by then
+
+struct PathPoint {
+  double t;
+  std::array<double, 4> joints;
+};
+
+// What is seen through is the beams' true way; a spurious return beyond the obstacle would have looked through it.
+plant::WorldConfig without_noise(plant::WorldConfig world) {
+  world.scanner.range_stddev = world.scanner.outlier_probability = world.scanner.dropout_probability = world.scanner.dust_probability = 0.0;
+  return world;
+}
 
 // Machine, world, commander and whoever supervises, in one loop of virtual time: the plant's own parts, in the order of its process.
 class Loop {
  public:
-  Loop(const Bench& bench, const Trial& trial, std::unique_ptr<Supervisor> supervisor)
-      : trial_(trial), supervisor_(std::move(supervisor)), world_(world_of(trial), bench.profile.shape, seed_of(trial), 0),
+  // seen: takes what the scanners look through, or null. path: the joints' angles every 0.1 s of the swing, or null.
+  Loop(const Bench& bench, const Trial& trial, std::unique_ptr<Supervisor> supervisor, SeenSpace* seen = nullptr, std::vector<PathPoint>* path = nullptr)
+      : trial_(trial), scans_(supervisor->needs_scans() || seen != nullptr), seen_(seen), path_(path), supervisor_(std::move(supervisor)), world_(seen == nullptr ? world_of(trial) : without_noise(world_of(trial)), bench.profile.shape, seed_of(trial), 0),
         dynamics_(bench.profile.dynamics, bench.profile.shape, seed_of(trial), {trial.from, {}}), controller_(bench.profile), frames_(bench.profile, seed_of(trial)),
         servo_{plant::PanServo(bench.profile.shape.scanner[0]), plant::PanServo(bench.profile.shape.scanner[1])},
-        commander_(bench.machine, trial, std::max(plant::reach(bench.profile.shape, {trial.from, {}}), plant::reach(bench.profile.shape, {trial.to, {}})), supervisor_->needs_scans()) {}
+        commander_(bench.machine, trial, std::max(plant::reach(bench.profile.shape, {trial.from, {}}), plant::reach(bench.profile.shape, {trial.to, {}})), scans_) {}
 
   Motion run(std::FILE* trace) {
     Motion motion;
@@ -47,9 +64,11 @@ class Loop {
       if (!motion.began) {
         motion.began = commander_.swinging();
         began_s = t;
-        if (!motion.began && t > longest_survey_s) break;
-        continue;
+        if (motion.began || t <= longest_survey_s) continue;
+        motion.stop_reason = state.stop_reason;
+        break;
       }
+      if (path_ != nullptr && cycle_ % note_every == 0) path_->push_back({t, dynamics_.state().angle});
       motion.seconds = t - began_s;
       if (motion.seconds > longest_motion_s) break;
       if (state.kernel_state != BERM_STATE_RUN && !motion.stopped) {
@@ -86,7 +105,9 @@ class Loop {
     }
     world_.step(t, cycle_s, dynamics_.state(), before);
     std::vector<berm_scan_packet> packets;
-    if (supervisor_->needs_scans()) world_.scan(t, cycle_s, before, dynamics_.state(), pan_before, pan_, packets);
+    if (scans_) world_.scan(t, cycle_s, before, dynamics_.state(), pan_before, pan_, packets);
+    if (seen_ != nullptr)
+      for (const auto& packet : packets) seen_->take(packet, t, dynamics_.state());
     const auto& speed = dynamics_.state().velocity;
     resting_ = std::all_of(speed.begin(), speed.end(), [](double v) { return std::fabs(v) < still; });
 
@@ -118,6 +139,9 @@ class Loop {
   }
 
   const Trial& trial_;
+  bool scans_;
+  SeenSpace* seen_;
+  std::vector<PathPoint>* path_;
   std::unique_ptr<Supervisor> supervisor_;
   plant::World world_;
   plant::JointDynamics dynamics_;
@@ -131,6 +155,31 @@ class Loop {
   double now_ = 0.0;
   bool resting_ = true;
 };
+
+// Whether some implement comes within reach of a column of space that was hidden until shortly before.
+bool passes(const plant::ImplementShape& shape, const std::vector<PathPoint>& path, const SeenSpace& seen, const SeenSpace& without, double reach_m) {
+  const plant::oracle::Oracle oracle(shape);
+  for (const auto& point : path) {
+    const auto machine = oracle.machine(point.joints);
+    for (const auto& h : seen.hidden_against(without, point.t - seen_before_s)) {
+      const plant::oracle::Body column = plant::oracle::body_of({"hidden", h.x, h.y, 0.0, 0.0, {-0.5 * SeenSpace::side, -0.5 * SeenSpace::side, 0.0}, {0.5 * SeenSpace::side, 0.5 * SeenSpace::side, h.top}});
+      for (std::size_t part = 0; part < shape.parts.size(); ++part)
+        if ((column.middle - machine[part].middle).norm() <= column.reach + machine[part].reach + reach_m && plant::oracle::distance(machine[part], column).upper <= reach_m) return true;
+    }
+  }
+  return false;
+}
+
+// The nominal motion once more, scanning as with the kernel, with the obstacle and without it.
+bool past_hidden(const Bench& bench, const Trial& trial, double reach_m) {
+  SeenSpace seen(bench.profile.shape), seen_without(bench.profile.shape);
+  std::vector<PathPoint> path;
+  Loop(bench, trial, make_obedient(), &seen, &path).run(nullptr);
+  Trial without = trial;
+  without.obstacle.x = without.obstacle.y = far_away_m;
+  Loop(bench, without, make_obedient(), &seen_without).run(nullptr);
+  return passes(bench.profile.shape, path, seen, seen_without, reach_m);
+}
 
 void judge(const Bench& bench, TrialResult& result) {
   const Motion &kernel = result.kernel, &nominal = result.nominal;
@@ -146,6 +195,8 @@ void judge(const Bench& bench, TrialResult& result) {
     result.outcome = Outcome::needless_stop;
     result.why = fmt::format("stopped on the way, reason {}; the nominal motion keeps {:.2f} m", kernel.stop_reason, kept);
   }
+  result.past_hidden = result.outcome == Outcome::needless_stop && past_hidden(bench, result.trial, margin + needless_beyond_m);
+  if (result.past_hidden) result.why += "; it passes space that the obstacle hid";
   if (kernel.arrived && nominal.arrived) result.time_lost_s = kernel.seconds - nominal.seconds;
 }
 

@@ -32,6 +32,7 @@ def no_obstacle_is_touched_that_the_nominal_motion_touches():
     assert result["stopped_runs"] >= result["nominal_contacts"] - result["governed_runs"]
     assert result["closest_approach_m"] > 0.0
     assert len(result["failures"]) == result["misses"] + result["needless_stops"]
+    assert 0 <= result["needless_past_hidden_space"] <= result["needless_stops"]
     assert "<svg" in picture.read_text()
     again = sweep("again", "--jobs", 1)
     for moment in ("wall_seconds",):
