@@ -106,18 +106,17 @@ std::uint8_t MotionCheck::clear(const MotionQuery& query, const sk_height_map& m
   return slices.count > 0 ? BERM_STOP_NONE : BERM_STOP_INTERNAL;
 }
 
-// On success the verdict's commands and box are these.
+// The verdict's box is this one; on success its commands are these.
 std::uint8_t MotionCheck::judge(const MotionQuery& query, const sk_height_map& map, const Commands& c, SliceSet& slices, bool creeping, MotionVerdict& verdict) {
   sk_reach_box box{};
   const bool bounded = reach(query, c, box);
-  if (&slices == &request_slices_) verdict.box = box;
+  verdict.box = box;
   if (!bounded || !joints_within(box, c)) {
     if (!build_slices(shape_, box, slices)) slices.count = 0;  // for observers only
     return BERM_STOP_JOINT_RANGE;
   }
   const std::uint8_t reason = clear(query, map, box, slices, creeping, verdict);
   if (reason != BERM_STOP_NONE) return reason;
-  verdict.box = box;
   std::copy(c.send_urad_s, c.send_urad_s + SK_JOINTS, verdict.command_urad_s);
   return BERM_STOP_NONE;
 }

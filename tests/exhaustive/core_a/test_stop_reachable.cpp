@@ -18,23 +18,23 @@ Key key(const sk_stop_state& s) { return {s.code, s.reason, s.category, s.rank, 
 template <class Allowed>
 std::map<Key, sk_stop_state> reach(sk_stop_state from, Allowed allowed) {
   std::map<Key, sk_stop_state> seen;
-  std::deque<sk_stop_state> todo;
+  std::deque<sk_stop_state> waiting;
   from.since_us = kEntered;
   seen.emplace(key(from), from);
-  todo.push_back(from);
+  waiting.push_back(from);
   std::vector<sk_stop_input> all = inputs(kEntered);
   const std::vector<sk_stop_input> overdue = inputs(kEntered + SK_STOPPING_LIMIT_US + 1);
   all.insert(all.end(), overdue.begin(), overdue.end());
-  while (!todo.empty()) {
-    const sk_stop_state s = todo.front();
-    todo.pop_front();
+  while (!waiting.empty()) {
+    const sk_stop_state s = waiting.front();
+    waiting.pop_front();
     for (const sk_stop_input& in : all) {
       if (!allowed(in)) continue;
       sk_stop_state next = s;
       sk_stop_output out{};
       sk_stop_step(&next, &in, &out);
       next.since_us = kEntered;
-      if (seen.emplace(key(next), next).second) todo.push_back(next);
+      if (seen.emplace(key(next), next).second) waiting.push_back(next);
     }
   }
   return seen;
