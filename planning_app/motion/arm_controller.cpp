@@ -38,8 +38,22 @@ Joints ArmController::follow(const Joints& reference, const Joints& reference_ve
   return command;
 }
 
+void ArmController::heard(const Joints& commanded, const Joints& permitted_low, const Joints& permitted_high, int cycles) {
+  for (std::size_t j = 0; j < joints; ++j) controller_[j].heard(commanded[j], permitted_low[j], permitted_high[j], cycles);
+}
+
+void ArmController::asked(const Joints& command) {
+  for (std::size_t j = 0; j < joints; ++j) controller_[j].asked(command[j]);
+}
+
 void ArmController::sent(const Joints& command) {
   for (std::size_t j = 0; j < joints; ++j) controller_[j].sent(command[j]);
+}
+
+Joints ArmController::shares() const {
+  Joints share{};
+  for (std::size_t j = 0; j < joints; ++j) share[j] = controller_[j].share();
+  return share;
 }
 
 Joints ArmController::predicted(const Joints& angle, const Joints& velocity) const {
