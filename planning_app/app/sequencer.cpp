@@ -73,13 +73,13 @@ void Sequencer::hear(const Observation& o) {
 
 // A rule that waited for the swing is timed by it (a lowering over the dig, a pouring over the bed): it is slowed with the swing, so that each
 // swing angle finds the implements where the search for the script's parameters had them. The other rules go ahead, into safer poses.
-Joints Sequencer::paces() const {
+Joints Sequencer::tempos() const {
   constexpr double least = 0.2;  // a swing that hardly moves may be waiting for the very joint
   const double share = std::max(least, arm_.shares()[swing]);
-  Joints pace = script_.paces();
+  Joints tempo{1.0, 1.0, 1.0, 1.0};
   for (const Joint j : {boom, stick, bucket})
-    if (script_.of(j).waited_for(swing)) pace[j] *= share;
-  return pace;
+    if (script_.of(j).waited_for(swing)) tempo[j] = share;
+  return tempo;
 }
 
 Joints Sequencer::run_script(const Observation& o, std::uint32_t events) {
@@ -87,7 +87,7 @@ Joints Sequencer::run_script(const Observation& o, std::uint32_t events) {
     script_.evaluate(o.angle, events);
     script_s_ = o.time_s;
   }
-  return arm_.toward(script_.goals(), paces(), o.angle, o.velocity);
+  return arm_.toward(script_.goals(), script_.paces(), tempos(), o.angle, o.velocity);
 }
 
 Joints Sequencer::approach(const Observation& o) {
@@ -102,7 +102,7 @@ Joints Sequencer::approach(const Observation& o) {
 Joints Sequencer::settle(const Observation& o) {
   const Joints goals = script_.goals();
   if (std::fabs(goals[swing] - o.angle[swing]) < arrived && std::fabs(o.velocity[swing]) < still) begin_dig(o);
-  return arm_.toward(goals, paces(), o.angle, o.velocity);
+  return arm_.toward(goals, script_.paces(), tempos(), o.angle, o.velocity);
 }
 
 std::uint32_t Sequencer::pass_events(const Observation& o) {
@@ -113,7 +113,7 @@ std::uint32_t Sequencer::pass_events(const Observation& o) {
   if (open_since_s_ < 0.0) return event_none;
   // The load needs an open bucket, not time: while the bucket is slowed on its way the clock is too.
   const bool on_its_way = o.angle[bucket] < poses_.dump[bucket] - radians(8.0);
-  if (on_its_way) open_since_s_ += (1.0 - arm_.shares()[bucket] * paces()[bucket] / script_.of(bucket).pace()) * machine_.cycle;
+  if (on_its_way) open_since_s_ += (1.0 - arm_.shares()[bucket] * tempos()[bucket]) * machine_.cycle;
   const double open = o.time_s - open_since_s_;
   const bool light = o.payload_kg >= 0.0 && recent_.kg() < empty_share * full_bucket_kg;
   emptied_ = (open > open_at_least && (light || o.payload_kg < 0.0)) || open > open_at_most;

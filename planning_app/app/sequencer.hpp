@@ -44,7 +44,7 @@ private:
   void enter_phase(std::uint16_t phase, const Observation& o);
   Joints plan(const Observation& o);          // the stage's motion of this cycle
   void hear(const Observation& o);            // what the kernel let out of the request before, and what it permits now
-  Joints paces() const;                       // of the script's active rules, with a slowed swing
+  Joints tempos() const;                      // of the script's active rules, with a slowed swing
   Joints run_script(const Observation& o, std::uint32_t events);
   Joints approach(const Observation& o);
   Joints settle(const Observation& o);

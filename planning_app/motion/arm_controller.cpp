@@ -16,12 +16,13 @@ ArmController::ArmController(const MachineModel& machine)
     : machine_(&machine),
       controller_{controller_for(machine, swing), controller_for(machine, boom), controller_for(machine, stick), controller_for(machine, bucket)} {}
 
-Joints ArmController::toward(const Joints& goals, const Joints& paces, const Joints& angle, const Joints& velocity) {
+Joints ArmController::toward(const Joints& goals, const Joints& paces, const Joints& tempos, const Joints& angle, const Joints& velocity) {
   Joints command{};
   const double reach = reach_of(*machine_, angle);
   for (std::size_t j = 0; j < joints; ++j) {
     ControllerLimits limits = limits_of(*machine_, j, reach);
     limits.velocity *= paces[j];
+    limits = limits.at_tempo(tempos[j]);
     const double then = controller_[j].predict(angle[j], velocity[j]).angle;
     command[j] = within_range(*machine_, j, reach, then, controller_[j].toward(goals[j], angle[j], velocity[j], limits));
   }

@@ -13,6 +13,9 @@ struct ControllerLimits {
   double acceleration = 0.0;  // rad/s2, of requests while speeding up
   double deceleration = 0.0;  // rad/s2, what the joint can surely brake with
   double landing_gain = 0.0;  // 1/s, speed per angle left near the goal
+
+  // The same motion in slower time: the joint passes the same angles at this share of the speeds.
+  ControllerLimits at_tempo(double share) const { return {share * velocity, share * share * acceleration, share * share * deceleration, share * landing_gain}; }
 };
 
 // Limits under what the machine file promises: a share of the braking ability at the reach (m), of the acceleration and of the speed.

@@ -35,7 +35,7 @@ def check_slowed(result, out, text):
     assert result["slowed_spans"] == spans, f"{result['slowed_spans']} spans by the app, {spans} by the journal"
     assert abs(result["slowed_seconds"] - seconds) < 0.005, f"{result['slowed_seconds']} s by the app, {seconds} s by the journal"
     row = [line.split("slowed by the kernel")[1].strip() for line in text.splitlines() if line.strip().startswith("slowed by the kernel")]
-    expected = f"{seconds:.1f} s in {spans} span" if spans else "never"
+    expected = f"{result['slowed_seconds']:.1f} s in {spans} span" if spans else "never"
     assert len(row) == 1 and row[0].startswith(expected), f"the summary says {row}, not {expected}"
     return spans
 

@@ -29,11 +29,20 @@ void note(const Loading& run, Heights& heights) {
   if (!first) at->second = std::min(at->second, z);
 }
 
-// One pass from the start of its swing to the next dig, the swing's speed cut while the phases of cut last; heights of the way back.
-Heights one_pass(Loading& run, double share) {
+void go_to_swing(Loading& run, int pass) {
+  for (std::uint16_t before = run.last.phase; pass > 0 && run.seconds < 60.0 * pass; before = run.last.phase) {
+    run.step();
+    pass -= before != BERM_PHASE_SWING_TO_TRUCK && run.last.phase == BERM_PHASE_SWING_TO_TRUCK;
+  }
+  ASSERT_EQ(pass, 0) << "no swing to the truck";
+}
+
+// One pass from the start of its swing to the next dig, with the swing's speed cut; heights of the way back.
+Heights one_pass(Loading& run, int pass, double share) {
   Heights heights;
-  const auto dumped = [&run] { return run.plant.site().bed_mass() > 1000.0; };
-  while (run.last.phase != BERM_PHASE_SWING_TO_TRUCK && run.seconds < 60.0) run.step();
+  go_to_swing(run, pass);
+  const double had = run.plant.site().bed_mass();
+  const auto dumped = [&run, had] { return run.plant.site().bed_mass() > had + 700.0; };
   run.plant.most_speed[swing] = at_most(run, share);
   const double end = run.seconds + 120.0;
   while (run.seconds < end && !(dumped() && run.last.phase == BERM_PHASE_DIG)) {
@@ -70,7 +79,8 @@ TEST(SlowedSwing, IsNeverAskedBeyondWhatIsPermitted) {
 
 TEST(SlowedSwing, AtAQuarterOfItsSpeedStillDumpsIntoTheBedAndReturns) {
   Loading free(1, start_pose()), slow(1, start_pose());
-  const Heights planned = one_pass(free, 1.0), found = one_pass(slow, quarter);
+  // The second pass: the first has not seen enough yet to reach out over the dig early.
+  const Heights planned = one_pass(free, 2, 1.0), found = one_pass(slow, 2, quarter);
   EXPECT_EQ(free.sequencer.slow_down().spans(), 0);
   EXPECT_EQ(free.sequencer.slow_down().seconds(), 0.0);
   EXPECT_GT(slow.seconds, free.seconds + 10.0) << "it was not slowed: the test shows nothing";
@@ -86,14 +96,14 @@ TEST(SlowedSwing, AtAQuarterOfItsSpeedStillDumpsIntoTheBedAndReturns) {
     const auto plan = planned.find(deg);
     if (plan == planned.end() || deg < 8) continue;  // the last degrees, where the swing lands, differ by a cycle of the script
     ++compared;
-    EXPECT_GT(z, plan->second - 0.25) << "swing at " << deg << " deg";
+    EXPECT_GT(z, plan->second - 0.08) << "swing at " << deg << " deg";
   }
   EXPECT_GT(compared, 30);
 }
 
 TEST(SlowedSwing, IsCounted) {
   Loading run(1, start_pose());
-  one_pass(run, quarter);
+  one_pass(run, 1, quarter);
   const SlowDown& slowed = run.sequencer.slow_down();
   // To the truck and back: once each, as long as the swing was wanted faster.
   EXPECT_EQ(slowed.spans(), 2);
@@ -101,7 +111,7 @@ TEST(SlowedSwing, IsCounted) {
   EXPECT_LT(slowed.seconds(), run.seconds);
   EXPECT_NEAR(slowed.least_share(), quarter, 0.02);
   const double until_here = slowed.seconds();
-  while (run.last.phase != BERM_PHASE_SWING_TO_TRUCK && run.seconds < 200.0) run.step();
+  go_to_swing(run, 1);
   for (int k = 0; k < 500; ++k) run.step();
   EXPECT_EQ(slowed.seconds(), until_here) << "nothing is cut any more";
   EXPECT_EQ(slowed.spans(), 2);
@@ -109,8 +119,7 @@ TEST(SlowedSwing, IsCounted) {
 
 TEST(SlowedSwing, WhatIsHeldIsNotSlowed) {
   Loading run(1, start_pose());
-  while (run.last.phase != BERM_PHASE_SWING_TO_TRUCK && run.seconds < 60.0) run.step();
-  ASSERT_LT(run.seconds, 60.0);
+  go_to_swing(run, 1);
   for (int k = 0; k < 100; ++k) run.step();
   run.plant.kernel_runs = false;
   for (int k = 0; k < 200; ++k) run.step();
@@ -120,9 +129,23 @@ TEST(SlowedSwing, WhatIsHeldIsNotSlowed) {
   EXPECT_EQ(run.sequencer.slow_down().seconds(), 0.0);
 }
 
+TEST(SlowedBucket, IsGivenTheTimeToOpen) {
+  const auto opened_to = [](double share) {
+    Loading run(1, start_pose());
+    run.plant.weighs = false;  // so that nothing but the time since it opened tells when it is empty
+    go_to_swing(run, 1);
+    run.plant.most_speed[bucket] = share * run.machine.joint[bucket].velocity_max;
+    const double end = run.seconds + 60.0;
+    while (run.seconds < end && run.last.phase != BERM_PHASE_SWING_TO_DIG) run.step();
+    EXPECT_LT(run.seconds, end) << "it did not swing back";
+    return degrees(run.plant.angle()[bucket]);
+  };
+  EXPECT_GT(opened_to(quarter), opened_to(1.0) - 3.0);
+}
+
 TEST(SlowedArm, EveryJointAtAQuarterStillDumpsIntoTheBed) {
   Loading run(1, start_pose());
-  while (run.last.phase != BERM_PHASE_SWING_TO_TRUCK && run.seconds < 60.0) run.step();
+  go_to_swing(run, 1);
   for (std::size_t j = 0; j < joints; ++j) run.plant.most_speed[j] = quarter * run.machine.joint[j].velocity_max;
   const double end = run.seconds + 120.0;
   while (run.seconds < end && run.last.phase != BERM_PHASE_SWING_TO_DIG) run.step();

@@ -243,7 +243,7 @@ void BenchMachine::publish() {
     state.permitted_high_urad_s[j] = permitted_high_[j];
   }
   for (std::size_t i = 0; i < 2; ++i) state.pan_angle_urad[i] = static_cast<std::int32_t>(std::lround(pan_[i] * 1e6));
-  state.payload_kg = digging_ ? -1 : static_cast<std::int32_t>(std::lround(payload_ * (1.0 + 0.03 * noise(random_))));
+  state.payload_kg = digging_ || !weighs ? -1 : static_cast<std::int32_t>(std::lround(payload_ * (1.0 + 0.03 * noise(random_))));
   state.kernel_state = kernel_runs ? BERM_STATE_RUN : BERM_STATE_STOPPED;
   state.stop_reason = kernel_runs ? std::uint8_t{BERM_STOP_NONE} : stop_reason;
   for (int rows = 0; rows < 4; ++rows, next_row_ = (next_row_ + 1) % kernel_side)

@@ -47,6 +47,7 @@ public:
   bool truck_parked = true;
   bool kernel_runs = true;        // false: STOPPED, for collision_reason, nothing moves but at creep speeds
   std::uint8_t stop_reason = BERM_STOP_COLLISION_PREDICTED;
+  bool weighs = true;             // false: the on-board weighing says nothing
   app::Joints most_speed{};       // rad/s, of each joint: what the kernel lets out of a request at most; by default the machine's largest
 
 private:

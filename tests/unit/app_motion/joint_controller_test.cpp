@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "app_bench/bench_machine.hpp"
 #include "motion/arm_controller.hpp"
@@ -91,6 +93,14 @@ TEST(CutJoint, CyclesThatWereMissedAreAsTheOneThatWasSeen) {
   EXPECT_EQ(some.controller.predict(0.0, 0.0).angle, every.controller.predict(0.0, 0.0).angle);
 }
 
+TEST(CutJoint, KnowsItsShareAsSoonAsItHears) {
+  CutJoint joint;
+  for (int k = 0; k < 100; ++k) joint.step(radians(170.0), nothing_cut);
+  joint.controller.heard(0.25 * joint.asked, 0.0, 0.25 * joint.asked);
+  EXPECT_TRUE(joint.controller.cut());
+  EXPECT_NEAR(joint.controller.share(), 0.25, 1e-9);
+}
+
 TEST(CutJoint, WhatTheAppsOwnGuardTakesIsNoCut) {
   CutJoint joint;
   for (int k = 0; k < 200; ++k) {
@@ -100,6 +110,29 @@ TEST(CutJoint, WhatTheAppsOwnGuardTakesIsNoCut) {
     joint.controller.asked(joint.let_out);
     EXPECT_EQ(joint.controller.share(), 1.0);
   }
+}
+
+TEST(CutJoint, AtALowerTempoPassesTheSameAnglesAtThatShareOfTheSpeeds) {
+  constexpr double tempo = 0.25;
+  CutJoint quick, slow;
+  slow.limits = slow.limits.at_tempo(tempo);
+  const double goal = radians(60.0);
+  std::vector<std::pair<double, double>> way;  // angle and speed
+  for (int k = 0; k < 1000; ++k) {
+    quick.step(goal, nothing_cut);
+    way.emplace_back(quick.model.angle(), quick.model.velocity());
+  }
+  std::size_t at = 0;
+  int compared = 0;
+  for (int k = 0; k < 4000; ++k) {
+    slow.step(goal, nothing_cut);
+    const double angle = slow.model.angle();
+    if (angle < radians(5.0) || angle > radians(55.0)) continue;  // the dead time at the start is not slower; the landing is noise
+    while (way[at].first < angle) ++at;
+    EXPECT_NEAR(slow.model.velocity(), tempo * way[at].second, 0.006) << "at " << degrees(angle) << " deg";
+    ++compared;
+  }
+  EXPECT_GT(compared, 200);
 }
 
 TEST(CutJoint, NothingPermittedIsNoSlowDown) {
