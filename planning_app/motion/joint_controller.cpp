@@ -11,7 +11,7 @@ namespace {
 constexpr double speed_share = 0.775;  // with latency and error bounds a swing stays in the braking table's last column but one
 constexpr double brake_share = 0.75;
 constexpr double acceleration_share = 0.85;  // the file's is an upper bound, measured on an empty machine too: a loaded one does less
-constexpr double bus_step = 0.0005;       // rad/s, of a command; what is cut to it was not cut
+constexpr double bus_step = 0.0005;       // rad/s; the kernel cuts every command to whole ones
 constexpr double landing_gain = 4.5;      // 1/s; the dead time is predicted away, noise and a slower joint than its model remain
 
 double table_deceleration(const BrakingTable& table, std::size_t joint, double reach_m, double velocity_max) {
