@@ -35,6 +35,7 @@ constexpr int kKernelDescriptor = 12;
 constexpr int kJournalDescriptor = 13;
 constexpr double kConnectPatience_s = 20.0;
 constexpr double kEndPatience_s = 10.0;
+constexpr double kSlowedWorthTelling_s = 1.0;
 
 class FilePair {  // two connected descriptors, closed with the object
  public:
@@ -245,6 +246,8 @@ class LoadRun {
         say(fmt::format("{:7.1f} s  truck {} is full", recorder_.time_s(), event.value("truck", 1)));
       } else if (name == "stopped") {
         say(fmt::format("{:7.1f} s  the kernel stopped the machine: {}", recorder_.time_s(), event.value("reason", "?")));
+      } else if (name == "full_speed" && event.value("slowed_s", 0.0) >= kSlowedWorthTelling_s) {
+        say(fmt::format("{:7.1f} s  was slowed by the kernel for {:.1f} s, to {:.0f} %", recorder_.time_s(), event.value("slowed_s", 0.0), 100 * event.value("least_share", 1.0)));
       } else if (name == "held") {
         say(fmt::format("{:7.1f} s  the app holds back: {}", recorder_.time_s(), held_by(event)));
       } else if (name == "operator_needed") {
@@ -273,6 +276,7 @@ class LoadRun {
     app_.signal(SIGTERM);
     const bool kernel_ended = kernel_.wait_ended(kEndPatience_s);
     if (!app_.wait_ended(kEndPatience_s)) app_.signal(SIGKILL);
+    take_app_lines();  // its count at its exit
     recorder_.poll(0.0);
     finish_journal();
     if (plant_.exit_status() != 0) throw std::runtime_error("the plant failed: " + plant_.describe_end());

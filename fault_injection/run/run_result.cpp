@@ -77,6 +77,32 @@ std::vector<AppHold> app_holds(const RunResult& r) {
   return holds;
 }
 
+// What the app says of its time under the kernel's governor: its own count at its exit; of an app that was killed, the spans that it had told of.
+struct SlowedTime {
+  double seconds = 0.0;
+  int spans = 0;
+  double least_share = 1.0;
+};
+
+SlowedTime slowed_time(const RunResult& r) {
+  SlowedTime slowed;
+  for (const auto& event : r.app_events) {
+    const std::string name = event.value("event", "");
+    const double seconds = event.value("slowed_s", 0.0), least = event.value("least_share", 1.0);
+    if (name == "exit") return {seconds, event.value("slowed_spans", 0), least};
+    if (name == "slowed") ++slowed.spans;
+    if (name != "full_speed") continue;
+    slowed.seconds += seconds;
+    slowed.least_share = std::min(slowed.least_share, least);
+  }
+  return slowed;
+}
+
+std::string slowed_text(const SlowedTime& slowed) {
+  if (slowed.spans == 0) return "never";
+  return fmt::format("{:.1f} s in {} span{} (least {:.0f} %)", slowed.seconds, slowed.spans, slowed.spans == 1 ? "" : "s", 100 * slowed.least_share);
+}
+
 std::string holds_text(const std::vector<AppHold>& holds) {
   if (holds.empty()) return "none of more than 1 s";
   std::vector<std::string> each;
@@ -120,6 +146,9 @@ json flat_json(const RunResult& r) {
   std::vector<double> hold_seconds;
   for (const auto& hold : app_holds(r)) hold_seconds.push_back(hold.seconds);
   out["app_hold_seconds"] = hold_seconds;
+  const SlowedTime slowed = slowed_time(r);
+  out["slowed_seconds"] = slowed.seconds;
+  out["slowed_spans"] = slowed.spans;
   out["kernel_faults"] = r.kernel_faults;
   for (const char* name : {"cycle_us_p50", "cycle_us_p99", "cycle_us_max"}) out[name] = r.kernel.contains(name) ? r.kernel[name] : json(nullptr);
   out["simulated_seconds"] = r.truth.value("simulated_seconds", 0.0);
@@ -174,6 +203,7 @@ std::string summary_text(const RunResult& r) {
     row("closest approach", fmt::format("{:.2f} m{}", j["closest_approach_m"].get<double>(),
                                         r.truth.contains("closest_approach_what") && r.truth["closest_approach_what"].is_string() ? fmt::format(" ({})", r.truth["closest_approach_what"].get<std::string>()) : ""));
   row("kernel stops", stops_text(r));
+  row("slowed by the kernel", slowed_text(slowed_time(r)));
   row("held by the app", holds_text(app_holds(r)));
   row("kernel faults", r.kernel_faults == 0 ? "none" : fmt::format("{} (first: {})", r.kernel_faults, r.first_fault));
   if (j["cycle_us_p50"].is_number())

@@ -40,7 +40,8 @@ int run(const Options& options) {
   log.event("connected", {{"trucks", options.trucks}, {"machine", options.machine}, {"site", options.site}});
   const LoopEnd end = run_loop(machine, link, sequencer, options.tick_fd, stop_requested);
   const char* why = end == LoopEnd::stopped ? "signal" : end == LoopEnd::kernel_gone ? "kernel gone" : "tick peer gone";
-  log.event("exit", {{"why", why}, {"finished", sequencer.finished()}});
+  const SlowDown& slowed = sequencer.slow_down();
+  log.event("exit", {{"why", why}, {"finished", sequencer.finished()}, {"slowed_s", slowed.seconds()}, {"slowed_spans", slowed.spans()}, {"least_share", slowed.least_share()}});
   return end == LoopEnd::stopped || sequencer.finished() ? 0 : 1;
 }
 

@@ -25,6 +25,10 @@ Observation observe(const berm_state& state) {
   for (std::size_t j = 0; j < joints; ++j) {
     o.angle[j] = state.joint_angle_urad[j] * 1e-6;
     o.velocity[j] = state.joint_velocity_urad_s[j] * 1e-6;
+    o.commanded[j] = state.commanded_urad_s[j] * 1e-6;
+    if (state.kernel_state != BERM_STATE_RUN) continue;
+    o.permitted_low[j] = std::min(state.permitted_low_urad_s[j], 0) * 1e-6;
+    o.permitted_high[j] = std::max(state.permitted_high_urad_s[j], 0) * 1e-6;
   }
   for (std::size_t i = 0; i < o.pan.size(); ++i) o.pan[i] = state.pan_angle_urad[i] * 1e-6;
   o.payload_kg = state.payload_kg;

@@ -63,12 +63,31 @@ void Sequencer::begin_approach(const Observation& o, bool lower) {
   enter(Stage::approach, o);
 }
 
+void Sequencer::hear(const Observation& o) {
+  constexpr std::uint64_t most = 100;  // cycles: beyond any dead time
+  const int cycles = static_cast<int>(std::min(o.cycle > heard_cycle_ ? o.cycle - heard_cycle_ : 1, most));
+  heard_cycle_ = o.cycle;
+  arm_.heard(o.commanded, o.permitted_low, o.permitted_high, cycles);
+  slow_down_.step(o, arm_, machine_.cycle, phase_name(phase_), log_);
+}
+
+// A rule that waited for the swing is timed by it (a lowering over the dig, a pouring over the bed): it is slowed with the swing, so that each
+// swing angle finds the implements where the search for the script's parameters had them. The other rules go ahead, into safer poses.
+Joints Sequencer::tempos() const {
+  constexpr double least = 0.2;  // a swing that hardly moves may be waiting for the very joint
+  const double share = std::max(least, arm_.shares()[swing]);
+  Joints tempo{1.0, 1.0, 1.0, 1.0};
+  for (const Joint j : {boom, stick, bucket})
+    if (script_.of(j).waited_for(swing)) tempo[j] = share;
+  return tempo;
+}
+
 Joints Sequencer::run_script(const Observation& o, std::uint32_t events) {
   if (o.time_s - script_s_ >= script_period - 1e-6) {
     script_.evaluate(o.angle, events);
     script_s_ = o.time_s;
   }
-  return arm_.toward(script_.goals(), script_.paces(), o.angle, o.velocity);
+  return arm_.toward(script_.goals(), script_.paces(), tempos(), o.angle, o.velocity);
 }
 
 Joints Sequencer::approach(const Observation& o) {
@@ -83,7 +102,7 @@ Joints Sequencer::approach(const Observation& o) {
 Joints Sequencer::settle(const Observation& o) {
   const Joints goals = script_.goals();
   if (std::fabs(goals[swing] - o.angle[swing]) < arrived && std::fabs(o.velocity[swing]) < still) begin_dig(o);
-  return arm_.toward(goals, script_.paces(), o.angle, o.velocity);
+  return arm_.toward(goals, script_.paces(), tempos(), o.angle, o.velocity);
 }
 
 std::uint32_t Sequencer::pass_events(const Observation& o) {
@@ -92,6 +111,9 @@ std::uint32_t Sequencer::pass_events(const Observation& o) {
   if (!opening || emptied_) return emptied_ ? event_emptied : event_none;
   if (open_since_s_ < 0.0 && o.angle[bucket] > poses_.dump[bucket] - radians(30.0)) open_since_s_ = o.time_s;
   if (open_since_s_ < 0.0) return event_none;
+  // The load needs an open bucket, not time: while the bucket is slowed on its way the clock is too.
+  const bool on_its_way = o.angle[bucket] < poses_.dump[bucket] - radians(8.0);
+  if (on_its_way) open_since_s_ += (1.0 - arm_.shares()[bucket] * tempos()[bucket]) * machine_.cycle;
   const double open = o.time_s - open_since_s_;
   const bool light = o.payload_kg >= 0.0 && recent_.kg() < empty_share * full_bucket_kg;
   emptied_ = (open > open_at_least && (light || o.payload_kg < 0.0)) || open > open_at_most;
@@ -217,6 +239,7 @@ Joints Sequencer::slowed(const Observation& o, const Joints& wanted) {
 Answer Sequencer::step(const Observation& o) {
   recent_.add(o.payload_kg);
   look(o);
+  hear(o);
   Answer answer;
   const Recovery::Advice advice = recovery_.step(o, log_);
   if (advice.rescan) scanners_.begin_full_sweep();
@@ -229,7 +252,9 @@ Answer Sequencer::step(const Observation& o) {
     const bool moves = std::any_of(wanted.begin(), wanted.end(), [](double v) { return v != 0.0; });
     answer.velocity = moves ? slowed(o, wanted) : wanted;
   }
-  arm_.sent(answer.velocity);
+  if (o.running())
+    for (std::size_t j = 0; j < joints; ++j) answer.velocity[j] = std::clamp(answer.velocity[j], o.permitted_low[j], o.permitted_high[j]);
+  arm_.asked(answer.velocity);
   const double truck_bearing = std::atan2(site_.truck.centre_y, site_.truck.centre_x);
   const bool lifts_soon = stage_ == Stage::curl || (stage_ == Stage::dig && follower_.progress() > 0.6);
   answer.pan = scanners_.step(lifts_soon ? std::uint16_t{BERM_PHASE_LIFT} : phase_, task_.next_bearing, truck_bearing, o.angle[swing], o.velocity[swing], o.pan);

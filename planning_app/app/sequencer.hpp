@@ -7,6 +7,7 @@
 #include "app/observation.hpp"
 #include "app/progress_log.hpp"
 #include "app/recovery.hpp"
+#include "app/slow_down.hpp"
 #include "app/weighing.hpp"
 #include "motion/dig_path.hpp"
 #include "perception/kernel_map.hpp"
@@ -29,6 +30,7 @@ public:
   Answer step(const Observation& o);
 
   bool finished() const { return stage_ == Stage::finished; }
+  const SlowDown& slow_down() const { return slow_down_; }
   KernelMap& kernel_map() { return kernel_map_; }
   TerrainMap& terrain() { return terrain_; }
   BedMap& bed() { return bed_; }
@@ -41,6 +43,8 @@ private:
   void enter(Stage stage, const Observation& o);
   void enter_phase(std::uint16_t phase, const Observation& o);
   Joints plan(const Observation& o);          // the stage's motion of this cycle
+  void hear(const Observation& o);            // what the kernel let out of the request before, and what it permits now
+  Joints tempos() const;                      // of the script's active rules, with a slowed swing
   Joints run_script(const Observation& o, std::uint32_t events);
   Joints approach(const Observation& o);
   Joints settle(const Observation& o);
@@ -75,6 +79,8 @@ private:
   ArmController arm_;
   ScanScheduler scanners_;
   Recovery recovery_;
+  SlowDown slow_down_;
+  std::uint64_t heard_cycle_ = 0;
   DigFollower follower_;
   Script script_;
   double script_s_ = 0.0;

@@ -16,12 +16,13 @@ ArmController::ArmController(const MachineModel& machine)
     : machine_(&machine),
       controller_{controller_for(machine, swing), controller_for(machine, boom), controller_for(machine, stick), controller_for(machine, bucket)} {}
 
-Joints ArmController::toward(const Joints& goals, const Joints& paces, const Joints& angle, const Joints& velocity) {
+Joints ArmController::toward(const Joints& goals, const Joints& paces, const Joints& tempos, const Joints& angle, const Joints& velocity) {
   Joints command{};
   const double reach = reach_of(*machine_, angle);
   for (std::size_t j = 0; j < joints; ++j) {
     ControllerLimits limits = limits_of(*machine_, j, reach);
     limits.velocity *= paces[j];
+    limits = limits.at_tempo(tempos[j]);
     const double then = controller_[j].predict(angle[j], velocity[j]).angle;
     command[j] = within_range(*machine_, j, reach, then, controller_[j].toward(goals[j], angle[j], velocity[j], limits));
   }
@@ -38,8 +39,22 @@ Joints ArmController::follow(const Joints& reference, const Joints& reference_ve
   return command;
 }
 
+void ArmController::heard(const Joints& commanded, const Joints& permitted_low, const Joints& permitted_high, int cycles) {
+  for (std::size_t j = 0; j < joints; ++j) controller_[j].heard(commanded[j], permitted_low[j], permitted_high[j], cycles);
+}
+
+void ArmController::asked(const Joints& command) {
+  for (std::size_t j = 0; j < joints; ++j) controller_[j].asked(command[j]);
+}
+
 void ArmController::sent(const Joints& command) {
   for (std::size_t j = 0; j < joints; ++j) controller_[j].sent(command[j]);
+}
+
+Joints ArmController::shares() const {
+  Joints share{};
+  for (std::size_t j = 0; j < joints; ++j) share[j] = controller_[j].share();
+  return share;
 }
 
 Joints ArmController::predicted(const Joints& angle, const Joints& velocity) const {

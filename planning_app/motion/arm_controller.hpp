@@ -10,13 +10,23 @@ class ArmController {
 public:
   explicit ArmController(const MachineModel& machine);
 
-  // paces scale the speed limits, 0..1.
-  Joints toward(const Joints& goals, const Joints& paces, const Joints& angle, const Joints& velocity);
+  // To be told once a cycle, first: what the kernel told the machine, between which speeds it permits requests now, and how many cycles have
+  // passed since the last (those not seen are taken to have been as this one).
+  void heard(const Joints& commanded, const Joints& permitted_low, const Joints& permitted_high, int cycles = 1);
+  // paces scale the speed limits, tempos the whole motion in time; 0..1.
+  Joints toward(const Joints& goals, const Joints& paces, const Joints& tempos, const Joints& angle, const Joints& velocity);
+  Joints toward(const Joints& goals, const Joints& paces, const Joints& angle, const Joints& velocity) { return toward(goals, paces, {1.0, 1.0, 1.0, 1.0}, angle, velocity); }
   Joints follow(const Joints& reference, const Joints& reference_velocity, const Joints& angle, const Joints& velocity);
-  // To be told once a cycle what was requested in the end.
+  // To be told once a cycle, last: what was requested in the end.
+  void asked(const Joints& command);
+  // Both, where there is no kernel to cut anything.
   void sent(const Joints& command);
-  // Angles when a request made now begins to act.
+  // Angles when a request made now begins to act, by what the kernel let out.
   Joints predicted(const Joints& angle, const Joints& velocity) const;
+
+  // Of each joint, as JointController's.
+  Joints shares() const;
+  bool cut(std::size_t joint) const { return controller_[joint].cut(); }
 
 private:
   const MachineModel* machine_;

@@ -11,6 +11,7 @@ namespace {
 constexpr double speed_share = 0.775;  // with latency and error bounds a swing stays in the braking table's last column but one
 constexpr double brake_share = 0.75;
 constexpr double acceleration_share = 0.85;  // the file's is an upper bound, measured on an empty machine too: a loaded one does less
+constexpr double bus_step = 0.0005;       // rad/s; the kernel cuts every command to whole ones
 constexpr double landing_gain = 4.5;      // 1/s; the dead time is predicted away, noise and a slower joint than its model remain
 
 double table_deceleration(const BrakingTable& table, std::size_t joint, double reach_m, double velocity_max) {
@@ -29,11 +30,28 @@ ControllerLimits limits_of(const MachineModel& machine, std::size_t joint, doubl
   return {speed_share * j.velocity_max, acceleration, brake_share * brake, landing_gain};
 }
 
-double JointController::ramped(double wanted, const ControllerLimits& limits) {
+double JointController::ramped(double wanted, double from, const ControllerLimits& limits) const {
   const double up = limits.acceleration * step_;
   // Slowing is never delayed beyond what the deceleration profile asks for; only growth of speed is ramped.
-  if (std::fabs(wanted) > std::fabs(last_) || wanted * last_ < 0.0) wanted = std::clamp(wanted, last_ - up, last_ + up);
+  if (std::fabs(wanted) > std::fabs(from) || wanted * from < 0.0) wanted = std::clamp(wanted, from - up, from + up);
   return wanted;
+}
+
+double JointController::proposed(double wanted, const ControllerLimits& limits) {
+  uncut_ = ramped(wanted, uncut_, limits);
+  proposal_ = std::clamp(ramped(wanted, last_, limits), low_, high_);
+  return *proposal_;
+}
+
+void JointController::heard(double commanded, double low, double high, int steps) {
+  for (int k = 0; k < steps; ++k) model_.remember(commanded);
+  low_ = low;
+  high_ = high;
+  const double let_out = std::clamp(last_, low, high);
+  cut_ = let_out != 0.0 && std::fabs(last_ - let_out) > bus_step;
+  // Else a speed that was cut would jump when the room is there again.
+  last_ = let_out;
+  proposal_.reset();
 }
 
 double JointController::toward(double goal, double measured_angle, double measured_velocity, const ControllerLimits& limits) {
@@ -44,18 +62,31 @@ double JointController::toward(double goal, double measured_angle, double measur
   const double switching = limits.deceleration / (limits.landing_gain * limits.landing_gain);
   const double profile = distance > switching ? std::sqrt(limits.deceleration * (2.0 * distance - switching)) : limits.landing_gain * distance;
   const double speed = std::min(limits.velocity, profile);
-  return ramped(std::copysign(speed, left), limits);
+  return proposed(std::copysign(speed, left), limits);
 }
 
 double JointController::follow(double reference, double reference_velocity, double measured_angle, double measured_velocity, const ControllerLimits& limits) {
   const JointModel::State then = model_.predict(measured_angle, measured_velocity);
   const double wanted = reference_velocity + limits.landing_gain * (reference - then.angle);
-  return ramped(std::clamp(wanted, -limits.velocity, limits.velocity), limits);
+  return proposed(std::clamp(wanted, -limits.velocity, limits.velocity), limits);
+}
+
+void JointController::asked(double command) {
+  // What a guard of the app's own took away is no cut of the kernel's.
+  if (!proposal_) uncut_ = command;
+  else if (*proposal_ != 0.0) uncut_ *= command / *proposal_;
+  last_ = command;
 }
 
 void JointController::sent(double command) {
-  last_ = command;
-  model_.remember(command);
+  asked(command);
+  const double limit = model_.response().velocity_max;
+  heard(command, -limit, limit);
+}
+
+double JointController::share() const {
+  if (std::fabs(uncut_) < bus_step) return 1.0;
+  return std::clamp(last_ / uncut_, 0.0, 1.0);
 }
 
 }  // namespace berm::app

@@ -1,5 +1,8 @@
-// Turns a joint goal into velocity requests: accelerates to the speed limit, decelerates on v = sqrt(2 a d), lands without overshoot.
+// Turns a joint goal into velocity requests: accelerates to the speed limit, decelerates on v = sqrt(2 a d), lands without overshoot. Where the
+// kernel lets out less, the profile goes on from that, and the prediction is made from it.
 #pragma once
+
+#include <optional>
 
 #include "motion/joint_model.hpp"
 
@@ -10,6 +13,9 @@ struct ControllerLimits {
   double acceleration = 0.0;  // rad/s2, of requests while speeding up
   double deceleration = 0.0;  // rad/s2, what the joint can surely brake with
   double landing_gain = 0.0;  // 1/s, speed per angle left near the goal
+
+  // The same motion in slower time: the joint passes the same angles at this share of the speeds.
+  ControllerLimits at_tempo(double share) const { return {share * velocity, share * share * acceleration, share * share * deceleration, share * landing_gain}; }
 };
 
 // Limits under what the machine file promises: a share of the braking ability at the reach (m), of the acceleration and of the speed.
@@ -17,23 +23,40 @@ ControllerLimits limits_of(const MachineModel& machine, std::size_t joint, doubl
 
 class JointController {
 public:
-  JointController(const JointResponse& response, double step_s) : model_(response, step_s), step_(step_s) {}
+  JointController(const JointResponse& response, double step_s)
+      : model_(response, step_s), step_(step_s), low_(-response.velocity_max), high_(response.velocity_max) {}
+
+  // At the start of each step: what the machine was told in each of the steps since the last, and between which speeds (low <= 0 <= high)
+  // requests are permitted now.
+  void heard(double commanded, double low, double high, int steps = 1);
 
   // The request for this step, from the measured angle and velocity.
   double toward(double goal, double measured_angle, double measured_velocity, const ControllerLimits& limits);
   // The request that follows a moving reference (rad, rad/s) that is meant for the time when the request acts.
   double follow(double reference, double reference_velocity, double measured_angle, double measured_velocity, const ControllerLimits& limits);
-  // What became of the request: the kernel may have cut it.
+  // At the end of each step: what was asked for; the app's guards may have lowered it.
+  void asked(double command);
+  // Both, where there is no kernel to cut anything: asked, and heard a step later.
   void sent(double command);
 
+  // Of the speed that it would ask for here had the kernel never cut a request, what it may ask for: 1 when nothing was cut or that speed is
+  // reached again.
+  double share() const;
+  // What it asked for last was more than is permitted now, which is more than nothing.
+  bool cut() const { return cut_; }
   JointModel::State predict(double measured_angle, double measured_velocity) const { return model_.predict(measured_angle, measured_velocity); }
 
 private:
-  double ramped(double wanted, const ControllerLimits& limits);
+  double ramped(double wanted, double from, const ControllerLimits& limits) const;
+  double proposed(double wanted, const ControllerLimits& limits);
 
   JointModel model_;
   double step_;
-  double last_ = 0.0;
+  double low_, high_;            // permitted
+  double last_ = 0.0;            // asked for, or what of it was let out
+  double uncut_ = 0.0;           // asked for had nothing ever been cut
+  std::optional<double> proposal_;  // of this step
+  bool cut_ = false;
 };
 
 }  // namespace berm::app

@@ -1,5 +1,6 @@
 #include "motion/script.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace berm::app {
@@ -49,6 +50,11 @@ void JointScript::evaluate(const Joints& angle, std::uint32_t events) {
   if (!all) return;
   ++active_;
   arm();
+}
+
+bool JointScript::waited_for(Joint joint) const {
+  const std::vector<Condition>& conditions = rules_[static_cast<std::size_t>(active_)].conditions;
+  return std::any_of(conditions.begin(), conditions.end(), [joint](const Condition& c) { return c.joint == joint; });
 }
 
 void Script::start() {

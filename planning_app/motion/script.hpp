@@ -52,6 +52,8 @@ public:
   bool running() const { return active_ >= 0; }
   int active() const { return active_; }  // -1 before the start
   bool at_last() const { return active_ + 1 == static_cast<int>(rules_.size()); }
+  // Whether the active rule waited for this joint's angle: what it does then is meant for how that joint moves.
+  bool waited_for(Joint joint) const;
   double pace() const { return rules_[static_cast<std::size_t>(active_)].pace; }
   double goal() const { return rules_[static_cast<std::size_t>(active_)].goal; }
   const std::vector<Rule>& rules() const { return rules_; }

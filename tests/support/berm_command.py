@@ -5,6 +5,8 @@ import pathlib
 import subprocess
 import tempfile
 
+from journal_records import slowed_time
+
 BIN = pathlib.Path(os.environ["BERM_BIN"])
 ROOT = pathlib.Path(os.environ["BERM_ROOT"])
 REAL_DATA = pathlib.Path(os.environ.get("BERM_REAL_DATA") or ROOT.parent / "shared" / "real_data")
@@ -25,6 +27,17 @@ def load(*arguments, timeout=600):
     print(done.stdout[-3000:], done.stderr[-2000:], flush=True)
     result = out / "again.json"
     return done.returncode, json.loads(result.read_text()) if result.exists() else None, out, done.stdout + done.stderr
+
+
+def check_slowed(result, out, text):
+    """What the app counted of the kernel's cuts is what the kernel's own record says; the summary has it. Returns the spans."""
+    seconds, spans = slowed_time((out / "journal.mcap").read_bytes())
+    assert result["slowed_spans"] == spans, f"{result['slowed_spans']} spans by the app, {spans} by the journal"
+    assert abs(result["slowed_seconds"] - seconds) < 0.005, f"{result['slowed_seconds']} s by the app, {seconds} s by the journal"
+    row = [line.split("slowed by the kernel")[1].strip() for line in text.splitlines() if line.strip().startswith("slowed by the kernel")]
+    expected = f"{result['slowed_seconds']:.1f} s in {spans} span" if spans else "never"
+    assert len(row) == 1 and row[0].startswith(expected), f"the summary says {row}, not {expected}"
+    return spans
 
 
 def one_clear_line(done, *words):

@@ -47,4 +47,25 @@ TEST(Request, ObservationIsInRadians) {
   EXPECT_TRUE(o.running());
 }
 
+TEST(Request, ObservationKnowsWhatWasLetOutAndWhatIsPermitted) {
+  berm_state state{};
+  state.kernel_state = BERM_STATE_RUN;
+  state.commanded_urad_s[swing] = -150000;
+  state.permitted_low_urad_s[swing] = -150000;
+  state.permitted_low_urad_s[boom] = -450000;
+  state.permitted_high_urad_s[boom] = 450000;
+  const Observation o = observe(state);
+  EXPECT_DOUBLE_EQ(o.commanded[swing], -0.15);
+  EXPECT_DOUBLE_EQ(o.permitted_low[swing], -0.15);
+  EXPECT_EQ(o.permitted_high[swing], 0.0);
+  EXPECT_DOUBLE_EQ(o.permitted_low[boom], -0.45);
+  EXPECT_DOUBLE_EQ(o.permitted_high[boom], 0.45);
+  // What the map would permit is not permitted while the kernel does not run.
+  for (const std::uint8_t other : {BERM_STATE_INIT, BERM_STATE_STANDBY, BERM_STATE_STOPPING, BERM_STATE_STOPPED, BERM_STATE_FAULT}) {
+    state.kernel_state = other;
+    EXPECT_EQ(observe(state).permitted_low[boom], 0.0);
+    EXPECT_EQ(observe(state).permitted_high[boom], 0.0);
+  }
+}
+
 }  // namespace

@@ -3,42 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
-#include "app/sequencer.hpp"
-#include "app_bench/bench_machine.hpp"
-#include "motion/arm_kinematics.hpp"
-#include "perception/scan_intake.hpp"
+#include "app_bench/loading.hpp"
 
 namespace {
 
 using namespace berm;
 using namespace berm::app;
-
-struct Loading {
-  Loading(int trucks, const Joints& start) : machine(app_bench::zx200()), plant(machine, start, 7), log(std::getenv("BERM_TEST_VERBOSE") ? 1 : -1), sequencer(machine, app_bench::bench(), trucks, log) {}
-
-  void step() {
-    const Observation o = observe(plant.state());
-    intake.take(plant.segment(), sequencer.terrain(), sequencer.bed());
-    if (o.cycle % 25 == 0) sequencer.kernel_map().take(plant.segment());
-    const Answer answer = sequencer.step(o);
-    last = answer;
-    plant.step(make_request(machine, answer, ++sequence, o.time_us));
-    seconds += machine.cycle;
-  }
-
-  MachineModel machine;
-  app_bench::BenchMachine plant;
-  ProgressLog log;
-  Sequencer sequencer;
-  ScanIntake intake;
-  Answer last;
-  std::uint32_t sequence = 0;
-  double seconds = 0.0;
-};
-
-Joints start_pose() { return {0.0, radians(38.0), radians(-100.0), radians(-100.0)}; }
+using app_bench::Loading;
+using app_bench::start_pose;
 
 void expect_no_contact(const Loading& run) {
   const app_bench::Findings& f = run.plant.findings();

@@ -1,4 +1,4 @@
-// Every joint lands within a degree of any goal, without overshoot, on a joint as its file promises and on slower ones.
+// Every joint lands within a degree of any goal, without overshoot, on a joint as its file promises, on slower ones, and behind a kernel that cuts.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -56,6 +56,41 @@ RC_GTEST_PROP(JointController, LandsInMeasurementNoise, ()) {
   const Landing landing = land(m, j, start, goal, 1.0, 0.15, *rc::gen::inRange(1u, 1000u));
   RC_ASSERT(landing.error < radians(1.0));
   RC_ASSERT(landing.overshoot < radians(1.0));
+}
+
+// A kernel that cuts to something else every so often; where it cuts, it permits what it lets out.
+RC_GTEST_PROP(JointController, LandsWithoutOvershootThoughTheKernelCuts, ()) {
+  static const MachineModel m = berm::app_bench::zx200();
+  const std::size_t j = static_cast<std::size_t>(*rc::gen::inRange(0, 4));
+  const double low = j == swing ? radians(-90.0) : m.joint[j].low, high = j == swing ? radians(120.0) : m.joint[j].high;
+  const double start = low + (high - low) * *rc::gen::inRange(0, 1001) / 1000.0, goal = low + (high - low) * *rc::gen::inRange(0, 1001) / 1000.0;
+  std::mt19937_64 random(*rc::gen::inRange(1u, 100000u));
+  std::uniform_real_distribution<double> share(0.0, 1.5);
+  std::uniform_int_distribution<int> steps(1, 80);
+  const ControllerLimits limits = limits_of(m, j, 7.0);
+  const double largest = m.joint[j].velocity_max, up = limits.acceleration * m.cycle, direction = goal > start ? 1.0 : -1.0;
+  JointModel plant(response_of(m, j), m.cycle);
+  plant.reset(start, 0.0);
+  JointController controller(response_of(m, j), m.cycle);
+  double let_out = 0.0, permitted_low = -largest, permitted_high = largest, most = largest, overshoot = 0.0;
+  for (int k = 0, left = 0; k < 3000; ++k) {
+    if (left-- == 0) {
+      most = k < 1500 ? share(random) * limits.velocity : largest;  // in the end nothing is cut: it must arrive
+      left = steps(random);
+    }
+    controller.heard(let_out, permitted_low, permitted_high);
+    const double asked = controller.toward(goal, plant.angle(), plant.velocity(), limits);
+    controller.asked(asked);
+    RC_ASSERT(asked >= permitted_low && asked <= permitted_high);
+    RC_ASSERT(std::fabs(asked) <= std::fabs(let_out) + up + 1e-12);
+    let_out = std::clamp(asked, -most, most);
+    permitted_low = let_out == asked ? -largest : std::min(0.0, let_out);
+    permitted_high = let_out == asked ? largest : std::max(0.0, let_out);
+    plant.advance(let_out);
+    overshoot = std::max(overshoot, direction * (plant.angle() - goal));
+  }
+  RC_ASSERT(std::fabs(plant.angle() - goal) < radians(1.0));
+  RC_ASSERT(overshoot < radians(0.3));
 }
 
 }  // namespace

@@ -19,6 +19,8 @@ constexpr int kernel_side = 104;
 constexpr double bank_density = 1474.0;
 constexpr double most_payload = 1608.0;
 
+std::int32_t largest_urad_s(const MachineModel& machine, std::size_t joint) { return static_cast<std::int32_t>(machine.joint[joint].velocity_max * 1e6); }
+
 int kernel_index(double v) { return static_cast<int>(std::floor((v + kernel_half_side) / kernel_cell)); }
 
 }  // namespace
@@ -34,25 +36,43 @@ BenchMachine::BenchMachine(const MachineModel& machine, const Joints& start, std
   segment_->size = sizeof(berm_state_segment);
   segment_->cell_mm = static_cast<std::uint32_t>(std::lround(kernel_cell * 1e3));
   segment_->map_origin_mm = -static_cast<std::int32_t>(std::lround(kernel_half_side * 1e3));
+  for (std::size_t j = 0; j < joints; ++j) {
+    most_speed[j] = machine.joint[j].velocity_max;
+    permitted_high_[j] = largest_urad_s(machine, j);
+    permitted_low_[j] = -permitted_high_[j];
+  }
   publish();
 }
 
 void BenchMachine::step(const berm_request& request) {
   ++cycle_;
-  move(request);
+  decide(request);
+  move();
   work_soil();
   scan(request);
   check();
   publish();
 }
 
-void BenchMachine::move(const berm_request& request) {
+// As the kernel: cut towards zero to the bus's step; what was cut is permitted no more than that, the rest everything, what is held nothing.
+void BenchMachine::decide(const berm_request& request) {
+  constexpr std::int32_t step = 500;
+  const auto cut = [](std::int32_t wanted, std::int32_t limit) { return std::clamp(wanted, -limit, limit) / step * step; };
+  for (std::size_t j = 0; j < joints; ++j) {
+    const std::int32_t largest = largest_urad_s(machine_, j), wanted = request.joint_velocity_urad_s[j];
+    const auto most = std::min(largest, static_cast<std::int32_t>(std::lround(most_speed[j] * 1e6)));
+    commanded_[j] = kernel_runs ? cut(wanted, most) : std::fabs(wanted * 1e-6) > machine_.joint[j].creep_velocity ? 0 : cut(wanted, largest);
+    const bool whole = commanded_[j] == cut(wanted, largest);
+    permitted_low_[j] = !kernel_runs ? 0 : whole ? -largest : std::min(0, commanded_[j]);
+    permitted_high_[j] = !kernel_runs ? 0 : whole ? largest : std::max(0, commanded_[j]);
+  }
+}
+
+void BenchMachine::move() {
   const std::size_t delay = static_cast<std::size_t>(std::lround(machine_.command_latency / machine_.cycle));
   for (std::size_t j = 0; j < joints; ++j) {
     const JointLimits& limits = machine_.joint[j];
-    double command = request.joint_velocity_urad_s[j] * 1e-6;
-    if (!kernel_runs && std::fabs(command) > limits.creep_velocity) command = 0.0;
-    under_way_[j].push_back(command);
+    under_way_[j].push_back(commanded_[j] * 1e-6);
     double acting = 0.0;
     if (under_way_[j].size() > delay) {
       acting = under_way_[j].front();
@@ -218,9 +238,12 @@ void BenchMachine::publish() {
   for (std::size_t j = 0; j < joints; ++j) {
     state.joint_angle_urad[j] = static_cast<std::int32_t>(std::lround((angle_[j] + radians(0.02) * noise(random_)) * 1e6));
     state.joint_velocity_urad_s[j] = static_cast<std::int32_t>(std::lround((velocity_[j] + radians(0.05) * noise(random_)) * 1e6));
+    state.commanded_urad_s[j] = commanded_[j];
+    state.permitted_low_urad_s[j] = permitted_low_[j];
+    state.permitted_high_urad_s[j] = permitted_high_[j];
   }
   for (std::size_t i = 0; i < 2; ++i) state.pan_angle_urad[i] = static_cast<std::int32_t>(std::lround(pan_[i] * 1e6));
-  state.payload_kg = digging_ ? -1 : static_cast<std::int32_t>(std::lround(payload_ * (1.0 + 0.03 * noise(random_))));
+  state.payload_kg = digging_ || !weighs ? -1 : static_cast<std::int32_t>(std::lround(payload_ * (1.0 + 0.03 * noise(random_))));
   state.kernel_state = kernel_runs ? BERM_STATE_RUN : BERM_STATE_STOPPED;
   state.stop_reason = kernel_runs ? std::uint8_t{BERM_STOP_NONE} : stop_reason;
   for (int rows = 0; rows < 4; ++rows, next_row_ = (next_row_ + 1) % kernel_side)

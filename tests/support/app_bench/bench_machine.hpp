@@ -47,11 +47,14 @@ public:
   bool truck_parked = true;
   bool kernel_runs = true;        // false: STOPPED, for collision_reason, nothing moves but at creep speeds
   std::uint8_t stop_reason = BERM_STOP_COLLISION_PREDICTED;
+  bool weighs = true;             // false: the on-board weighing says nothing
+  app::Joints most_speed{};       // rad/s, of each joint: what the kernel lets out of a request at most; by default the machine's largest
 
 private:
   struct Outline { std::vector<std::array<double, 3>> points; };  // r, z, lateral
   Outline implements(const app::Joints& q) const;
-  void move(const berm_request& request);
+  void decide(const berm_request& request);
+  void move();
   void work_soil();
   void scan(const berm_request& request);
   void check();
@@ -64,6 +67,7 @@ private:
   std::mt19937_64 random_;
   app::Joints angle_, velocity_{};
   std::array<std::deque<double>, 4> under_way_;
+  std::array<std::int32_t, 4> commanded_{}, permitted_low_{}, permitted_high_{};  // urad/s
   std::array<double, 2> pan_{}, pan_before_{};
   double payload_ = 0.0;
   bool digging_ = false;                // the weighing is blind

@@ -9,6 +9,7 @@ import tempfile
 import zlib
 
 from berm_command import ROOT, load, main, one_clear_line, run
+from journal_records import cycles_in, records
 
 SEED = 20240611  # of the damage below
 scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-journal-"))
@@ -24,15 +25,6 @@ def replay(path, *options):
     return done, json.loads(result.read_text()) if result.exists() else None
 
 
-def records(data):
-    """(opcode, offset of the content, length) of every top-level record."""
-    at = 8
-    while at + 9 <= len(data) - 8:
-        code, size = data[at], struct.unpack_from("<Q", data, at + 1)[0]
-        yield code, at + 9, size
-        at += 9 + size
-
-
 def repair(data):
     """Recomputes the CRCs of all chunks and of the data section."""
     for code, at, size in list(records(data)):
@@ -41,19 +33,6 @@ def repair(data):
         elif code == 15:
             struct.pack_into("<I", data, at, zlib.crc32(data[:at - 9]))
             return
-
-
-def cycles_in(data):
-    """Offset of the record of every cycle."""
-    for code, at, size in records(data):
-        if code != 6:
-            continue
-        end, at = at + size, at + 40
-        while at < end:
-            length, channel = struct.unpack_from("<Q", data, at + 1)[0], struct.unpack_from("<H", data, at + 9)[0]
-            if data[at] == 5 and channel == 1:
-                yield at + 9 + 22
-            at += 9 + length
 
 
 def a_run_replays():

@@ -9,11 +9,11 @@ import tempfile
 import threading
 import time
 
-from berm_command import BIN, ROOT, load, main
+from berm_command import BIN, ROOT, check_slowed, load, main
 
 FIELDS = {"seed", "trucks_loaded", "passes", "pass_seconds", "target_kg", "payload_kg", "spill_fraction", "load_centre_offset_m",
           "load_height_stddev_m", "contacts", "closest_approach_m", "kernel_stops", "kernel_faults", "cycle_us_p50", "cycle_us_p99",
-          "cycle_us_max", "simulated_seconds", "wall_seconds"}
+          "cycle_us_max", "simulated_seconds", "wall_seconds", "slowed_seconds", "slowed_spans"}
 TRACE = ["time_s", "swing_rad", "boom_rad", "stick_rad", "bucket_rad", "swing_rad_s", "boom_rad_s", "stick_rad_s", "bucket_rad_s", "stop_state"]
 seen = {}
 
@@ -62,6 +62,7 @@ def loads_one_truck():
     assert result["contacts"] == 0 and result["kernel_faults"] == 0
     assert result["passes"] == len(result["pass_seconds"]) >= 6
     assert result["journal_lost"] == 0
+    check_slowed(result, out, text)
     assert len({result["pid_plant"], result["pid_kernel"], result["pid_app"]}) == 3
     with open(out / "trace.csv", newline="") as file:
         rows = list(csv.reader(file))

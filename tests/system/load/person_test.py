@@ -1,8 +1,9 @@
-"""A person walks into the swing path: the machine stands still before the oracle sees a contact, and the summary says why."""
+"""A person walks into the swing path: the machine stands still before the oracle sees a contact, and the summary says why. What the
+kernel only slowed is counted."""
 import csv
 import shutil
 
-from berm_command import load, main
+from berm_command import check_slowed, load, main
 
 MARGIN_M = 0.30
 STILL_RAD_S = 0.005
@@ -23,12 +24,14 @@ def seconds_of_standstill(trace):
 
 
 def stands_for_a_person():
+    spans = 0
     for seed in (1, 2, 3):
         status, result, out, text = load("--scenario", "person", "--seed", seed)
         assert result is not None, text[-500:]
         assert result["contacts"] == 0, f"seed {seed}: {result['contacts']} contacts"
         assert result["closest_approach_m"] >= MARGIN_M, f"seed {seed}: only {result['closest_approach_m']:.2f} m"
         assert result["kernel_stops"].get(WHY, 0) >= 1, f"seed {seed}: the kernel did not stop for the person: {result['kernel_stops']}"
+        spans += check_slowed(result, out, text)
         line = [row for row in text.splitlines() if row.strip().startswith("kernel stops")]
         assert len(line) == 1 and WHY in line[0], f"seed {seed}: the summary does not say why: {line}"
         stood = seconds_of_standstill(out / "trace.csv")
@@ -36,6 +39,7 @@ def stands_for_a_person():
         print(f"seed {seed}: closest {result['closest_approach_m']:.2f} m, stood {stood:.1f} s, kernel stops {result['kernel_stops']}")
         assert status == 0, f"seed {seed}: the truck was not loaded after the person had left"
         shutil.rmtree(out)
+    assert spans > 0, "the kernel slowed nothing in any of these runs: the count of slow-downs was not tested"
 
 
 main([stands_for_a_person])

@@ -70,6 +70,20 @@ TEST(Script, ACrossingMustBeSeenFromItsOtherSide) {
   EXPECT_EQ(s.active(), 1);
 }
 
+TEST(Script, KnowsWhatTheActiveRuleWaitedFor) {
+  JointScript s({{"a", {}, event_none, 0.0}, {"b", {when(boom, Relation::above, 10)}, event_none, 1.0}, {"c", {when(swing, Relation::above, 20), when(stick, Relation::above, -90)}, event_none, 2.0}});
+  s.start();
+  EXPECT_FALSE(s.waited_for(swing));
+  s.evaluate({radians(30), radians(12), radians(-80), 0}, event_none);
+  ASSERT_EQ(s.active(), 1);
+  EXPECT_FALSE(s.waited_for(swing));
+  EXPECT_TRUE(s.waited_for(boom));
+  s.evaluate({radians(30), radians(12), radians(-80), 0}, event_none);
+  ASSERT_EQ(s.active(), 2);
+  EXPECT_TRUE(s.waited_for(swing));
+  EXPECT_FALSE(s.waited_for(boom));
+}
+
 TEST(Script, AnEventIsNeededAndNoRuleIsSkipped) {
   JointScript s({{"a", {}, event_none, 0.0}, {"b", {}, event_emptied, 1.0}, {"c", {}, event_none, 2.0}});
   s.start();

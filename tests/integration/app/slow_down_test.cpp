@@ -1,0 +1,160 @@
+// A kernel that lets out less than is asked: the passes go on, slower, as they were planned.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "app_bench/loading.hpp"
+#include "motion/arm_kinematics.hpp"
+
+namespace {
+
+using namespace berm;
+using namespace berm::app;
+using app_bench::Loading;
+using app_bench::start_pose;
+
+constexpr double quarter = 0.25;
+
+double at_most(const Loading& run, double share) { return share * limits_of(run.machine, swing, 8.0).velocity; }
+
+// Lowest z of the tip by degree of the swing, on the way back.
+using Heights = std::map<int, double>;
+
+void note(const Loading& run, Heights& heights) {
+  if (run.last.phase != BERM_PHASE_SWING_TO_DIG) return;
+  const double z = forward(run.machine, run.plant.angle()).tip.z;
+  const auto [at, first] = heights.try_emplace(static_cast<int>(std::lround(degrees(run.plant.angle()[swing]))), z);
+  if (!first) at->second = std::min(at->second, z);
+}
+
+void go_to_swing(Loading& run, int pass) {
+  for (std::uint16_t before = run.last.phase; pass > 0 && run.seconds < 60.0 * pass; before = run.last.phase) {
+    run.step();
+    pass -= before != BERM_PHASE_SWING_TO_TRUCK && run.last.phase == BERM_PHASE_SWING_TO_TRUCK;
+  }
+  ASSERT_EQ(pass, 0) << "no swing to the truck";
+}
+
+// One pass from the start of its swing to the next dig, with the swing's speed cut; heights of the way back.
+Heights one_pass(Loading& run, int pass, double share) {
+  Heights heights;
+  go_to_swing(run, pass);
+  const double had = run.plant.site().bed_mass();
+  const auto dumped = [&run, had] { return run.plant.site().bed_mass() > had + 700.0; };
+  run.plant.most_speed[swing] = at_most(run, share);
+  const double end = run.seconds + 120.0;
+  while (run.seconds < end && !(dumped() && run.last.phase == BERM_PHASE_DIG)) {
+    run.step();
+    note(run, heights);
+  }
+  EXPECT_LT(run.seconds, end) << "the pass did not end; in the bed: " << run.plant.site().bed_mass() << " kg";
+  run.plant.most_speed[swing] = run.machine.joint[swing].velocity_max;
+  return heights;
+}
+
+TEST(SlowedSwing, IsNeverAskedBeyondWhatIsPermitted) {
+  Loading run(1, start_pose());
+  int cut = 0;
+  double before_urad_s = 0.0, most_jump = 0.0;
+  for (int k = 0; k < 6000; ++k) {
+    run.plant.most_speed[swing] = k / 150 % 2 == 0 ? run.machine.joint[swing].velocity_max : at_most(run, 0.1 + 0.2 * (k / 300 % 4));
+    const berm_state now = run.plant.state();
+    run.step();
+    for (std::size_t j = 0; j < joints; ++j) {
+      ASSERT_LE(run.request.joint_velocity_urad_s[j], now.permitted_high_urad_s[j]) << "joint " << j << " at " << run.seconds << " s";
+      ASSERT_GE(run.request.joint_velocity_urad_s[j], now.permitted_low_urad_s[j]) << "joint " << j << " at " << run.seconds << " s";
+    }
+    // Against what was let out, as the machine saw it.
+    const double asked = run.request.joint_velocity_urad_s[swing];
+    if (std::fabs(asked) > std::fabs(before_urad_s)) most_jump = std::max(most_jump, std::fabs(asked - before_urad_s));
+    before_urad_s = run.plant.state().commanded_urad_s[swing];
+    cut += std::fabs(asked - before_urad_s) >= 500.0;
+  }
+  EXPECT_GT(cut, 200) << "hardly anything was cut: the test shows nothing";
+  constexpr double bus_step = 500.0;
+  EXPECT_LE(most_jump, limits_of(run.machine, swing, 8.0).acceleration * run.machine.cycle * 1e6 + bus_step);
+}
+
+TEST(SlowedSwing, AtAQuarterOfItsSpeedStillDumpsIntoTheBedAndReturns) {
+  Loading free(1, start_pose()), slow(1, start_pose());
+  // The second pass: the first has not seen enough yet to reach out over the dig early.
+  const Heights planned = one_pass(free, 2, 1.0), found = one_pass(slow, 2, quarter);
+  EXPECT_EQ(free.sequencer.slow_down().spans(), 0);
+  EXPECT_EQ(free.sequencer.slow_down().seconds(), 0.0);
+  EXPECT_GT(slow.seconds, free.seconds + 10.0) << "it was not slowed: the test shows nothing";
+  EXPECT_GE(slow.plant.site().bed_mass(), 0.95 * free.plant.site().bed_mass());
+  EXPECT_LE(slow.plant.site().spilled_mass(), 20.0);
+  const app_bench::Findings& f = slow.plant.findings();
+  EXPECT_EQ(f.wall_contacts, 0) << "lowest over the truck: " << f.lowest_over_truck;
+  EXPECT_EQ(f.ground_contacts, 0);
+  EXPECT_EQ(f.range_contacts, 0);
+  // What the swing times keeps to the swing: at every angle of the way back the tip is no lower than the plan has it.
+  int compared = 0;
+  for (const auto& [deg, z] : found) {
+    const auto plan = planned.find(deg);
+    if (plan == planned.end() || deg < 8) continue;  // the last degrees, where the swing lands, differ by a cycle of the script
+    ++compared;
+    EXPECT_GT(z, plan->second - 0.08) << "swing at " << deg << " deg";
+  }
+  EXPECT_GT(compared, 30);
+}
+
+TEST(SlowedSwing, IsCounted) {
+  Loading run(1, start_pose());
+  one_pass(run, 1, quarter);
+  const SlowDown& slowed = run.sequencer.slow_down();
+  // To the truck and back: once each, as long as the swing was wanted faster.
+  EXPECT_EQ(slowed.spans(), 2);
+  EXPECT_GT(slowed.seconds(), 10.0);
+  EXPECT_LT(slowed.seconds(), run.seconds);
+  EXPECT_NEAR(slowed.least_share(), quarter, 0.02);
+  const double until_here = slowed.seconds();
+  go_to_swing(run, 1);
+  for (int k = 0; k < 500; ++k) run.step();
+  EXPECT_EQ(slowed.seconds(), until_here) << "nothing is cut any more";
+  EXPECT_EQ(slowed.spans(), 2);
+}
+
+TEST(SlowedSwing, WhatIsHeldIsNotSlowed) {
+  Loading run(1, start_pose());
+  go_to_swing(run, 1);
+  for (int k = 0; k < 100; ++k) run.step();
+  run.plant.kernel_runs = false;
+  for (int k = 0; k < 200; ++k) run.step();
+  run.plant.kernel_runs = true;
+  for (int k = 0; k < 200; ++k) run.step();
+  EXPECT_EQ(run.sequencer.slow_down().spans(), 0);
+  EXPECT_EQ(run.sequencer.slow_down().seconds(), 0.0);
+}
+
+TEST(SlowedBucket, IsGivenTheTimeToOpen) {
+  const auto opened_to = [](double share) {
+    Loading run(1, start_pose());
+    run.plant.weighs = false;  // so that nothing but the time since it opened tells when it is empty
+    go_to_swing(run, 1);
+    run.plant.most_speed[bucket] = share * run.machine.joint[bucket].velocity_max;
+    const double end = run.seconds + 60.0;
+    while (run.seconds < end && run.last.phase != BERM_PHASE_SWING_TO_DIG) run.step();
+    EXPECT_LT(run.seconds, end) << "it did not swing back";
+    return degrees(run.plant.angle()[bucket]);
+  };
+  EXPECT_GT(opened_to(quarter), opened_to(1.0) - 3.0);
+}
+
+TEST(SlowedArm, EveryJointAtAQuarterStillDumpsIntoTheBed) {
+  Loading run(1, start_pose());
+  go_to_swing(run, 1);
+  for (std::size_t j = 0; j < joints; ++j) run.plant.most_speed[j] = quarter * run.machine.joint[j].velocity_max;
+  const double end = run.seconds + 120.0;
+  while (run.seconds < end && run.last.phase != BERM_PHASE_SWING_TO_DIG) run.step();
+  ASSERT_LT(run.seconds, end) << "it did not dump";
+  for (int k = 0; k < 300; ++k) run.step();
+  EXPECT_GE(run.plant.site().bed_mass(), 1400.0);
+  EXPECT_LE(run.plant.site().spilled_mass(), 20.0);
+  EXPECT_LE(run.plant.payload_kg(), 30.0) << "swung back before it was empty";
+  EXPECT_EQ(run.plant.findings().wall_contacts, 0);
+}
+
+}  // namespace
