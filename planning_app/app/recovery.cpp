@@ -1,5 +1,6 @@
 #include "app/recovery.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace berm::app {
@@ -11,6 +12,9 @@ constexpr double rescan_after = 0.5;    // s
 constexpr double rescan_every = 6.0;    // s; the kernel's map forgets, and who stood in the way may have left
 constexpr double one_way = 4.0;         // s of creeping in one direction before the next is tried
 constexpr double call_after = 30.0;     // s: two rounds of creeping and four of looking have not helped
+constexpr double again_within = 1.5;    // s of motion; a stop after less is the same trouble
+constexpr double shortest_pause = 0.5, longest_pause = 4.0;  // s between attempts
+constexpr double retreat_for = 1.0;     // s
 constexpr double creep_share = 0.9;
 constexpr double range_room = radians(8.0);
 
@@ -39,7 +43,7 @@ Joints Recovery::retreat(const Observation& o, double blocked_s) const {
   return v;
 }
 
-// What a person must do, once a stop. True when the call was made just now.
+// What a person must do, once a trouble. True when the call was made just now.
 bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
   const bool latched = o.kernel_state == BERM_STATE_FAULT || (o.kernel_state == BERM_STATE_STOPPED && !by_ground(o.stop_reason) && o.stop_reason != BERM_STOP_REQUEST_HOLD);
   if (called_ || !(latched || (by_ground(o.stop_reason) && o.time_s - since_s_ > call_after))) return false;
@@ -57,25 +61,48 @@ bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
   return true;
 }
 
-Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
-  Advice advice;
-  if (o.running()) {
-    if (stopped_) {
-      log.event("resumed", {{"time_s", o.time_s}, {"stopped_s", o.time_s - since_s_}});
-      advice.resumed = true;
-      advice.moved = moved_;
-    }
-    stopped_ = moved_ = called_ = false;
-    return advice;
-  }
-  advice.in_charge = true;
-  if (!stopped_) {
-    stopped_ = true;
+// A stop soon after the last one goes on with the same trouble: its clock runs on, and the next attempt waits longer.
+void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
+  const bool again = since_s_ >= 0.0 && (!handed_back_ || o.time_s - handed_back_s_ < again_within);
+  stopped_ = true;
+  pause_s_ = again ? std::clamp(2.0 * pause_s_, shortest_pause, longest_pause) : 0.0;
+  if (!again) {
     since_s_ = o.time_s;
     next_rescan_s_ = since_s_ + rescan_after;
-    if (o.kernel_state == BERM_STATE_STOPPING || o.kernel_state == BERM_STATE_STOPPED || o.kernel_state == BERM_STATE_FAULT)
-      log.event("stopped", {{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}});
+    called_ = moved_ = false;
   }
+  handed_back_ = false;
+  if (o.kernel_state == BERM_STATE_STOPPING || o.kernel_state == BERM_STATE_STOPPED || o.kernel_state == BERM_STATE_FAULT)
+    log.event("stopped", {{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}});
+}
+
+// The kernel permits motion: the retreat that it permits is used for a moment, then what is due of the pause is waited for.
+Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log) {
+  Advice advice;
+  if (stopped_) {
+    stopped_ = false;
+    running_s_ = o.time_s;
+  }
+  if (handed_back_) return advice;
+  advice.in_charge = true;
+  const double ran = o.time_s - running_s_;
+  if (moved_ && ran < retreat_for) {
+    advice.velocity = retreat_;
+  } else if (ran >= pause_s_) {
+    log.event("resumed", {{"time_s", o.time_s}, {"stopped_s", o.time_s - since_s_}});
+    handed_back_ = true;
+    handed_back_s_ = o.time_s;
+    advice = {false, {}, false, true, moved_, false};
+    moved_ = false;
+  }
+  return advice;
+}
+
+Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
+  if (o.running()) return running(o, log);
+  Advice advice;
+  advice.in_charge = true;
+  if (!stopped_) begin_stop(o, log);
   advice.operator_called = call_operator(o, log);
   if (!by_ground(o.stop_reason)) return advice;
   const double blocked = o.time_s - since_s_;
@@ -84,7 +111,7 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
     next_rescan_s_ = o.time_s + rescan_every;
   }
   if (blocked > patience) {
-    advice.velocity = retreat(o, blocked - patience);
+    advice.velocity = retreat_ = retreat(o, blocked - patience);
     moved_ = true;
   }
   return advice;

@@ -1,6 +1,6 @@
 // What to do while the kernel does not permit motion: hold; and when it is the ground that stopped the machine and stays blocked, look again
 // with both scanners and retreat slowly, which the kernel permits when the slow motion's own box is clear. What none of this mends is the
-// operator's: who is told once what to do.
+// operator's: who is told once what to do. Where standing is permitted and moving is not, attempts follow one another at growing pauses.
 #pragma once
 
 #include "app/observation.hpp"
@@ -25,13 +25,18 @@ public:
 private:
   Joints retreat(const Observation& o, double blocked_s) const;
   bool call_operator(const Observation& o, const ProgressLog& log);
+  void begin_stop(const Observation& o, const ProgressLog& log);
+  Advice running(const Observation& o, const ProgressLog& log);
 
   MachineModel machine_;
   bool stopped_ = false;
-  bool moved_ = false;
-  bool called_ = false;
-  double since_s_ = 0.0;
+  bool handed_back_ = true;      // the plan is in charge
+  bool moved_ = false, called_ = false;
+  double since_s_ = -1.0;        // begin of the trouble: a stop and those soon after it; negative: none yet
+  double running_s_ = 0.0, handed_back_s_ = 0.0;
+  double pause_s_ = 0.0;         // of standing permitted, before the plan is in charge again
   double next_rescan_s_ = 0.0;
+  Joints retreat_{};
 };
 
 }  // namespace berm::app

@@ -18,6 +18,12 @@ Observation stopped(double time_s, std::uint8_t reason) {
   return o;
 }
 
+Observation permitted(double time_s) {
+  Observation o = stopped(time_s, BERM_STOP_NONE);
+  o.kernel_state = BERM_STATE_RUN;
+  return o;
+}
+
 TEST(Recovery, HoldsLooksAgainThenRetreatsAtCreepSpeed) {
   const MachineModel m = berm::app_bench::zx200();
   Recovery recovery(m);
@@ -42,13 +48,48 @@ TEST(Recovery, HoldsLooksAgainThenRetreatsAtCreepSpeed) {
   EXPECT_EQ(rescans, 2);  // after 0.5 s, and again 6 s later
   EXPECT_TRUE(raised);
   EXPECT_TRUE(swung_away);
-  Observation o = stopped(12.0, BERM_STOP_NONE);
-  o.kernel_state = BERM_STATE_RUN;
-  const auto advice = recovery.step(o, log);
+  auto advice = recovery.step(permitted(12.0), log);
+  EXPECT_TRUE(advice.in_charge) << "a retreat that is permitted is used, not given up at once";
+  EXPECT_LT(advice.velocity[bucket], 0.0);
+  EXPECT_TRUE(recovery.step(permitted(12.9), log).in_charge);
+  advice = recovery.step(permitted(13.1), log);
   EXPECT_FALSE(advice.in_charge);
   EXPECT_TRUE(advice.resumed);
   EXPECT_TRUE(advice.moved);
-  EXPECT_FALSE(recovery.step(o, log).resumed);
+  EXPECT_FALSE(recovery.step(permitted(13.2), log).resumed);
+}
+
+// Standing is permitted, moving is not: no more than a few attempts, and in the end the operator.
+TEST(Recovery, AttemptsThatFailAtOnceFollowAtGrowingPauses) {
+  Recovery recovery(berm::app_bench::zx200());
+  const ProgressLog log(-1);
+  int attempts = 0, calls = 0;
+  bool stops = true;
+  double moving_since = -1.0;
+  for (int k = 0; k < 6000; ++k) {
+    const double t = 0.01 * k;
+    const auto advice = recovery.step(stops ? stopped(t, BERM_STOP_COLLISION_PREDICTED) : permitted(t), log);
+    attempts += advice.resumed;
+    calls += advice.operator_called;
+    if (advice.resumed) moving_since = t;
+    if (!stops && !advice.in_charge && t - moving_since > 0.3) stops = true;       // the plan's motion is stopped after 0.3 s
+    else if (stops && advice.velocity == Joints{} && k % 30 == 29) stops = false;  // what stands is permitted
+    else if (stops && advice.velocity != Joints{} && k % 30 == 29) stops = false;  // so is the retreat
+  }
+  EXPECT_GE(attempts, 8);
+  EXPECT_LE(attempts, 25) << "three a second would be 180";
+  EXPECT_EQ(calls, 1) << "short attempts do not put off the call";
+}
+
+TEST(Recovery, AfterGoodMotionAStopIsANewOne) {
+  Recovery recovery(berm::app_bench::zx200());
+  const ProgressLog log(-1);
+  for (int n = 0; n < 5; ++n) {
+    const double t = 10.0 * n;
+    recovery.step(stopped(t, BERM_STOP_STALE_GROUND), log);
+    EXPECT_TRUE(recovery.step(permitted(t + 0.5), log).resumed) << "without a pause";
+    EXPECT_FALSE(recovery.step(permitted(t + 9.9), log).in_charge);
+  }
 }
 
 TEST(Recovery, WaitsForTheOperator) {
@@ -73,12 +114,10 @@ TEST(Recovery, CallsTheOperatorWhenLookingAndCreepingDoNotHelp) {
     ASSERT_TRUE(calls == 0 || 0.01 * k > 29.9);
   }
   EXPECT_EQ(calls, 1);
-  Observation o = stopped(91.0, BERM_STOP_NONE);
-  o.kernel_state = BERM_STATE_RUN;
-  EXPECT_FALSE(recovery.step(o, log).operator_called);
+  for (const double t : {90.0, 91.1, 95.0}) EXPECT_FALSE(recovery.step(permitted(t), log).operator_called);
   calls = 0;
   for (int k = 0; k < 4000; ++k) calls += recovery.step(stopped(100.0 + 0.01 * k, BERM_STOP_STALE_GROUND), log).operator_called;
-  EXPECT_EQ(calls, 1) << "each stop has its own";
+  EXPECT_EQ(calls, 1) << "each trouble has its own";
 }
 
 TEST(Recovery, ComesBackIntoTheJointsRange) {
