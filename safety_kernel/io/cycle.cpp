@@ -34,13 +34,12 @@ void Cycle::step(const CycleInputs& in, CycleOutputs& out) {
   map_points_ = 0;
   take_frames(in);
   if (!map_only_) learn_base(in.now_us);
-  if (!map_only_) relearn_map(in.now_us);
   take_scans(in, out.blocks);
   map_points_ += scans_.points() - points_before;
   take_points(in);
   if (!map_only_) {
-    // Nothing is kept while the base has moved, for it may still be moving.
-    if (frames_.base().moved) sk_map_clear(&map_);
+    // Nothing is kept while the base has moved, for it may still be moving, nor while the operator has the map learned anew.
+    if (frames_.base().moved || relearns(in.now_us)) sk_map_clear(&map_);
     own_cells_.stamp(map_, in.now_us, parameters_.generation_us);
     take_request(in);
     judge_motion(in.now_us);
@@ -88,9 +87,7 @@ void Cycle::learn_base(std::int64_t now_us) {
 }
 
 // At standstill alone; a key that stays down keeps the map empty, and the machine where it stands.
-void Cycle::relearn_map(std::int64_t now_us) {
-  if (standstill_ && frames_.operator_fresh(now_us) && frames_.picture().panel.relearn) sk_map_clear(&map_);
-}
+bool Cycle::relearns(std::int64_t now_us) const { return standstill_ && frames_.operator_fresh(now_us) && frames_.picture().panel.relearn; }
 
 void Cycle::take_request(const CycleInputs& in) {
   if (in.app_connections != app_connections_) {

@@ -79,7 +79,7 @@ class Cycle {
   void take_scans(const CycleInputs& in, ScanBlocks& blocks);
   void take_points(const CycleInputs& in);
   void learn_base(std::int64_t now_us);
-  void relearn_map(std::int64_t now_us);
+  bool relearns(std::int64_t now_us) const;
   void take_request(const CycleInputs& in);
   void judge_motion(std::int64_t now_us);
   std::uint8_t judge_hold(std::int64_t now_us) const;

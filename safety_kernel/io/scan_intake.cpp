@@ -48,16 +48,18 @@ void ScanIntake::filter(const Line& line, const berm_scan_packet* next, const st
   std::uint32_t window[kNeighbours + BERM_SCAN_PACKET_SAMPLES + kNeighbours] = {};
   std::uint8_t own[kNeighbours + BERM_SCAN_PACKET_SAMPLES + kNeighbours] = {};
   const int count = line.packet.count;
-  std::copy(line.before, line.before + kNeighbours, window);
+  // Nearer than the least range there is nothing: such a return is noise, and must not support another.
+  const auto usable = [least = static_cast<std::uint32_t>(parameters_.range_min_mm)](std::uint32_t range_mm) { return range_mm < least ? 0U : range_mm; };
+  std::transform(line.before, line.before + kNeighbours, window, usable);
   std::copy(line.before_own, line.before_own + kNeighbours, own);
-  std::copy(raw, raw + count, window + kNeighbours);
+  std::transform(raw, raw + count, window + kNeighbours, usable);
   for (int i = 0; i < count; ++i) own[kNeighbours + i] = located[i].own;
   if (next != nullptr) {
     std::uint32_t range[BERM_SCAN_PACKET_SAMPLES];
     std::uint8_t echoes[BERM_SCAN_PACKET_SAMPLES];
     last_echoes(*next, range, echoes);
     for (int i = 0; i < std::min<int>(kNeighbours, next->count); ++i) {
-      window[kNeighbours + count + i] = range[i];
+      window[kNeighbours + count + i] = usable(range[i]);
       own[kNeighbours + count + i] = locate(*next, i, range[i], joints).own;
     }
   }

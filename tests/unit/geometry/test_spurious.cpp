@@ -90,8 +90,8 @@ TEST(Spurious, TheOwnMachineSupportsNothing) {
 // verifies: SK-GE-23
 TEST(Spurious, BesideTheOwnMachineAReturnKeepsItsOtherNeighbour) {
   EXPECT_EQ(filtered({4000, 4000, 7000, 7500}, {1, 1, 0, 0})[2], 7000u);
-  EXPECT_EQ(filtered({4000, 4000, 7000, 9500, 12000}, {1, 1, 0, 0, 0}), (Ranges{4000, 4000, 0, 9500, 0})) << "ground that recedes loses its first sample";
-  EXPECT_EQ(filtered({9500, 7000, 4000, 4000}, {0, 0, 1, 1})[1], 7000u);
+  EXPECT_EQ(filtered({4000, 4000, 7000, 9500, 12000}, {1, 1, 0, 0, 0}), (Ranges{0, 0, 0, 9500, 0})) << "ground that recedes loses its first sample";
+  EXPECT_EQ(filtered({7500, 7000, 4000, 4000}, {0, 0, 1, 1})[1], 7000u);
   EXPECT_EQ(filtered({4000, 6000, 6500, 4000}, {1, 0, 0, 1}), (Ranges{0, 6000, 6500, 0})) << "two that agree between the arm's sides";
 }
 

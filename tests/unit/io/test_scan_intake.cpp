@@ -111,6 +111,23 @@ TEST_F(ScanIntakeTest, ALostPacketBreaksTheChain) {
   EXPECT_GT(observed(), apart + 5);
 }
 
+// Looking over the ground's edge: far ground, one return in the air, and noise just before the window.
+// verifies: SK-GE-23
+TEST_F(ScanIntakeTest, AReturnNearerThanTheLeastRangeSupportsNoOther) {
+  for (const std::uint32_t near_mm : {0U, 300U, static_cast<std::uint32_t>(parameters.range_min_mm) - BERM_SCAN_RANGE_LSB_MM, 12000U}) {
+    ScanIntake fresh(parameters);
+    berm_scan_packet p = ground(380, 15, 1);
+    p.flags = BERM_SCAN_FLAG_LAST;
+    for (int i = 0; i < p.count; ++i) p.range[i][0] = static_cast<std::uint16_t>((i < 8 ? 14000 + 1000 * i : 0) / BERM_SCAN_RANGE_LSB_MM);
+    p.range[8][0] = 16500 / BERM_SCAN_RANGE_LSB_MM;
+    p.range[9][0] = static_cast<std::uint16_t>(near_mm / BERM_SCAN_RANGE_LSB_MM);
+    blocks->count = 0;
+    ASSERT_TRUE(fresh.take(p, joints, kNow, *map, *blocks));
+    ASSERT_EQ(blocks->count, 1);
+    EXPECT_EQ(blocks->block[0].used[8], near_mm == 12000U ? 1 : 0) << near_mm;
+  }
+}
+
 // verifies: SK-CY-102
 TEST_F(ScanIntakeTest, OwnReturnsDoNotEnterTheMap) {
   berm_scan_packet p = ground(330, 40, 1);
