@@ -45,12 +45,13 @@ void Sweep::stare(int scanner, double pan_rad, double seconds, double phase) { r
 
 // Echoes of a beam with a width: what its middle and its four edges meet, nearest first, of more than three the farthest last.
 void Sweep::measure(const std::array<double, 3>& from, double pan_rad, double elevation_rad, std::uint16_t (&echo)[BERM_SCAN_ECHOES]) const {
-  const double aside[5][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+  constexpr double kAside[5][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+  const double b = bearing(pan_rad), cos_b = std::cos(b), sin_b = std::sin(b), cos_e = std::cos(elevation_rad), sin_e = std::sin(elevation_rad);
   int count = 0;
   for (int i = 0; i < (beam_rad > 0.0 ? 5 : 1); ++i) {
-    const double e = elevation_rad + 0.5 * beam_rad * aside[i][1];
-    const double b = bearing(pan_rad) + 0.5 * beam_rad * aside[i][0] / std::fmax(0.05, std::fabs(std::cos(elevation_rad)));
-    const auto range = scene.range({from, {std::cos(e) * std::cos(b), std::cos(e) * std::sin(b), std::sin(e)}});
+    const double left = 0.5 * beam_rad * kAside[i][0], up = 0.5 * beam_rad * kAside[i][1];  // so small that the length stays 1
+    const auto range =
+        scene.range({from, {cos_e * cos_b - left * sin_b - up * sin_e * cos_b, cos_e * sin_b + left * cos_b - up * sin_e * sin_b, sin_e + up * cos_e}});
     if (!range || *range >= kFarthest) continue;
     const auto raw = static_cast<std::uint16_t>(std::max(1L, std::lround(*range * 1e3 / BERM_SCAN_RANGE_LSB_MM)));
     if (std::find(echo, echo + count, raw) != echo + count) continue;

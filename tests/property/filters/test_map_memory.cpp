@@ -86,17 +86,17 @@ TEST_F(MapMemory, WhatWasSeenOnceIsKeptForAGenerationAndGoneAfterTwoSweepsMore) 
 // verifies: SK-FI-12
 TEST_F(MapMemory, AStandingScannerForgetsAPostBesideItsLine) {
   for (const double distance : kDistances) {
-    // The head looks along the grid's x; the post fills two thirds of a cell's width, the line passes in the last third.
+    // The head looks along the grid's x; the post fills four fifths of a cell's width, the line passes beside it.
     Sweep sweep(parameters, degrees(-120));
     const Spot head = sweep.head(0);
     const int iy = static_cast<int>(std::floor((head.y + 0.02) / kCell)), ix = static_cast<int>(std::floor((head.x + distance) / kCell));
     const Spot low = {ix * kCell, iy * kCell};
-    const Prism post = box({low.x + 0.5 * kCell, low.y + 0.1}, 0.0, 0.18, 0.18, 0.0, 1.8);
+    const Prism post = box({low.x + 0.5 * kCell, low.y + 0.14}, 0.0, 0.24, 0.24, 0.0, 1.8);
     sweep.scene.thing = {post};
     const auto pan_to = [&](double y) { return std::atan2(y - head.y, distance) + degrees(120); };
     sweep.pan(0, pan_to(low.y) - degrees(3), pan_to(low.y) + degrees(3), degrees(10), 0.0);
     ASSERT_GE(highest_top(sweep.map(), post.footprint), 1500) << distance;
-    sweep.stare(0, pan_to(low.y + 0.25), 2.5, 0.0);
+    sweep.stare(0, pan_to(low.y + 0.28), 2.5, 0.0);
     EXPECT_TRUE(all_low(sweep.map(), post.footprint, sweep.now_us() - 200000, kGroundMm)) << distance << " m: fresh, low, and the post still stands";
   }
 }

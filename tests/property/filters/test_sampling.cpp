@@ -53,7 +53,7 @@ class Sampling : public ::testing::Test {
 
 // verifies: SK-FI-1, SK-FI-2, SK-FI-8
 TEST_F(Sampling, AThingOfTheStatedSizeIsFoundInOneSweep) {
-  constexpr int kTrials = 60;
+  constexpr int kTrials = 50;
   std::mt19937_64 random(kSeed);
   int things = 0, cells = 0;
   for (std::size_t d = 0; d < kDistances.size(); ++d)

@@ -25,7 +25,7 @@ class SpuriousHides : public ::testing::Test {
 // In the air, where the ground before it supports nothing.
 // verifies: SK-FI-3
 TEST_F(SpuriousHides, NothingOfTheStatedHeight) {
-  constexpr int kTrials = 150;
+  constexpr int kTrials = 120;
   std::mt19937_64 random(kSeed);
   int things = 0;
   for (std::size_t d = 0; d < kDistances.size(); ++d)

