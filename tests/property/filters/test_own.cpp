@@ -159,6 +159,42 @@ TEST_F(OwnMachine, HidesWhatLiesWhollyInTheLayer) {
   }
 }
 
+// What looks out over the boom by two rows is found, though the machine's own returns beneath it support nothing.
+// verifies: SK-FI-3
+TEST_F(OwnMachine, TwoRowsOverTheOwnBoomAreFound) {
+  constexpr int kTrials = 40;
+  const std::array<double, 4> pose = {degrees(60), degrees(-7), degrees(-60), degrees(-40)};
+  const SelfFilter filter(parameters);
+  const JointAngles angles = {pose[0], pose[1], pose[2], pose[3]};
+  std::mt19937_64 random(kSeed + 1);
+  for (std::size_t d = 0; d < kDistances.size(); ++d)
+    for (int i = 0; i < kTrials; ++i) {
+      Sweep sweep(parameters, pose);
+      const double c = std::cos(pose[0]), s = std::sin(pose[0]), x = 3.2, top = uniform(random, 2.7, 2.9);
+      for (const double corner_x : {x - 0.2, x + 0.2})
+        for (const double corner_z : {2.0, top}) ASSERT_TRUE(filter.is_own({corner_x, 0.25, corner_z}, filter.pose(angles)));
+      const Prism boom = box({x * c, x * s}, pose[0], 0.4, 0.5, 2.0, top);
+      // Behind it, seen from the left head.
+      const double head_z = parameters.scanner[0].z_mm * 1e-3, pan = std::atan2(-parameters.scanner[0].y_mm * 1e-3, x - parameters.scanner[0].x_mm * 1e-3);
+      const double width = stated("lines of a sweep: app", d).width;
+      // The flattest depression under which the boom is met, over the thing's width.
+      double rim = 1.0;
+      for (const double aside : {-0.5, 0.0, 0.5})
+        for (double b = 0.0; b < rim; b += 0.0005) {
+          const double bearing = sweep.bearing(pan + aside * width / kDistances[d]);
+          const Scene alone{-1e6, {boom}};
+          const auto met = alone.range({{sweep.head(0).x, sweep.head(0).y, head_z}, {std::cos(b) * std::cos(bearing), std::cos(b) * std::sin(bearing), -std::sin(b)}});
+          if (met && *met < 20.0) rim = b;
+        }
+      const double over = rim - 2.05 * degrees(360.0 / kSamplesPerTurn), height = head_z - kDistances[d] * std::tan(over);
+      ASSERT_GT(height, 0.3);
+      sweep.scene.thing = {boom, cylinder_around(sweep.at(0, pan, kDistances[d]), width, height)};
+      sweep.pan(0, pan - degrees(7), pan + degrees(7), degrees(38), uniform(random, 0, kSamplesPerTurn));
+      ASSERT_GE(highest_top(sweep.map(), sweep.scene.thing[1].footprint), (height - row_height(parameters, kDistances[d], 1)) * 1e3 - kGroundMm)
+          << kDistances[d] << " m, seed " << kSeed + 1 << ", thing " << i;
+    }
+}
+
 // verifies: SK-FI-5
 TEST_F(OwnMachine, TheOwnBodysCylinderHidesEverythingAndEndsThere) {
   const double body = parameters.own_body_radius_mm * 1e-3;
