@@ -159,18 +159,20 @@ TEST_F(OwnMachine, HidesWhatLiesWhollyInTheLayer) {
   }
 }
 
-// What looks out over the boom by two rows is found, though the machine's own returns beneath it support nothing.
+// What looks out over the boom by two rows is found, though the machine's own returns beneath it support nothing; by one row it can be hidden.
 // verifies: SK-FI-3
-TEST_F(OwnMachine, TwoRowsOverTheOwnBoomAreFound) {
+TEST_F(OwnMachine, TwoRowsOverTheOwnBoomAreFoundAndOneIsNot) {
   constexpr int kTrials = 40;
   const std::array<double, 4> pose = {degrees(60), degrees(-7), degrees(-60), degrees(-40)};
   const SelfFilter filter(parameters);
   const JointAngles angles = {pose[0], pose[1], pose[2], pose[3]};
   std::mt19937_64 random(kSeed + 1);
-  for (std::size_t d = 0; d < kDistances.size(); ++d)
+  for (std::size_t d = 0; d < kDistances.size(); ++d) {
+    int hidden = 0;
     for (int i = 0; i < kTrials; ++i) {
+      const double rows = i % 2 == 0 ? 2.05 : 1.2;  // of the latter one at least is met, and mostly no more
       Sweep sweep(parameters, pose);
-      const double c = std::cos(pose[0]), s = std::sin(pose[0]), x = 3.2, top = uniform(random, 2.7, 2.9);
+      const double c = std::cos(pose[0]), s = std::sin(pose[0]), x = 3.2, top = uniform(random, 2.77, 2.9);
       for (const double corner_x : {x - 0.2, x + 0.2})
         for (const double corner_z : {2.0, top}) ASSERT_TRUE(filter.is_own({corner_x, 0.25, corner_z}, filter.pose(angles)));
       const Prism boom = box({x * c, x * s}, pose[0], 0.4, 0.5, 2.0, top);
@@ -186,13 +188,20 @@ TEST_F(OwnMachine, TwoRowsOverTheOwnBoomAreFound) {
           const auto met = alone.range({{sweep.head(0).x, sweep.head(0).y, head_z}, {std::cos(b) * std::cos(bearing), std::cos(b) * std::sin(bearing), -std::sin(b)}});
           if (met && *met < 20.0) rim = b;
         }
-      const double over = rim - 2.05 * degrees(360.0 / kSamplesPerTurn), height = head_z - kDistances[d] * std::tan(over);
+      const double over = rim - rows * degrees(360.0 / kSamplesPerTurn), height = head_z - kDistances[d] * std::tan(over);
       ASSERT_GT(height, 0.3);
       sweep.scene.thing = {boom, cylinder_around(sweep.at(0, pan, kDistances[d]), width, height)};
       sweep.pan(0, pan - degrees(7), pan + degrees(7), degrees(38), uniform(random, 0, kSamplesPerTurn));
-      ASSERT_GE(highest_top(sweep.map(), sweep.scene.thing[1].footprint), (height - row_height(parameters, kDistances[d], 1)) * 1e3 - kGroundMm)
-          << kDistances[d] << " m, seed " << kSeed + 1 << ", thing " << i;
+      const std::int32_t found = highest_top(sweep.map(), sweep.scene.thing[1].footprint);
+      if (rows < 2.0) {
+        hidden += found < (height - 1.5 * row_height(parameters, kDistances[d], 1)) * 1e3 ? 1 : 0;  // at 5 m its foot is seen beneath the boom
+        continue;
+      }
+      ASSERT_GE(found, (height - row_height(parameters, kDistances[d], 1)) * 1e3 - kGroundMm) << kDistances[d] << " m, seed " << kSeed + 1 << ", thing " << i;
     }
+    EXPECT_GT(hidden, 0) << kDistances[d] << " m";
+    std::cout << kDistances[d] << " m, seed " << kSeed + 1 << ": of 1.2 rows over the boom, " << hidden << " of " << kTrials / 2 << " hidden\n";
+  }
 }
 
 // verifies: SK-FI-5
