@@ -65,6 +65,7 @@ bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
 void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
   const bool again = since_s_ >= 0.0 && (!handed_back_ || o.time_s - handed_back_s_ < again_within);
   stopped_ = true;
+  stop_s_ = o.time_s;
   pause_s_ = again ? std::clamp(2.0 * pause_s_, shortest_pause, longest_pause) : 0.0;
   if (!again) {
     since_s_ = o.time_s;
@@ -105,7 +106,7 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
   if (!stopped_) begin_stop(o, log);
   advice.operator_called = call_operator(o, log);
   if (!by_ground(o.stop_reason)) return advice;
-  const double blocked = o.time_s - since_s_;
+  const double blocked = o.time_s - stop_s_;  // without a moment in which standing was permitted
   if (o.time_s > next_rescan_s_) {
     advice.rescan = true;
     next_rescan_s_ = o.time_s + rescan_every;

@@ -33,7 +33,7 @@ private:
   bool handed_back_ = true;      // the plan is in charge
   bool moved_ = false, called_ = false;
   double since_s_ = -1.0;        // begin of the trouble: a stop and those soon after it; negative: none yet
-  double running_s_ = 0.0, handed_back_s_ = 0.0;
+  double stop_s_ = 0.0, running_s_ = 0.0, handed_back_s_ = 0.0;
   double pause_s_ = 0.0;         // of standing permitted, before the plan is in charge again
   double next_rescan_s_ = 0.0;
   Joints retreat_{};
