@@ -29,6 +29,20 @@ public:
     return from_candidates(column);
   }
 
+  // The cells of a row after ix, up to the last, that are not lower than z_low and want the plane found for ix: written to chosen. Returns the last of them.
+  int32_t extend(const int32_t* top, int32_t ix, int32_t last, const Column& from, int32_t z_low, uint8_t* chosen) const noexcept {
+    const Near near = near_;
+    const uint8_t plane = static_cast<uint8_t>(last_);
+    int64_t beside = near.nx * from.x + near.ny * from.y;
+    for (; ix < last; ++ix) {
+      beside += near.nx * SK_CELL_MM;
+      const int64_t next = top[ix + 1];
+      if (next < z_low || next > SK_COORD_MAX_MM || beside + near.nz * next > near.most) break;
+      chosen[ix + 1] = plane;
+    }
+    return ix;
+  }
+
 private:
   // A plane as it is held against a column's low corner: for the corner farthest along its normal.
   struct Near {
@@ -210,9 +224,11 @@ bool choose_planes(const sk_height_map& map, const sk_columns& columns, const sk
       }
       if (exceptions.any_zone() && (top != SK_NO_TOP || (rules.dig_stale && map.seen_us[iy][ix] >= 0)) && exceptions.dig_zone(x, y, sk_map_top(&map, iy, ix))) continue;
       const bool has_top = !own && top <= SK_COORD_MAX_MM;
-      const int plane = search.find({x, y, has_top ? std::max(top, -SK_COORD_MAX_MM) : 0, has_top});
+      const Column column = {x, y, has_top ? std::max(top, -SK_COORD_MAX_MM) : 0, has_top};
+      const int plane = search.find(column);
       if (plane == 0) return false;
       choice.plane_of[iy][ix] = static_cast<uint8_t>(plane);
+      if (!bodied && !exceptions.any_zone()) ix = search.extend(row, ix, cells.ix_high, column, z_low, choice.plane_of[iy]);
     }
   }
   return true;
