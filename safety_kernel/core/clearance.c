@@ -1,5 +1,7 @@
 #include "clearance.h"
 
+#define SK_SIDE_MAX 9223372036854775807 /* beyond any n . vertex */
+
 enum { SK_PLANE_UNTRIED = 0, SK_PLANE_HOLDS = 1, SK_PLANE_FAILS = 2 };
 
 /* What is found out about a plane when it is first needed. */
@@ -39,6 +41,39 @@ static bool sk_planes_ok(const sk_slice *s)
   return true;
 }
 
+/*@ requires \valid_read(p) && \valid_read(s) && 0 <= i < SK_SLICE_VERTICES && sk_plane_fits(p) && sk_vertex_fits(s, i);
+  @ assigns \nothing;
+  @ ensures \result > p->d <==> sk_vertex_above(p, s, i);
+  @*/
+static inline int64_t sk_side_of(const sk_plane *p, const sk_slice *s, int32_t i)
+{
+  return (int64_t)p->nx * s->xyz_mm[0][i] + (int64_t)p->ny * s->xyz_mm[1][i] + (int64_t)p->nz * s->xyz_mm[2][i];
+}
+
+/* The least n . vertex of a slice with all the vertices there can be, as those of the sweep are: a number of rounds known beforehand goes in lanes. */
+/*@ requires \valid_read(s) && sk_slice_fits(s) && 0 <= k < s->planes && s->vertices == SK_SLICE_VERTICES;
+  @ assigns \nothing;
+  @ ensures \result > s->plane[k].d <==> \forall integer i; 0 <= i < s->vertices ==> sk_vertex_above(&s->plane[k], s, i);
+  @*/
+SK_CLONES static int64_t sk_least_side(const sk_slice *s, int32_t k)
+{
+  const sk_plane *p = &s->plane[k];
+  int64_t least = SK_SIDE_MAX;
+  int32_t i;
+  /*@ loop invariant 0 <= i <= SK_SLICE_VERTICES;
+    @ loop invariant above: least > p->d ==> \forall integer j; 0 <= j < i ==> sk_vertex_above(&s->plane[k], s, j);
+    @ loop invariant below: least <= p->d ==> \exists integer j; 0 <= j < i && !sk_vertex_above(&s->plane[k], s, j);
+    @ loop assigns i, least;
+    @ loop variant SK_SLICE_VERTICES - i;
+    @*/
+  for (i = 0; i < SK_SLICE_VERTICES; i++) {
+    /*@ assert sk_vertex_fits(s, i) && sk_plane_fits(p); */
+    int64_t side = sk_side_of(p, s, i);
+    least = side < least ? side : least;
+  }
+  return least;
+}
+
 /* Whether every vertex is strictly on the plane's positive side. */
 /*@ requires \valid_read(s) && sk_slice_fits(s) && 0 <= k < s->planes;
   @ assigns \nothing;
@@ -49,6 +84,7 @@ static bool sk_plane_holds(const sk_slice *s, int32_t k)
   const sk_plane *p = &s->plane[k];
   int32_t i;
   if (p->nz < 0) { return false; }
+  if (s->vertices == SK_SLICE_VERTICES) { return sk_least_side(s, k) > p->d; }
   /*@ loop invariant 0 <= i <= s->vertices;
     @ loop invariant \forall integer j; 0 <= j < i ==> sk_vertex_above(&s->plane[k], s, j);
     @ loop assigns i;
@@ -56,7 +92,7 @@ static bool sk_plane_holds(const sk_slice *s, int32_t k)
     @*/
   for (i = 0; i < s->vertices; i++) {
     /*@ assert sk_vertex_fits(s, i) && sk_plane_fits(p); */
-    int64_t side = (int64_t)p->nx * s->xyz_mm[0][i] + (int64_t)p->ny * s->xyz_mm[1][i] + (int64_t)p->nz * s->xyz_mm[2][i];
+    int64_t side = sk_side_of(p, s, i);
     if (side <= p->d) {
       /*@ assert !sk_vertex_above(&s->plane[k], s, i); */
       return false;
@@ -179,7 +215,6 @@ static int32_t sk_contact_verdict(const sk_height_map *m, const sk_clearance_rul
   @   \valid_read(m) && \valid_read(s) && \valid_read(r) && \valid(t) && \separated(t, m, s, r);
   @ predicate sk_row_clear{L}(sk_height_map *m, sk_slice *s, sk_choice *choice, sk_clearance_rules *r, integer iy, integer from, integer to) =
   @   \forall integer i; from <= i < to ==> sk_cell_clear{L}(m, s, r, sk_chosen{L}(choice, iy, i), iy, i);
-  @ predicate sk_first_known{L}(sk_slice *s, integer holds) = holds != 0 ==> sk_plane_bounds{L}(s, 0);
   @*/
 
 /*@ requires sk_readable(m, s, r, t) && sk_slice_fits(s) && sk_rules_fit(r) && sk_tried_right(s, t);
@@ -215,35 +250,96 @@ static int32_t sk_cell_verdict(const sk_height_map *m, const sk_slice *s, int32_
   return sk_contact_verdict(m, r, iy, ix);
 }
 
-/* Whether a cell is clear at a glance, as nearly all are: below plane 0, where there is no own body to look for. */
+/* What a cell is held against to be clear at a glance, as nearly all are: current, and below a level plane 0. */
+typedef struct sk_glance {
+  bool level;                   /* whether there is such a plane, and no own body to look for */
+  int64_t oldest_us, newest_us; /* of a current cell */
+  int32_t most_mm;              /* height without the margin */
+} sk_glance;
+
+/*@ predicate sk_level_plane{L}(sk_plane *p) = \at(p->nx, L) == 0 && \at(p->ny, L) == 0 && \at(p->nz, L) == 1;
+  @ lemma sk_level_square{L}: \forall sk_plane *p; \forall integer x, y, z;
+  @   sk_level_plane{L}(p) && z <= \at(p->d, L) ==> sk_square_below{L}(p, x, y, z);
+  @ predicate sk_glance_right{L}(sk_slice *s, sk_clearance_rules *r, sk_glance g) = g.level != 0 ==>
+  @   sk_plane_bounds{L}(s, 0) && sk_level_plane{L}(&s->plane[0]) && \at(r->own_body_radius_mm, L) == 0 &&
+  @   0 <= g.oldest_us && \at(r->now_us, L) - \at(r->fresh_us, L) <= g.oldest_us && g.newest_us == \at(r->now_us, L) &&
+  @   g.most_mm == \at(s->plane[0].d, L) - \at(r->margin_mm, L);
+  @*/
+
 /*@ requires \valid_read(m) && \valid_read(s) && \valid_read(r) && sk_slice_fits(s) && sk_rules_fit(r) && 0 <= k;
-  @ requires sk_in_map(iy, ix) && sk_first_known(s, first_holds);
+  @ requires sk_in_map(iy, ix) && sk_glance_right(s, r, g);
   @ assigns \nothing;
   @ ensures \result == true ==> sk_cell_clear(m, s, r, k, iy, ix);
   @*/
-static inline bool sk_is_settled(const sk_height_map *m, const sk_slice *s, int32_t k, const sk_clearance_rules *r, bool first_holds, int32_t iy, int32_t ix)
+static inline bool sk_is_settled(const sk_height_map *m, const sk_slice *s, int32_t k, const sk_clearance_rules *r, sk_glance g, int32_t iy, int32_t ix)
 {
-  /*@ assert nobody: r->own_body_radius_mm == 0 ==> !sk_own_body(r, iy, ix); */
-  if (k != 0 || !first_holds || r->own_body_radius_mm != 0) { return false; }
-  return sk_column_is_below(m, r, &s->plane[0], iy, ix);
+  int64_t seen_us = m->seen_us[iy][ix];
+  (void)s;
+  (void)r;
+  /*@ assert nobody: g.level != 0 ==> !sk_own_body(r, iy, ix); */
+  if (k != 0 || !g.level || seen_us < g.oldest_us || seen_us > g.newest_us) { return false; }
+  /*@ assert current: sk_current(m, r, iy, ix); */
+  if (m->height_mm[iy][ix] > g.most_mm || m->previous_mm[iy][ix] > g.most_mm) { return false; }
+  /*@ assert top: sk_column_top(m, r, iy, ix) <= s->plane[0].d; */
+  /*@ assert square: sk_square_below(&s->plane[0], sk_cell_low(ix), sk_cell_low(iy), sk_column_top(m, r, iy, ix)); */
+  /*@ assert column: sk_column_below(m, r, &s->plane[0], iy, ix); */
+  return true;
 }
 
-/* Whether plane 0 is level and below the lowest vertex, as that of the sweep's slices is: then it need not be held against the vertices. */
-/*@ requires \valid_read(s) && sk_slice_fits(s) && sk_is_lowest(s, 2, z_low_mm);
+/* A plane 0 that is level and below the lowest vertex, as that of the sweep's slices is, need not be held against the vertices. */
+/*@ requires \valid_read(s) && \valid_read(r) && sk_slice_fits(s) && sk_rules_fit(r) && sk_is_lowest(s, 2, z_low_mm);
   @ assigns \nothing;
-  @ ensures sk_first_known(s, \result);
+  @ ensures sk_glance_right(s, r, \result);
   @*/
-static bool sk_first_is_level(const sk_slice *s, int32_t z_low_mm)
+static sk_glance sk_glance_of(const sk_slice *s, const sk_clearance_rules *r, int32_t z_low_mm)
 {
   const sk_plane *p = &s->plane[0];
-  if (p->nx != 0 || p->ny != 0 || p->nz != 1 || p->d >= z_low_mm) { return false; }
-  /*@ assert above: \forall integer i; 0 <= i < s->vertices ==> sk_vertex_above(&s->plane[0], s, i); */
-  return true;
+  sk_glance g;
+  g.level = r->own_body_radius_mm == 0 && p->nx == 0 && p->ny == 0 && p->nz == 1 && p->d < z_low_mm && p->d >= -SK_COORD_MAX_MM - 1;
+  g.oldest_us = sk_most_of(0, r->now_us - r->fresh_us);
+  g.newest_us = r->now_us;
+  g.most_mm = g.level ? (int32_t)p->d - r->margin_mm : 0;
+  /*@ assert above: g.level != 0 ==> \forall integer i; 0 <= i < s->vertices ==> sk_vertex_above(&s->plane[0], s, i); */
+  return g;
+}
+
+/* Whether a cell is below a plane that was found to hold for a cell before it, where there is no own body to look for. */
+/*@ requires sk_readable(m, s, r, t) && sk_slice_fits(s) && sk_rules_fit(r) && sk_tried_right(s, t) && 0 <= k && sk_in_map(iy, ix);
+  @ assigns \nothing;
+  @ ensures \result == true ==> sk_cell_clear(m, s, r, k, iy, ix);
+  @*/
+static inline bool sk_is_below_known(const sk_height_map *m, const sk_slice *s, int32_t k, const sk_clearance_rules *r, const sk_tried *t, int32_t iy, int32_t ix)
+{
+  /*@ assert nobody: r->own_body_radius_mm == 0 ==> !sk_own_body(r, iy, ix); */
+  if (k >= s->planes || r->own_body_radius_mm != 0 || t->plane[k] != SK_PLANE_HOLDS) { return false; }
+  return sk_column_is_below(m, r, &s->plane[k], iy, ix);
+}
+
+/* The first of a row's cells from one on that is not settled, or one beyond the last. */
+/*@ requires \valid_read(m) && \valid_read(s) && \valid_read(choice) && \valid_read(r) && sk_slice_fits(s) && sk_rules_fit(r);
+  @ requires sk_glance_right(s, r, g) && 0 <= iy < SK_MAP_CELLS && 0 <= from <= to + 1 && to < SK_MAP_CELLS;
+  @ assigns \nothing;
+  @ ensures from <= \result <= to + 1;
+  @ ensures sk_row_clear(m, s, choice, r, iy, from, \result);
+  @*/
+static inline int32_t sk_settled_end(const sk_height_map *m, const sk_slice *s, const sk_choice *choice, const sk_clearance_rules *r, sk_glance g, int32_t iy,
+                                     int32_t from, int32_t to)
+{
+  int32_t ix;
+  /*@ loop invariant from <= ix <= to + 1;
+    @ loop invariant sk_row_clear(m, s, choice, r, iy, from, ix);
+    @ loop assigns ix;
+    @ loop variant to - ix;
+    @*/
+  for (ix = from; ix <= to; ix++) {
+    if (!sk_is_settled(m, s, choice->plane_of[iy][ix], r, g, iy, ix)) { return ix; }
+  }
+  return ix;
 }
 
 /* Column of the first blocked cell of a row, ix_high + 1 when all are clear. */
 /*@ requires sk_readable(m, s, r, t) && sk_slice_fits(s) && sk_rules_fit(r) && sk_tried_right(s, t) && sk_is_lowest(s, 2, z_low_mm);
-  @ requires \valid_read(choice) && \separated(t, choice) && sk_first_known(s, first_holds);
+  @ requires \valid_read(choice) && \separated(t, choice) && sk_glance_right(s, r, g);
   @ requires 0 <= iy < SK_MAP_CELLS && 0 <= ix_low <= ix_high < SK_MAP_CELLS;
   @ assigns t->plane[0 .. SK_SLICE_PLANES - 1];
   @ ensures sk_tried_right(s, t);
@@ -253,7 +349,7 @@ static bool sk_first_is_level(const sk_slice *s, int32_t z_low_mm)
   @   !sk_cell_clear{Pre}(m, s, r, sk_chosen{Pre}(choice, iy, \result), iy, \result);
   @*/
 static int32_t sk_row_end(const sk_height_map *m, const sk_slice *s, const sk_choice *choice, const sk_clearance_rules *r, sk_tried *t,
-                          int32_t z_low_mm, bool first_holds, int32_t iy, int32_t ix_low, int32_t ix_high)
+                          int32_t z_low_mm, sk_glance g, int32_t iy, int32_t ix_low, int32_t ix_high)
 {
   int32_t ix;
   /*@ loop invariant ix_low <= ix <= ix_high + 1;
@@ -262,12 +358,9 @@ static int32_t sk_row_end(const sk_height_map *m, const sk_slice *s, const sk_ch
     @ loop assigns ix, t->plane[0 .. SK_SLICE_PLANES - 1];
     @ loop variant ix_high - ix;
     @*/
-  for (ix = ix_low; ix <= ix_high; ix++) {
-    if (sk_is_settled(m, s, choice->plane_of[iy][ix], r, first_holds, iy, ix)) {
-      /*@ assert settled: sk_cell_clear{Pre}(m, s, r, sk_chosen{Pre}(choice, iy, ix), iy, ix); */
-    } else if (sk_cell_verdict(m, s, choice->plane_of[iy][ix], r, t, z_low_mm, iy, ix) != SK_CLEAR) {
-      return ix;
-    }
+  for (ix = sk_settled_end(m, s, choice, r, g, iy, ix_low, ix_high); ix <= ix_high; ix = sk_settled_end(m, s, choice, r, g, iy, ix + 1, ix_high)) {
+    bool below = sk_is_below_known(m, s, choice->plane_of[iy][ix], r, t, iy, ix);
+    if (!below && sk_cell_verdict(m, s, choice->plane_of[iy][ix], r, t, z_low_mm, iy, ix) != SK_CLEAR) { return ix; }
   }
   return ix;
 }
@@ -319,7 +412,7 @@ static void sk_check_box(const sk_height_map *m, const sk_slice *s, const sk_cho
 {
   sk_rectangle box = f.cells;
   int32_t z_low_mm = f.z_low_mm;
-  bool first_holds = sk_first_is_level(s, z_low_mm);
+  sk_glance g = sk_glance_of(s, r, z_low_mm);
   sk_tried tried;
   int32_t cells = 0;
   int32_t iy;
@@ -333,7 +426,7 @@ static void sk_check_box(const sk_height_map *m, const sk_slice *s, const sk_cho
     @ loop variant box.iy_high - iy;
     @*/
   for (iy = box.iy_low; iy <= box.iy_high; iy++) {
-    int32_t ix = sk_row_end(m, s, choice, r, &tried, z_low_mm, first_holds, iy, box.ix_low, box.ix_high);
+    int32_t ix = sk_row_end(m, s, choice, r, &tried, z_low_mm, g, iy, box.ix_low, box.ix_high);
     cells = cells + (ix - box.ix_low);
     if (ix <= box.ix_high) {
       int32_t verdict = sk_cell_verdict(m, s, choice->plane_of[iy][ix], r, &tried, z_low_mm, iy, ix);

@@ -1,4 +1,5 @@
 #include "height_map.h"
+#include "map_cell.h"
 
 /*@ requires \valid(m) && 0 <= iy < SK_MAP_CELLS;
   @ assigns m->height_mm[iy][0 .. SK_MAP_CELLS - 1], m->previous_mm[iy][0 .. SK_MAP_CELLS - 1],
@@ -59,18 +60,7 @@ bool sk_map_insert(sk_height_map *m, int32_t iy, int32_t ix, int32_t z_mm, int64
   int32_t z = sk_clamp_height(z_mm);
   if (iy < 0 || iy >= SK_MAP_CELLS || ix < 0 || ix >= SK_MAP_CELLS) { return false; }
   if (now_us < 0 || generation_us <= 0) { return false; }
-  if (m->seen_us[iy][ix] < 0) {
-    m->height_mm[iy][ix] = z;
-    m->previous_mm[iy][ix] = z;
-    m->began_us[iy][ix] = now_us;
-  } else if (m->began_us[iy][ix] <= now_us - generation_us) {
-    m->previous_mm[iy][ix] = m->height_mm[iy][ix];
-    m->height_mm[iy][ix] = z;
-    m->began_us[iy][ix] = now_us;
-  } else if (m->height_mm[iy][ix] < z) {
-    m->height_mm[iy][ix] = z;
-  }
-  m->seen_us[iy][ix] = now_us;
+  sk_raise_cell(m, iy, ix, z, now_us, generation_us);
   return true;
 }
 

@@ -16,48 +16,36 @@
 
 #define SK_PRODUCT_MAX 4611686018427387904 /* 2^62 */
 
-/*@ requires d > 0 && -SK_PRODUCT_MAX <= n <= SK_PRODUCT_MAX;
-  @ assigns \nothing;
-  @ ensures sk_is_floor(\result, n, d);
-  @*/
-static int64_t sk_floor_div(int64_t n, int64_t d)
-{
-  int64_t q = n / d;
-  if (n % d < 0) { q = q - 1; }
-  return q;
-}
+/* Quotient rounded down and up, at one division. */
+typedef struct sk_quotient { int64_t low, high; } sk_quotient;
 
 /*@ requires d > 0 && -SK_PRODUCT_MAX <= n <= SK_PRODUCT_MAX;
   @ assigns \nothing;
-  @ ensures sk_is_ceil(\result, n, d);
+  @ ensures sk_is_floor(\result.low, n, d);
+  @ ensures sk_is_ceil(\result.high, n, d);
   @*/
-static int64_t sk_ceil_div(int64_t n, int64_t d)
+static sk_quotient sk_divided(int64_t n, int64_t d)
 {
   int64_t q = n / d;
-  if (n % d > 0) { q = q + 1; }
-  return q;
+  int64_t rest = n % d;
+  sk_quotient out;
+  out.low = rest < 0 ? q - 1 : q;
+  out.high = rest > 0 ? q + 1 : q;
+  return out;
 }
 
-int32_t sk_scale_down(int64_t dv, int64_t run, int64_t da)
+sk_scaled sk_scale(int64_t dv, int64_t run, int64_t da)
 {
-  int64_t q;
+  sk_quotient q;
+  sk_scaled out;
   /*@ assert dv >= 0 ==> 0 <= dv * run <= dv * da; */
   /*@ assert dv <= 0 ==> dv * da <= dv * run <= 0; */
-  q = sk_floor_div(dv * run, da);
+  q = sk_divided(dv * run, da);
   /*@ assert dv >= 0 ==> sk_product_most(da, 0, dv * run) && sk_product_least(da, dv, dv * run); */
   /*@ assert dv <= 0 ==> sk_product_most(da, dv, dv * run) && sk_product_least(da, 0, dv * run); */
-  /*@ assert sk_least(0, dv) <= q <= sk_most(0, dv); */
-  return (int32_t)q;
-}
-
-int32_t sk_scale_up(int64_t dv, int64_t run, int64_t da)
-{
-  int64_t q;
-  /*@ assert dv >= 0 ==> 0 <= dv * run <= dv * da; */
-  /*@ assert dv <= 0 ==> dv * da <= dv * run <= 0; */
-  q = sk_ceil_div(dv * run, da);
-  /*@ assert dv >= 0 ==> sk_product_most(da, 0, dv * run) && sk_product_least(da, dv, dv * run); */
-  /*@ assert dv <= 0 ==> sk_product_most(da, dv, dv * run) && sk_product_least(da, 0, dv * run); */
-  /*@ assert sk_least(0, dv) <= q <= sk_most(0, dv); */
-  return (int32_t)q;
+  /*@ assert low: sk_least(0, dv) <= q.low <= sk_most(0, dv); */
+  /*@ assert high: sk_least(0, dv) <= q.high <= sk_most(0, dv); */
+  out.low = (int32_t)q.low;
+  out.high = (int32_t)q.high;
+  return out;
 }

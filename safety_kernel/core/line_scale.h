@@ -12,19 +12,16 @@ SK_BEGIN
   @ predicate sk_under_line(real dv, real da, real a, real v) = sk_times(da, v) <= sk_times(dv, a);
   @*/
 
-/*@ requires 0 < da <= SK_LINE_MAX_MM && 0 <= run <= da && -SK_LINE_MAX_MM <= dv <= SK_LINE_MAX_MM;
-  @ assigns \nothing;
-  @ ensures sk_under_line(dv, da, run, \result);
-  @ ensures sk_least(0, dv) <= \result <= sk_most(0, dv);
-  @*/
-int32_t sk_scale_down(int64_t dv, int64_t run, int64_t da);
+typedef struct sk_scaled { int32_t low, high; } sk_scaled;
 
 /*@ requires 0 < da <= SK_LINE_MAX_MM && 0 <= run <= da && -SK_LINE_MAX_MM <= dv <= SK_LINE_MAX_MM;
   @ assigns \nothing;
-  @ ensures sk_over_line(dv, da, run, \result);
-  @ ensures sk_least(0, dv) <= \result <= sk_most(0, dv);
+  @ ensures under: sk_under_line(dv, da, run, \result.low);
+  @ ensures over: sk_over_line(dv, da, run, \result.high);
+  @ ensures low: sk_least(0, dv) <= \result.low <= sk_most(0, dv);
+  @ ensures high: sk_least(0, dv) <= \result.high <= sk_most(0, dv);
   @*/
-int32_t sk_scale_up(int64_t dv, int64_t run, int64_t da);
+sk_scaled sk_scale(int64_t dv, int64_t run, int64_t da);
 
 SK_END
 #endif

@@ -1,4 +1,5 @@
 #include "scanline_raster.h"
+#include "map_cell.h"
 
 /* A segment seen along its longer horizontal axis: columns are cells along it, rows cells across it. */
 typedef struct sk_course {
@@ -85,11 +86,58 @@ typedef struct sk_border { int32_t b_low, b_high, z_high; } sk_border;
   @*/
 static sk_border sk_border_at(sk_course s, int32_t run)
 {
+  sk_scaled across = sk_scale(s.db, run, s.da);
+  sk_scaled up = sk_scale(s.dz, run, s.da);
   sk_border b;
-  b.b_low = sk_scale_down(s.db, run, s.da);
-  b.b_high = sk_scale_up(s.db, run, s.da);
-  b.z_high = sk_scale_up(s.dz, run, s.da);
+  b.b_low = across.low;
+  b.b_high = across.high;
+  b.z_high = up.high;
   return b;
+}
+
+/* At the course's start; at neither end is anything divided. */
+/*@ requires sk_course_fits(s);
+  @ assigns \nothing;
+  @ ensures sk_border_is(s, 0, \result);
+  @ ensures sk_border_fits(s, \result);
+  @*/
+static sk_border sk_border_first(sk_course s)
+{
+  sk_border b;
+  (void)s;
+  b.b_low = 0;
+  b.b_high = 0;
+  b.z_high = 0;
+  return b;
+}
+
+/*@ requires sk_course_fits(s);
+  @ assigns \nothing;
+  @ ensures sk_border_is(s, s.da, \result);
+  @ ensures sk_border_fits(s, \result);
+  @*/
+static sk_border sk_border_last(sk_course s)
+{
+  sk_border b;
+  b.b_low = s.db;
+  b.b_high = s.db;
+  b.z_high = s.dz;
+  return b;
+}
+
+/* Raises a cell where it is in the map, and says whether. */
+/*@ requires \valid(m) && now_us >= 0 && generation_us > 0 && sk_height_in_range(z_mm);
+  @ assigns m->height_mm[..][..], m->previous_mm[..][..], m->began_us[..][..], m->seen_us[..][..];
+  @ ensures accepts: \result == true <==> sk_in_map(iy, ix);
+  @ ensures refused: \result == false ==> sk_map_kept{Pre, Post}(m);
+  @ ensures others: sk_others_kept{Pre, Post}(m, iy, ix);
+  @ ensures raised: \result == true ==> sk_cell_raised{Pre, Post}(m, iy, ix, z_mm, now_us);
+  @*/
+static bool sk_raise_at(sk_height_map *m, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us, int32_t generation_us)
+{
+  if (iy < 0 || iy >= SK_MAP_CELLS || ix < 0 || ix >= SK_MAP_CELLS) { return false; }
+  sk_raise_cell(m, iy, ix, z_mm, now_us, generation_us);
+  return true;
 }
 
 /* Raises the cells of one column that meet [b_low, b_high] across it. */
@@ -106,8 +154,8 @@ static sk_border sk_border_at(sk_course s, int32_t run)
 static int32_t sk_raise_span(sk_height_map *m, bool along_x, int32_t column, int32_t b_low, int32_t b_high, int32_t z, int64_t now_us,
                              int32_t generation_us)
 {
-  int32_t first = sk_map_index(b_low - 1); /* a cell that ends at b_low is touched */
-  int32_t last = sk_map_index(b_high);
+  int32_t first = sk_cell_of(b_low - 1); /* a cell that ends at b_low is touched */
+  int32_t last = sk_cell_of(b_high);
   int32_t count = 0;
   int32_t row;
   /*@ loop invariant first <= row && (row <= last + 1 || row == first);
@@ -123,7 +171,7 @@ static int32_t sk_raise_span(sk_height_map *m, bool along_x, int32_t column, int
   for (row = first; row <= last; row++) {
     int32_t iy = along_x ? row : column;
     int32_t ix = along_x ? column : row;
-    if (sk_map_insert(m, iy, ix, z, now_us, generation_us)) { count = count + 1; }
+    if (sk_raise_at(m, iy, ix, z, now_us, generation_us)) { count = count + 1; }
   }
   return count;
 }
@@ -162,9 +210,9 @@ static int32_t sk_raise_column(sk_height_map *m, sk_course s, int32_t column, sk
   @*/
 static int32_t sk_raise_course(sk_height_map *m, sk_course s, int64_t now_us, int32_t generation_us)
 {
-  int32_t first = sk_map_index(s.a0 - 1);
-  int32_t last = sk_map_index(s.a0 + s.da);
-  sk_border in = sk_border_at(s, 0);
+  int32_t first = sk_cell_of(s.a0 - 1);
+  int32_t last = sk_cell_of(s.a0 + s.da);
+  sk_border in = sk_border_first(s);
   sk_border out;
   int32_t count = 0;
   int32_t column;
@@ -181,7 +229,7 @@ static int32_t sk_raise_course(sk_height_map *m, sk_course s, int64_t now_us, in
     count = count + sk_raise_column(m, s, column, in, out, now_us, generation_us);
     in = out;
   }
-  out = sk_border_at(s, s.da);
+  out = sk_border_last(s);
   return count + sk_raise_column(m, s, last, in, out, now_us, generation_us);
 }
 
@@ -195,8 +243,8 @@ static int32_t sk_raise_course(sk_height_map *m, sk_course s, int64_t now_us, in
 static int32_t sk_raise_point(sk_height_map *m, sk_point p, sk_point q, int64_t now_us, int32_t generation_us)
 {
   int32_t z = (int32_t)sk_most_of(p.z_mm, q.z_mm);
-  int32_t first = sk_map_index(p.x_mm - 1);
-  int32_t last = sk_map_index(p.x_mm);
+  int32_t first = sk_cell_of(p.x_mm - 1);
+  int32_t last = sk_cell_of(p.x_mm);
   int32_t count = sk_raise_span(m, true, first, p.y_mm, p.y_mm, z, now_us, generation_us);
   if (first < last) { count = count + sk_raise_span(m, true, last, p.y_mm, p.y_mm, z, now_us, generation_us); }
   /*@ assert two_columns: \forall integer i; sk_first_or_last(i, p.x_mm) ==> i == first || i == last; */
@@ -254,8 +302,10 @@ static int32_t sk_raise_along(sk_height_map *m, bool along_x, sk_point p, sk_poi
   @*/
 static bool sk_point_ok(sk_point p)
 {
-  return -SK_COORD_MAX_MM <= p.x_mm && p.x_mm <= SK_COORD_MAX_MM && -SK_COORD_MAX_MM <= p.y_mm && p.y_mm <= SK_COORD_MAX_MM &&
-         -SK_HEIGHT_MAX_MM <= p.z_mm && p.z_mm <= SK_HEIGHT_MAX_MM;
+  bool x_ok = -SK_COORD_MAX_MM <= p.x_mm && p.x_mm <= SK_COORD_MAX_MM;
+  bool y_ok = -SK_COORD_MAX_MM <= p.y_mm && p.y_mm <= SK_COORD_MAX_MM;
+  bool z_ok = -SK_HEIGHT_MAX_MM <= p.z_mm && p.z_mm <= SK_HEIGHT_MAX_MM;
+  return x_ok && y_ok && z_ok;
 }
 
 /*@ requires sk_coordinate_in_range(a) && sk_coordinate_in_range(b);
@@ -277,23 +327,22 @@ static int32_t sk_distance(int32_t a, int32_t b)
   @*/
 static int32_t sk_raise_ordered(sk_height_map *m, sk_point p, sk_point q, int64_t now_us, int32_t generation_us)
 {
-  int32_t away_x = sk_distance(p.x_mm, q.x_mm);
-  int32_t away_y = sk_distance(p.y_mm, q.y_mm);
-  if (p.x_mm < q.x_mm && away_x >= away_y) { return sk_raise_along(m, true, p, q, now_us, generation_us); }
-  if (q.x_mm < p.x_mm && away_x >= away_y) { return sk_raise_along(m, true, q, p, now_us, generation_us); }
-  if (p.y_mm < q.y_mm) { return sk_raise_along(m, false, p, q, now_us, generation_us); }
-  return sk_raise_along(m, false, q, p, now_us, generation_us);
-}
-
-/* The cell that holds a coordinate in range; int32 suffices, and no border is on the far side of zero. */
-/*@ requires sk_coordinate_in_range(v_mm);
-  @ assigns \nothing;
-  @ ensures sk_cell_low(\result) <= v_mm < sk_cell_low(\result) + SK_CELL_MM;
-  @ ensures -1000 <= \result <= 1000;
-  @*/
-static int32_t sk_cell_of(int32_t v_mm)
-{
-  return (v_mm - SK_MAP_ORIGIN_MM + 1000 * SK_CELL_MM) / SK_CELL_MM - 1000;
+  bool along_x = sk_distance(p.x_mm, q.x_mm) >= sk_distance(p.y_mm, q.y_mm);
+  bool forward = along_x ? p.x_mm < q.x_mm : p.y_mm < q.y_mm;
+  sk_point from, to;
+  int32_t count;
+  if (forward) {
+    from = p;
+    to = q;
+  } else {
+    from = q;
+    to = p;
+  }
+  /*@ assert either: (from == p && to == q) || (from == q && to == p); */
+  count = sk_raise_along(m, along_x, from, to, now_us, generation_us);
+  /*@ assert covers: sk_covers(m, p, q, now_us); */
+  /*@ assert only: sk_only_raises{Pre, Here}(m, p, q, now_us); */
+  return count;
 }
 
 /*@ requires -1000 <= i <= 1000 && sk_coordinate_in_range(v_mm);
@@ -302,8 +351,8 @@ static int32_t sk_cell_of(int32_t v_mm)
   @*/
 static bool sk_is_inside(int32_t i, int32_t v_mm)
 {
-  int32_t low_mm = SK_CELL_MM * i + SK_MAP_ORIGIN_MM;
-  return low_mm < v_mm && v_mm < low_mm + SK_CELL_MM;
+  int32_t beyond_mm = v_mm - (SK_CELL_MM * i + SK_MAP_ORIGIN_MM);
+  return 0 < beyond_mm && beyond_mm < SK_CELL_MM;
 }
 
 /* Both ends inside one cell, which is nearly always so where returns lie close together. */
@@ -317,7 +366,7 @@ static bool sk_is_inside(int32_t i, int32_t v_mm)
 static int32_t sk_raise_inside(sk_height_map *m, sk_point p, sk_point q, int32_t iy, int32_t ix, int64_t now_us, int32_t generation_us)
 {
   int32_t z = (int32_t)sk_most_of(p.z_mm, q.z_mm);
-  bool raised = sk_map_insert(m, iy, ix, z, now_us, generation_us);
+  bool raised = sk_raise_at(m, iy, ix, z, now_us, generation_us);
   /*@ assert cell: sk_in_map(iy, ix) ==> m->height_mm[iy][ix] >= z && m->seen_us[iy][ix] == now_us; */
   /*@ assert over: \forall real t; \forall integer j, i; sk_crosses(p, q, t, j, i) ==> j == iy && i == ix && sk_at(p.z_mm, q.z_mm, t) <= z; */
   /*@ assert bounds: sk_in_bounds(p, q, iy, ix); */

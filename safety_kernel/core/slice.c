@@ -1,4 +1,5 @@
 #include "slice.h"
+#include "map_cell.h"
 
 typedef struct sk_range { int32_t low, high; } sk_range;
 
@@ -83,7 +84,7 @@ static sk_range sk_axis_range(const sk_slice *s, int32_t axis)
   @ ensures sk_is_lowest(s, 1, \result.y_low) && sk_is_highest(s, 1, \result.y_high);
   @ ensures sk_is_lowest(s, 2, \result.z_low) && sk_is_highest(s, 2, \result.z_high);
   @*/
-static sk_extent sk_extent_of(const sk_slice *s)
+SK_CLONES static sk_extent sk_extent_of(const sk_slice *s)
 {
   sk_extent e;
   sk_range x, y, z;
@@ -139,7 +140,7 @@ static int32_t sk_first_cell(const sk_slice *s, int32_t axis, int32_t low_mm)
 {
   (void)s;
   (void)axis;
-  return sk_map_index(low_mm - 1);
+  return sk_cell_of(low_mm - 1);
 }
 
 /*@ requires \valid_read(s) && sk_counts_fit(s) && 0 <= axis <= 1 && sk_coordinate_fits(high_mm) && sk_is_highest(s, axis, high_mm);
@@ -152,7 +153,7 @@ static int32_t sk_last_cell(const sk_slice *s, int32_t axis, int32_t high_mm)
 {
   (void)s;
   (void)axis;
-  return sk_map_index(high_mm);
+  return sk_cell_of(high_mm);
 }
 
 bool sk_slice_footprint(const sk_slice *s, sk_footprint *out)

@@ -49,6 +49,11 @@ inline FourInt rounded4(Four v) noexcept {
   return bits - 0x4B400000;
 }
 
+inline bool any4(FourInt mask) noexcept {
+  int64_t half[2];
+  std::memcpy(half, &mask, sizeof half);
+  return (half[0] | half[1]) != 0;
+}
 inline bool all4(FourInt mask) noexcept { return (mask[0] & mask[1] & mask[2] & mask[3]) != 0; }
 
 } // namespace berm::kernel

@@ -12,7 +12,7 @@ namespace {
 // Column of a cell, or of one without a top.
 struct Column {
   int32_t x, y; // low corner
-  int32_t top;
+  int32_t top; // 0 where it has none
   bool has_top;
 };
 
@@ -23,20 +23,48 @@ public:
   // Index of a plane of the slice that has the column's square up to its top below it; 0 where there is none. Upright planes only where the column
   // has no top.
   int find(const Column& column) noexcept {
-    if (last_ > 0 && separates(last_, column)) return last_; // neighbours mostly want the same plane
+    if (last_ > 0 && near_.separates(column)) return last_; // neighbours mostly want the same plane
     for (int i = 1; i < slice_.planes; ++i)
-      if (i != last_ && separates(i, column)) return last_ = i;
+      if (i != last_ && separates(i, column)) return take(i);
     return from_candidates(column);
   }
 
+  // The cells of a row after ix, up to the last, that are not lower than z_low and want the plane found for ix: written to chosen. Returns the last of them.
+  int32_t extend(const int32_t* top, int32_t ix, int32_t last, const Column& from, int32_t z_low, uint8_t* chosen) const noexcept {
+    const Near near = near_;
+    const uint8_t plane = static_cast<uint8_t>(last_);
+    int64_t beside = near.nx * from.x + near.ny * from.y;
+    for (; ix < last; ++ix) {
+      beside += near.nx * SK_CELL_MM;
+      const int64_t next = top[ix + 1];
+      if (next < z_low || next > SK_COORD_MAX_MM || beside + near.nz * next > near.most) break;
+      chosen[ix + 1] = plane;
+    }
+    return ix;
+  }
+
 private:
+  // A plane as it is held against a column's low corner: for the corner farthest along its normal.
+  struct Near {
+    int64_t nx = 0, ny = 0, nz = 0, most = 0;
+
+    Near() noexcept = default;
+    explicit Near(const sk_plane& plane) noexcept
+        : nx(plane.nx), ny(plane.ny), nz(plane.nz), most(plane.d - (std::max(nx, int64_t{0}) + std::max(ny, int64_t{0})) * SK_CELL_MM) {}
+
+    bool separates(const Column& column) const noexcept { return nx * column.x + ny * column.y + nz * column.top <= most && (column.has_top || nz == 0); }
+  };
+
   bool separates(int index, const Column& column) noexcept {
     const sk_plane& plane = slice_.plane[index];
     if (plane.nz < 0 || (plane.nz != 0 && !column.has_top)) return false;
     if (index >= proven_ && !holds(index)) return false;
-    // the corner farthest along the normal
-    const int64_t x = column.x + (plane.nx > 0 ? SK_CELL_MM : 0), y = column.y + (plane.ny > 0 ? SK_CELL_MM : 0), z = column.has_top ? column.top : 0;
-    return plane.nx * x + plane.ny * y + plane.nz * z <= plane.d;
+    return Near(plane).separates(column);
+  }
+
+  int take(int index) noexcept {
+    near_ = Near(slice_.plane[index]);
+    return last_ = index;
   }
 
   // A plane that the slice came with may be wrong.
@@ -56,10 +84,12 @@ private:
     const Four x = four(static_cast<float>(column.x)), y = four(static_cast<float>(column.y)), z = four(column.has_top ? static_cast<float>(column.top) : 0.0F);
     for (int i = 0; i < use; i += 4) store4(margin + i, load4(bias_ + i) - load4(nx_ + i) * x - load4(ny_ + i) * y - load4(nz_ + i) * z);
     for (;;) {
+      Four most = load4(margin);
+      for (int i = 4; i < use; i += 4) most = most4(most, load4(margin + i)); // those beyond use are as low as can be
+      const float highest = std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+      if (highest < -unsure_mm * static_cast<float>(normal_scale)) return 0;
       int best = 0;
-      for (int i = 1; i < use; ++i)
-        if (margin[i] > margin[best]) best = i;
-      if (margin[best] < -unsure_mm * static_cast<float>(normal_scale)) return 0;
+      while (margin[best] != highest) ++best;
       margin[best] = -1e30F;
       if (tried_[best] || slice_.planes >= SK_SLICE_PLANES) continue; // then it is among the slice's, and does not separate
       tried_[best] = true;
@@ -68,7 +98,7 @@ private:
       slice_.plane[index] = {nx, ny, nz, plane_offset(slice_, nx, ny, nz)};
       ++slice_.planes;
       if (proven_ == index) ++proven_;
-      if (separates(index, column)) return last_ = index;
+      if (separates(index, column)) return take(index);
     }
   }
 
@@ -91,6 +121,7 @@ private:
   sk_slice& slice_;
   const PlaneCandidates& candidates_;
   int last_ = 0;
+  Near near_; // of the last
   int proven_ = 1; // planes below this index hold; the level one is not asked for here
   bool weighed_ = false;
   alignas(16) float nx_[plane_candidates], ny_[plane_candidates], nz_[plane_candidates], bias_[plane_candidates];
@@ -136,6 +167,32 @@ bool planes_in_range(const sk_slice& slice) noexcept {
   return true;
 }
 
+// The first from ix on that is not lower than z, or one beyond the last; nearly all are lower.
+int32_t next_high(const int32_t* row, int32_t ix, int32_t last, int32_t z) noexcept {
+  if (ix <= last && row[ix] >= z) return ix; // high ones stand together
+  const FourInt bound = {z, z, z, z};
+  for (; ix + 3 <= last; ix += 4)
+    if (any4(load4(row + ix) >= bound)) break;
+  while (ix <= last && row[ix] < z) ++ix;
+  return ix;
+}
+
+// Few at a time: a call costs more than that. Where words are written the last overlaps those before.
+void clear_bytes(uint8_t* to, std::size_t count) noexcept {
+  constexpr uint64_t none = 0;
+  constexpr std::size_t word = sizeof none, half = word / 2;
+  if (count >= 4 * word) {
+    std::memset(to, 0, count);
+  } else if (count >= word) {
+    for (std::size_t i = 0; i + word < count; i += word) std::memcpy(to + i, &none, word);
+    std::memcpy(to + count - word, &none, word);
+  } else if (count >= half) {
+    std::memcpy(to, &none, half);
+    std::memcpy(to + count - half, &none, half);
+  } else if (count > 0) {
+    to[0] = to[count / 2] = to[count - 1] = 0;
+  }
+}
 
 } // namespace
 
@@ -146,7 +203,7 @@ bool choose_planes(const sk_height_map& map, const sk_columns& columns, const sk
   if (!sk_slice_footprint(&slice, &footprint)) return false;
   const sk_rectangle& cells = footprint.cells;
   const std::size_t row_cells = static_cast<std::size_t>(cells.ix_high - cells.ix_low + 1);
-  for (int32_t iy = cells.iy_low; iy <= cells.iy_high; ++iy) std::memset(&choice.plane_of[iy][cells.ix_low], 0, row_cells);
+  for (int32_t iy = cells.iy_low; iy <= cells.iy_high; ++iy) clear_bytes(&choice.plane_of[iy][cells.ix_low], row_cells);
 
   const Exceptions exceptions(slice, footprint.z_low_mm, rules);
   PlaneSearch search(slice, candidates);
@@ -156,17 +213,22 @@ bool choose_planes(const sk_height_map& map, const sk_columns& columns, const sk
     const int32_t y = SK_MAP_ORIGIN_MM + iy * SK_CELL_MM;
     const int32_t* row = columns.top_mm[iy];
     for (int32_t ix = cells.ix_low; ix <= cells.ix_high; ++ix) {
+      if (!bodied) ix = next_high(row, ix, cells.ix_high, z_low);
+      if (ix > cells.ix_high) break;
       const int32_t top = row[ix];
-      if (top < z_low && !bodied) continue; // nearly always
       const int32_t x = SK_MAP_ORIGIN_MM + ix * SK_CELL_MM;
-      const bool own = bodied && exceptions.own_body(x, y);
-      if (!own && top < z_low) continue;
-      if (own && exceptions.boom()) continue;
+      bool own = false;
+      if (bodied) {
+        own = exceptions.own_body(x, y);
+        if (own ? exceptions.boom() : top < z_low) continue;
+      }
       if (exceptions.any_zone() && (top != SK_NO_TOP || (rules.dig_stale && map.seen_us[iy][ix] >= 0)) && exceptions.dig_zone(x, y, sk_map_top(&map, iy, ix))) continue;
       const bool has_top = !own && top <= SK_COORD_MAX_MM;
-      const int plane = search.find({x, y, has_top ? std::max(top, -SK_COORD_MAX_MM) : 0, has_top});
+      const Column column = {x, y, has_top ? std::max(top, -SK_COORD_MAX_MM) : 0, has_top};
+      const int plane = search.find(column);
       if (plane == 0) return false;
       choice.plane_of[iy][ix] = static_cast<uint8_t>(plane);
+      if (!bodied && !exceptions.any_zone()) ix = search.extend(row, ix, cells.ix_high, column, z_low, choice.plane_of[iy]);
     }
   }
   return true;

@@ -24,21 +24,24 @@ void plane_candidates_of(const SliceSet& set, int i, PlaneCandidates& out) noexc
   // sides: (sin half, -+cos half) turned by the swing; near and far: (+-1, 0)
   const Four upright_x = four(scale) * (Four{set.sin_half, set.sin_half, 1.0F, -1.0F} * four(c) - Four{-set.cos_half, set.cos_half, 0.0F, 0.0F} * four(s));
   const Four upright_y = four(scale) * (Four{set.sin_half, set.sin_half, 1.0F, -1.0F} * four(s) + Four{-set.cos_half, set.cos_half, 0.0F, 0.0F} * four(c));
-  store4(out.nx, rounded4(upright_x));
-  store4(out.ny, rounded4(upright_y));
+  const FourInt side_x = rounded4(upright_x), side_y = rounded4(upright_y);
+  const Four side_offset = four(scale) * Four{-outline.side_offset_mm, -outline.side_offset_mm, outline.x_low_mm, -outline.x_high_mm};
+  store4(out.nx, side_x);
+  store4(out.ny, side_y);
   store4(out.nz, FourInt{0, 0, 0, 0});
-  store4(out.offset, four(scale) * Four{-outline.side_offset_mm, -outline.side_offset_mm, outline.x_low_mm, -outline.x_high_mm});
-  out.count = upright_candidates;
+  store4(out.offset, side_offset);
+  const FourInt of_face_x = {0, side_x[0], side_x[1], 0}, of_face_y = {0, side_y[0], side_y[1], 0}; // the face itself, and with the left and the right side
+  const Four of_face_offset = {0.0F, side_offset[0], side_offset[1], 0.0F};
+  int count = upright_candidates;
   for (int k = 0; k < sweep_directions; ++k) {
-    if (outline.normal_z[k] > -upright || out.count + 3 > plane_candidates) continue;
-    for (const int side : {-1, 0, 1}) { // the face itself, and with the left and the right side
-      const int to = out.count++;
-      out.nx[to] = x[k] + (side < 0 ? 0 : out.nx[side]);
-      out.ny[to] = y[k] + (side < 0 ? 0 : out.ny[side]);
-      out.nz[to] = z[k];
-      out.offset[to] = offset[k] + (side < 0 ? 0.0F : out.offset[side]);
-    }
+    if (outline.normal_z[k] > -upright || count + 3 > plane_candidates) continue;
+    store4(out.nx + count, of_face_x + x[k]); // the fourth is overwritten, or beyond what is in use
+    store4(out.ny + count, of_face_y + y[k]);
+    store4(out.nz + count, FourInt{z[k], z[k], z[k], z[k]});
+    store4(out.offset + count, of_face_offset + four(offset[k]));
+    count += 3;
   }
+  out.count = count;
 }
 
 // In lanes of doubles, which hold these integers exactly: components within SK_NORMAL_MAX (2^20) times any int32, three of them, stay below 2^53.

@@ -15,8 +15,9 @@ inline constexpr int upright_candidates = 4;
 // downward its face, and the bevels between that face and the two sides.
 struct PlaneCandidates {
   int count = 0;
-  int32_t nx[plane_candidates], ny[plane_candidates], nz[plane_candidates]; // readable beyond count, whatever stands there
-  float offset[plane_candidates]; // n . p of the slice is no less than about this (to a few mm)
+  // Readable beyond count, whatever stands there. Those of a face are written in fours, of which the last is one too many.
+  int32_t nx[plane_candidates + 1], ny[plane_candidates + 1], nz[plane_candidates + 1];
+  float offset[plane_candidates + 1]; // n . p of the slice is no less than about this (to a few mm)
 };
 
 // Of slice i of the set.

@@ -84,7 +84,7 @@ float PlainInsertion::top(int iy, int ix) const {
 }
 
 inline void PlainInsertion::raise(int iy, int ix, float z) {
-  if (iy < 0 || ix < 0 || iy >= cells_ || ix >= cells_) return;
+  if (!has(iy, ix)) return;
   Cell& c = cell_[iy * cells_ + ix];
   if (c.seen_us < 0) {
     c = {z, z, now_us_, now_us_};
@@ -101,14 +101,15 @@ inline void PlainInsertion::raise(int iy, int ix, float z) {
 }
 
 // Cell by cell along the segment (Amanatides and Woo), each to the higher of the segment's heights where it enters and leaves.
-inline void PlainInsertion::segment(const sk_point& p, const sk_point& q) {
+template <class Raise>
+inline void PlainInsertion::segment(const sk_point& p, const sk_point& q, const Raise& raise_cell) const {
   const float px = static_cast<float>(p.x_mm) * per_cell_ + half_, py = static_cast<float>(p.y_mm) * per_cell_ + half_;
   const float qx = static_cast<float>(q.x_mm) * per_cell_ + half_, qy = static_cast<float>(q.y_mm) * per_cell_ + half_;
   int ix = static_cast<int>(px), iy = static_cast<int>(py);
   const int last_x = static_cast<int>(qx), last_y = static_cast<int>(qy);
   const float pz = static_cast<float>(p.z_mm), qz = static_cast<float>(q.z_mm);
   if (ix == last_x && iy == last_y) {
-    raise(iy, ix, std::max(pz, qz));
+    raise_cell(iy, ix, std::max(pz, qz));
     return;
   }
   const float dx = qx - px, dy = qy - py, dz = qz - pz;
@@ -118,7 +119,7 @@ inline void PlainInsertion::segment(const sk_point& p, const sk_point& q) {
   float entered = 0.0F;
   for (int left = std::abs(last_x - ix) + std::abs(last_y - iy); left >= 0; --left) {
     const float leaves = std::min(1.0F, std::min(next_x, next_y));
-    raise(iy, ix, std::max(pz + dz * entered, pz + dz * leaves));
+    raise_cell(iy, ix, std::max(pz + dz * entered, pz + dz * leaves));
     entered = leaves;
     if (next_x < next_y) {
       next_x += per_x;
@@ -135,10 +136,26 @@ void PlainInsertion::run(const Scan& scan) {
   for (const auto& line : scan.line) {
     const sk_point* from = line.data();
     for (const sk_point& point : line) {
-      segment(*from, point);
+      segment(*from, point, [this](int iy, int ix, float z) { raise(iy, ix, z); });
       from = &point;
     }
   }
+}
+
+Scan PlainInsertion::crossed(const Scan& scan) const {
+  const auto middle_mm = [this](int i) { return static_cast<std::int32_t>(std::lround((static_cast<float>(i) + 0.5F - half_) / per_cell_)); };
+  Scan out;
+  for (const auto& line : scan.line) {
+    out.line.emplace_back();
+    const sk_point* from = line.data();
+    for (const sk_point& point : line) {
+      segment(*from, point, [&](int iy, int ix, float z) {
+        if (has(iy, ix)) out.line.back().push_back({middle_mm(ix), middle_mm(iy), static_cast<std::int32_t>(std::lround(z))});
+      });
+      from = &point;
+    }
+  }
+  return out;
 }
 
 struct OctoMapInsertion::Inside {

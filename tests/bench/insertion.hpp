@@ -36,14 +36,18 @@ class PlainInsertion {
   PlainInsertion(int cells, int cell_mm);
   void run(const Scan& scan);
   float top(int iy, int ix) const;
+  // Of each cell of the map that a segment crosses, as often as one does, its middle at the height it is raised to; line by line.
+  Scan crossed(const Scan& scan) const;
 
  private:
   struct Cell {
     float height, previous;
     std::int64_t began_us, seen_us;
   };
+  bool has(int iy, int ix) const { return iy >= 0 && ix >= 0 && iy < cells_ && ix < cells_; }
   void raise(int iy, int ix, float z);
-  void segment(const sk_point& p, const sk_point& q);
+  template <class Raise>
+  void segment(const sk_point& p, const sk_point& q, const Raise& raise_cell) const;
   int cells_;
   float per_cell_, half_;
   std::int64_t now_us_ = 0;
@@ -54,7 +58,7 @@ class OctoMapInsertion {
  public:
   explicit OctoMapInsertion(int cell_mm);
   ~OctoMapInsertion();
-  void run(const Scan& scan);
+  void run(const Scan& scan);  // one voxel a point
 
  private:
   struct Inside;
