@@ -191,7 +191,7 @@ TEST_F(OwnMachine, TwoRowsOverTheOwnBoomAreFoundAndOneIsNot) {
       const double over = rim - rows * degrees(360.0 / kSamplesPerTurn), height = head_z - kDistances[d] * std::tan(over);
       ASSERT_GT(height, 0.3);
       sweep.scene.thing = {boom, cylinder_around(sweep.at(0, pan, kDistances[d]), width, height)};
-      sweep.pan(0, pan - degrees(7), pan + degrees(7), degrees(38), uniform(random, 0, kSamplesPerTurn));
+      sweep.pan(0, pan - degrees(7), pan + degrees(7), pan_rates(parameters).app, uniform(random, 0, kSamplesPerTurn));
       const std::int32_t found = highest_top(sweep.map(), sweep.scene.thing[1].footprint);
       if (rows < 2.0) {
         hidden += found < (height - 1.5 * row_height(parameters, kDistances[d], 1)) * 1e3 ? 1 : 0;  // at 5 m its foot is seen beneath the boom
