@@ -78,7 +78,7 @@ std::string summary_text(const Sweep& sweep) {
   row("runs", fmt::format("{}", sweep.results.size()));
   row("misses (contact)", fmt::format("{}", t.misses));
   row("needless stops", fmt::format("{} ({:.2f} %)", t.needless, 100.0 * t.needless / n));
-  row("  past hidden space", fmt::format("{}: the obstacle hid it from the scanners all the while; the others {:.2f} %", t.hidden, 100.0 * (t.needless - t.hidden) / n));
+  row("  past hidden space", fmt::format("{}: the obstacle hid it until shortly before; the others {:.2f} %", t.hidden, 100.0 * (t.needless - t.hidden) / n));
   row("nominal motion touches", fmt::format("{}, of which the kernel let {} happen", t.nominal_hits, t.nominal_hits - t.held_off));
   row("stopped by the kernel", fmt::format("{}", t.stopped));
   row("slowed, not stopped", fmt::format("{}; time lost, 95th percentile {:.2f} s", t.governed, t.time_lost_p95));

@@ -45,7 +45,8 @@ class Loop {
  public:
   // seen: takes what the scanners look through, or null. path: the joints' angles every 0.1 s of the swing, or null.
   Loop(const Bench& bench, const Trial& trial, std::unique_ptr<Supervisor> supervisor, SeenSpace* seen = nullptr, std::vector<PathPoint>* path = nullptr)
-      : trial_(trial), scans_(supervisor->needs_scans() || seen != nullptr), seen_(seen), path_(path), supervisor_(std::move(supervisor)), world_(seen == nullptr ? world_of(trial) : without_noise(world_of(trial)), bench.profile.shape, seed_of(trial), 0),
+      : trial_(trial), scans_(supervisor->needs_scans() || seen != nullptr), seen_(seen), path_(path), supervisor_(std::move(supervisor)),
+        world_(seen == nullptr ? world_of(trial) : without_noise(world_of(trial)), bench.profile.shape, seed_of(trial), 0),
         dynamics_(bench.profile.dynamics, bench.profile.shape, seed_of(trial), {trial.from, {}}), controller_(bench.profile), frames_(bench.profile, seed_of(trial)),
         servo_{plant::PanServo(bench.profile.shape.scanner[0]), plant::PanServo(bench.profile.shape.scanner[1])},
         commander_(bench.machine, trial, std::max(plant::reach(bench.profile.shape, {trial.from, {}}), plant::reach(bench.profile.shape, {trial.to, {}})), scans_) {}
@@ -156,15 +157,23 @@ class Loop {
   bool resting_ = true;
 };
 
+plant::oracle::Body column_of(const SeenSpace::Hidden& hidden) {
+  constexpr double half = 0.5 * SeenSpace::side;
+  return plant::oracle::body_of({"hidden", hidden.x, hidden.y, 0.0, 0.0, {-half, -half, 0.0}, {half, half, hidden.top}});
+}
+
 // Whether some implement comes within reach of a column of space that was hidden until shortly before.
 bool passes(const plant::ImplementShape& shape, const std::vector<PathPoint>& path, const SeenSpace& seen, const SeenSpace& without, double reach_m) {
   const plant::oracle::Oracle oracle(shape);
   for (const auto& point : path) {
     const auto machine = oracle.machine(point.joints);
     for (const auto& h : seen.hidden_against(without, point.t - seen_before_s)) {
-      const plant::oracle::Body column = plant::oracle::body_of({"hidden", h.x, h.y, 0.0, 0.0, {-0.5 * SeenSpace::side, -0.5 * SeenSpace::side, 0.0}, {0.5 * SeenSpace::side, 0.5 * SeenSpace::side, h.top}});
-      for (std::size_t part = 0; part < shape.parts.size(); ++part)
-        if ((column.middle - machine[part].middle).norm() <= column.reach + machine[part].reach + reach_m && plant::oracle::distance(machine[part], column).upper <= reach_m) return true;
+      const plant::oracle::Body column = column_of(h);
+      const auto near = [&](const plant::oracle::Body& part) {
+        return (column.middle - part.middle).norm() <= column.reach + part.reach + reach_m && plant::oracle::distance(part, column).upper <= reach_m;
+      };
+      const auto implements_end = machine.begin() + static_cast<std::ptrdiff_t>(shape.parts.size());  // the upper body comes after them
+      if (std::any_of(machine.begin(), implements_end, near)) return true;
     }
   }
   return false;

@@ -36,7 +36,7 @@ struct TrialResult {
   Outcome outcome = Outcome::right;
   std::string why;                    // for all but right
   // A needless stop, by the definition, of a motion that keeps no more than the margin and 0.25 m from space that the obstacle hid from
-  // the scanners all the while: one that the paper wants.
+  // the scanners until shortly before: one that the paper wants.
   bool past_hidden = false;
   double time_lost_s = 0.0;           // both arrived: kernel's less nominal seconds
 };

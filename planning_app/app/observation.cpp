@@ -10,6 +10,8 @@ namespace berm::app {
 
 namespace {
 
+constexpr std::uint8_t category_held = 2;  // merely held: berm_contract.h, stop_category
+
 std::int32_t micro(double value, double low, double high) {
   const double clamped = std::clamp(value, low, high) * 1e6;
   return static_cast<std::int32_t>(std::trunc(clamped));  // toward zero: never beyond a limit
@@ -34,6 +36,7 @@ Observation observe(const berm_state& state) {
   o.payload_kg = state.payload_kg;
   o.kernel_state = state.kernel_state;
   o.stop_reason = state.stop_reason;
+  o.latched = state.kernel_state == BERM_STATE_FAULT || (state.kernel_state == BERM_STATE_STOPPED && state.stop_category != category_held);
   o.blocked_bearing = std::atan2(static_cast<double>(state.blocked_y_mm), static_cast<double>(state.blocked_x_mm));
   o.blocked_x = state.blocked_x_mm * 1e-3;
   o.blocked_y = state.blocked_y_mm * 1e-3;

@@ -45,11 +45,10 @@ Joints Recovery::retreat(const Observation& o, double blocked_s) const {
 
 // What a person must do, once a trouble. True when the call was made just now.
 bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
-  const bool latched = o.kernel_state == BERM_STATE_FAULT || (o.kernel_state == BERM_STATE_STOPPED && !by_ground(o.stop_reason) && o.stop_reason != BERM_STOP_REQUEST_HOLD);
-  if (called_ || !(latched || (by_ground(o.stop_reason) && o.time_s - since_s_ > call_after))) return false;
+  if (called_ || !(o.latched || (by_ground(o.stop_reason) && o.time_s - since_s_ > call_after))) return false;
   called_ = true;
   nlohmann::ordered_json fields{{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}, {"stopped_s", o.time_s - since_s_}};
-  if (latched) {
+  if (o.latched) {
     fields["advice"] = "mend the cause, then press reset";
   } else if (o.stop_reason == BERM_STOP_JOINT_RANGE) {
     fields["advice"] = "move the joint back into its range by hand";

@@ -15,7 +15,8 @@ void last_echoes(const berm_scan_packet& packet, uint32_t (&range_mm)[BERM_SCAN_
 
 // Sets to 0 every return that nothing supports: no neighbour (the nearest return before and after it, no farther than two samples) that agrees
 // within the threshold, nor two neighbours that it lies between. A return on the own machine (own[i] not 0) agrees with nothing, and
-// nothing lies between it and another: noise over the edge of the own bucket would stay in the map as long as the bucket hides the ground. Returns how many were dropped.
+// nothing lies between it and another: noise over the edge of the own bucket would stay in the map as long as the bucket hides the ground.
+// Returns how many were dropped.
 // What it can hide: an object met by one sample alone, or by two that differ among themselves by more than the threshold; beside the own
 // implements one sample more than what they hide themselves (requirement SK-GE-23).
 int filter_spurious(uint32_t* range_mm, const uint8_t* own, int count, uint32_t threshold_mm) noexcept;

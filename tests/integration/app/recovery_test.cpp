@@ -13,6 +13,7 @@ Observation stopped(double time_s, std::uint8_t reason) {
   o.time_s = time_s;
   o.kernel_state = BERM_STATE_STOPPED;
   o.stop_reason = reason;
+  o.latched = reason == BERM_STOP_OPERATOR;
   o.angle = {radians(60.0), radians(30.0), radians(-90.0), radians(-100.0)};
   o.blocked_bearing = radians(75.0);
   return o;

@@ -47,6 +47,21 @@ TEST(Request, ObservationIsInRadians) {
   EXPECT_TRUE(o.running());
 }
 
+TEST(Request, ObservationKnowsWhatWaitsForTheOperator) {
+  berm_state state{};
+  const auto latched = [&state](std::uint8_t kernel_state, std::uint8_t category) {
+    state.kernel_state = kernel_state;
+    state.stop_category = category;
+    return observe(state).latched;
+  };
+  EXPECT_TRUE(latched(BERM_STATE_FAULT, 1));
+  EXPECT_TRUE(latched(BERM_STATE_STOPPED, 0));
+  EXPECT_TRUE(latched(BERM_STATE_STOPPED, 1));
+  EXPECT_FALSE(latched(BERM_STATE_STOPPED, 2)) << "merely held";
+  EXPECT_FALSE(latched(BERM_STATE_STOPPING, 1)) << "not yet: it may only have been paused";
+  EXPECT_FALSE(latched(BERM_STATE_RUN, 255));
+}
+
 TEST(Request, ObservationKnowsWhatWasLetOutAndWhatIsPermitted) {
   berm_state state{};
   state.kernel_state = BERM_STATE_RUN;

@@ -1,12 +1,17 @@
 // Random places for a thing on the ground: in view of a scanner beside the arm, outside the own body, inside the map.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "figures.hpp"
 #include "sweep.hpp"
 
 namespace berm::kernel::test {
+
+inline constexpr double kRounding = 0.006;       // m: ranges to 4 mm, points to 1 mm
+inline constexpr std::int32_t kGroundMm = 6;     // the same on level ground
+inline constexpr double kSwing = -15 * 3.14159265358979323846 / 180;  // what is panned to at 60 degrees lies in a corner of the map, 15 m away too
 
 struct Placed {
   std::unique_ptr<Sweep> sweep;  // its scene holds the thing alone

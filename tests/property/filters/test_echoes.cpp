@@ -9,9 +9,6 @@
 namespace berm::kernel::test {
 namespace {
 
-constexpr std::int32_t kGroundMm = 6;
-const double kSwing = degrees(-15);  // what is panned to at 60 degrees lies in a corner of the map, 15 m away too
-
 class Echoes : public ::testing::Test {
  protected:
   berm_parameters parameters = berm::test::demo_parameters();

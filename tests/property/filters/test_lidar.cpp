@@ -13,7 +13,6 @@ namespace berm::kernel::test {
 namespace {
 
 constexpr std::uint64_t kSeed = 90816;
-constexpr std::int32_t kGroundMm = 6;
 constexpr int kElevation[16] = {-15, 1, -13, 3, -11, 5, -9, 7, -7, 9, -5, 11, -3, 13, -1, 15};  // degrees, in the lasers' order
 
 // A lidar over the map's middle, in map-only mode: packets through the kernel's own decoder.

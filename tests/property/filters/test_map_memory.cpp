@@ -12,8 +12,6 @@ namespace berm::kernel::test {
 namespace {
 
 constexpr std::uint64_t kSeed = 90815;
-constexpr std::int32_t kGroundMm = 6;
-const double kSwing = degrees(-15);  // what is panned to at 60 degrees lies in a corner of the map, 15 m away too
 
 // How long a thing that was seen is not as high in the map as it is. Counts from begin(), and only what is found again.
 class Blind {

@@ -13,7 +13,6 @@ namespace berm::kernel::test {
 namespace {
 
 constexpr std::uint64_t kSeed = 90813;
-constexpr std::int32_t kGroundMm = 6;
 
 // The implements' outlines in the swing plane, by kinematics of the test's own.
 class Outlines {

@@ -11,9 +11,6 @@ namespace berm::kernel::test {
 namespace {
 
 constexpr std::uint64_t kSeed = 90812;
-constexpr double kRounding = 0.006;
-constexpr std::int32_t kGroundMm = 6;
-const double kSwing = degrees(-15);  // what is panned to at 60 degrees lies in a corner of the map, 15 m away too
 constexpr double kRow = 2 * 3.14159265358979323846 / kSamplesPerTurn;
 
 class SpuriousHides : public ::testing::Test {

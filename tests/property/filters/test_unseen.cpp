@@ -11,8 +11,6 @@ namespace berm::kernel::test {
 namespace {
 
 constexpr std::uint64_t kSeed = 90814;
-constexpr std::int32_t kGroundMm = 6;
-const double kSwing = degrees(-15);  // what is panned to at 60 degrees lies in a corner of the map, 15 m away too
 
 class Unseen : public ::testing::Test {
  protected:

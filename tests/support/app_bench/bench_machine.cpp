@@ -246,6 +246,7 @@ void BenchMachine::publish() {
   state.payload_kg = digging_ || !weighs ? -1 : static_cast<std::int32_t>(std::lround(payload_ * (1.0 + 0.03 * noise(random_))));
   state.kernel_state = kernel_runs ? BERM_STATE_RUN : BERM_STATE_STOPPED;
   state.stop_reason = kernel_runs ? std::uint8_t{BERM_STOP_NONE} : stop_reason;
+  state.stop_category = kernel_runs ? 255 : 2;
   for (int rows = 0; rows < 4; ++rows, next_row_ = (next_row_ + 1) % kernel_side)
     for (int ix = 0; ix < kernel_side; ++ix) publish_cell(ix, next_row_);
   state.panel = BERM_PANEL_OPERATOR_RUN | (truck_parked ? BERM_PANEL_TRUCK_PARKED : 0u);

@@ -53,6 +53,15 @@ def a_failure_names_the_run_that_repeats_it():
     assert len(lines) > 300 and all(line.count(",") == lines[0].count(",") for line in lines)
 
 
+def a_stop_past_hidden_space_is_told_from_others():
+    # Needless both by the definition; behind the first one's obstacle nothing was seen, round the second's something was.
+    for number, hidden in ((95, True), (227, False)):
+        done = run("berm_validate", "--seed", 1, "--only", number, timeout=60)
+        line = [row for row in done.stdout.splitlines() if "needless stop" in row]
+        assert done.returncode == 1 and len(line) == 1, done.stdout
+        assert ("space that the obstacle hid" in line[0]) == hidden, f"run {number}: {line[0]}"
+
+
 def bad_input_is_one_line():
     one_clear_line(run("berm_validate", "--runs", 0), "--runs")
     one_clear_line(run("berm_validate", "--trace", "t.csv"), "--only")
@@ -60,4 +69,5 @@ def bad_input_is_one_line():
     one_clear_line(run("berm_validate", "--surprise"), "--surprise")
 
 
-main([no_obstacle_is_touched_that_the_nominal_motion_touches, a_failure_names_the_run_that_repeats_it, bad_input_is_one_line])
+main([no_obstacle_is_touched_that_the_nominal_motion_touches, a_failure_names_the_run_that_repeats_it, a_stop_past_hidden_space_is_told_from_others,
+      bad_input_is_one_line])
