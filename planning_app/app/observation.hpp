@@ -27,6 +27,8 @@ struct Observation {
   double blocked_x = 0.0, blocked_y = 0.0, blocked_height = 0.0;
   bool truck_parked = false;
 
+  // Whether blocked_x and blocked_y are those of a cell.
+  bool has_place() const { return stop_reason >= BERM_STOP_COLLISION_PREDICTED && stop_reason <= BERM_STOP_DIG_FLOOR && (blocked_x != 0.0 || blocked_y != 0.0); }
   bool running() const { return kernel_state == BERM_STATE_RUN; }
 };
 

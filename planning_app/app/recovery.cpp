@@ -13,6 +13,11 @@ constexpr double rescan_every = 6.0;    // s; the kernel's map forgets, and who 
 constexpr double one_way = 4.0;         // s of creeping in one direction before the next is tried
 constexpr double call_after = 30.0;     // s: two rounds of creeping and four of looking have not helped
 constexpr double again_within = 1.5;    // s of motion; a stop after less is the same trouble
+constexpr double same_place = 1.0;      // m; a stop at the same place
+constexpr double same_within = 30.0;    // s after the last is the same trouble too
+constexpr double back_after = 9.0, back_every = 20.0;  // s of trouble
+constexpr double back_by = radians(20.0), back_speed = radians(8.0), back_longest = 6.0;  // the width of a bucket and of a person at 6 m; 1/s; s
+constexpr double back_looks = 9.5;      // s: two sweeps, for the kernel's map forgets with the second
 constexpr double shortest_pause = 0.5, longest_pause = 4.0;  // s between attempts
 constexpr double retreat_for = 1.0;     // s
 constexpr double creep_share = 0.9;
@@ -62,18 +67,49 @@ bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
 
 // A stop soon after the last one goes on with the same trouble: its clock runs on, and the next attempt waits longer.
 void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
-  const bool again = since_s_ >= 0.0 && (!handed_back_ || o.time_s - handed_back_s_ < again_within);
+  const bool here = o.has_place() && std::hypot(o.blocked_x - blocked_x_, o.blocked_y - blocked_y_) < same_place;
+  const bool again = since_s_ >= 0.0 && (!handed_back_ || o.time_s - handed_back_s_ < (here ? same_within : again_within));
   stopped_ = true;
   stop_s_ = o.time_s;
   pause_s_ = again ? std::clamp(2.0 * pause_s_, shortest_pause, longest_pause) : 0.0;
   if (!again) {
     since_s_ = o.time_s;
     next_rescan_s_ = since_s_ + rescan_after;
+    next_back_s_ = since_s_ + back_after;
     called_ = moved_ = false;
   }
+  if (o.has_place()) {
+    blocked_x_ = o.blocked_x;
+    blocked_y_ = o.blocked_y;
+    back_way_ = std::copysign(1.0, wrapped(o.angle[swing] - o.blocked_bearing));
+  }
+  back_ = Back::none;
   handed_back_ = false;
   if (o.kernel_state == BERM_STATE_STOPPING || o.kernel_state == BERM_STATE_STOPPED || o.kernel_state == BERM_STATE_FAULT)
     log.event("stopped", {{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}});
+}
+
+// Away from what blocked, then a look from there. True while it goes on.
+bool Recovery::swing_back(const Observation& o, Advice& advice) {
+  if (back_ == Back::none) {
+    if (back_way_ == 0.0 || o.time_s < next_back_s_) return false;
+    back_ = Back::swings;
+    back_from_ = o.angle[swing];
+    back_began_s_ = o.time_s;
+    next_back_s_ = o.time_s + back_every;
+    moved_ = true;
+  }
+  if (back_ == Back::swings) {
+    advice.velocity = {};
+    if (std::fabs(o.angle[swing] - back_from_) < back_by && o.time_s - back_began_s_ < back_longest) {
+      advice.velocity[swing] = back_way_ * back_speed;
+      return true;
+    }
+    back_ = Back::looks;
+    back_began_s_ = o.time_s;
+    advice.rescan = true;
+  }
+  return o.time_s - back_began_s_ < back_looks;
 }
 
 // The kernel permits motion: the retreat that it permits is used for a moment, then what is due of the pause is waited for.
@@ -86,14 +122,15 @@ Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log)
   if (handed_back_) return advice;
   advice.in_charge = true;
   const double ran = o.time_s - running_s_;
-  if (moved_ && ran < retreat_for) {
+  if (back_ == Back::none && moved_ && ran < retreat_for) {
     advice.velocity = retreat_;
-  } else if (ran >= pause_s_) {
+  } else if (ran >= pause_s_ && !swing_back(o, advice)) {
     log.event("resumed", {{"time_s", o.time_s}, {"stopped_s", o.time_s - since_s_}});
     handed_back_ = true;
     handed_back_s_ = o.time_s;
     advice = {false, {}, false, true, moved_, false};
     moved_ = false;
+    back_ = Back::none;
   }
   return advice;
 }

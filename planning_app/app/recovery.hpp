@@ -1,6 +1,7 @@
 // What to do while the kernel does not permit motion: hold; and when it is the ground that stopped the machine and stays blocked, look again
-// with both scanners and retreat slowly, which the kernel permits when the slow motion's own box is clear. What none of this mends is the
-// operator's: who is told once what to do. Where standing is permitted and moving is not, attempts follow one another at growing pauses.
+// with both scanners and retreat slowly, which the kernel permits when the slow motion's own box is clear. Where standing is permitted and moving is
+// not, attempts follow one another at growing pauses; then the implements swing back, for they hide what stands behind and beside them and the map
+// keeps what it once held there, and the scanners look from there. What none of this mends is the operator's: who is told once what to do.
 #pragma once
 
 #include "app/observation.hpp"
@@ -27,6 +28,7 @@ private:
   bool call_operator(const Observation& o, const ProgressLog& log);
   void begin_stop(const Observation& o, const ProgressLog& log);
   Advice running(const Observation& o, const ProgressLog& log);
+  bool swing_back(const Observation& o, Advice& advice);
 
   MachineModel machine_;
   bool stopped_ = false;
@@ -37,6 +39,9 @@ private:
   double pause_s_ = 0.0;         // of standing permitted, before the plan is in charge again
   double next_rescan_s_ = 0.0;
   Joints retreat_{};
+  double blocked_x_ = 0.0, blocked_y_ = 0.0;  // of the last stop
+  enum class Back { none, swings, looks } back_ = Back::none;
+  double next_back_s_ = 0.0, back_began_s_ = 0.0, back_from_ = 0.0, back_way_ = 0.0;
 };
 
 }  // namespace berm::app

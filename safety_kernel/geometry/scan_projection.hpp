@@ -32,6 +32,9 @@ public:
   // outside range_min..range_max of the parameters.
   bool in_upper_body(const berm_scan_packet& packet, int sample, uint32_t range_mm, Eigen::Vector3d& point) const noexcept;
 
+  // The head's place in the upper body's frame, m. scanner: below BERM_SCANNER_MOUNTS.
+  const Eigen::Vector3d& head(int scanner) const noexcept { return head_[scanner]; }
+
   // Point in the base frame on the millimetre grid: x and y to the nearest, z up; z is clamped to +-SK_HEIGHT_MAX_MM (a top of the map
   // is no lower than any implement can reach). False, and nothing changed, where x or y leaves +-SK_COORD_MAX_MM or is not a number.
   static bool in_base(const Eigen::Vector3d& upper_body, double swing_rad, sk_point& point) noexcept;

@@ -23,6 +23,7 @@ bool CycleInputs::take_vlp16(const Vlp16Mount& mount, const std::uint8_t* bytes,
   const bool room = vlp16_count < kVlp16Packets && footprint_count + kVlp16MaxPoints <= kFootprints;
   if (!room || vlp16_decode(bytes, size, scratch) != Vlp16Result::kOk) return false;
   std::copy(bytes, bytes + kVlp16PacketBytes, vlp16[vlp16_count++]);
+  lidar_head = vlp16_head(mount);
   for (int i = 0; i < scratch.count; ++i) footprint[footprint_count++] = vlp16_project(mount, scratch.point[i]);
   return true;
 }
@@ -73,7 +74,10 @@ void Cycle::take_points(const CycleInputs& in) {
   for (int i = 0; i < in.footprint_count; ++i) {
     Vlp16Footprint f = in.footprint[i];
     f.left.z_mm = f.right.z_mm = std::clamp(f.left.z_mm, -SK_HEIGHT_MAX_MM, SK_HEIGHT_MAX_MM);
-    if (!map_only_ && own(f.left) && own(f.right)) continue;
+    if (!map_only_ && own(f.left) && own(f.right)) {
+      scans_.shadow().keep(OwnShadow::kLidar, in.lidar_head, f.left, in.now_us, map_);
+      continue;
+    }
     if (sk_raster_segment(&map_, &f.left, &f.right, in.now_us, parameters_.generation_us) > 0) ++map_points_;
   }
 }

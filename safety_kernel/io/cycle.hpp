@@ -44,6 +44,7 @@ struct CycleInputs {
   std::uint8_t vlp16[kVlp16Packets][kVlp16PacketBytes];  // as received; what the footprints were made of
   int footprint_count = 0;
   Vlp16Footprint footprint[kFootprints];  // last returns of a VLP-16, base frame
+  sk_point lidar_head{};                  // its place, set with them
   bool app_connected = false;
   std::uint32_t app_connections = 0;     // since start
   std::uint8_t request[SK_REQUEST_BYTES] = {};  // private copy

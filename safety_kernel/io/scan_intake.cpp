@@ -7,7 +7,7 @@
 
 namespace berm::kernel {
 
-ScanIntake::ScanIntake(const berm_parameters& parameters) : parameters_(parameters), projection_(parameters), self_(parameters) {}
+ScanIntake::ScanIntake(const berm_parameters& parameters) : parameters_(parameters), projection_(parameters), self_(parameters), shadow_(parameters.generation_us) {}
 
 bool ScanIntake::continues(const berm_scan_packet& earlier, const berm_scan_packet& later) {
   return earlier.scanline == later.scanline && earlier.sequence + 1U == later.sequence && earlier.first_index + earlier.count == later.first_index &&
@@ -73,7 +73,7 @@ ScanIntake::Located ScanIntake::locate(const berm_scan_packet& packet, int sampl
   if (range_mm == 0 || !projection_.in_upper_body(packet, sample, range_mm, upper)) return located;
   const JointAngles angles = joints.at(sample_time_us(packet, sample)).angles;
   located.own = self_.is_own(upper, angles) ? 1 : 0;
-  located.found = ScanProjection::in_base(upper, angles.swing, located.point) ? 1 : 0;
+  located.found = ScanProjection::in_base(upper, angles.swing, located.point) && ScanProjection::in_base(projection_.head(packet.scanner), angles.swing, located.head) ? 1 : 0;
   return located;
 }
 
@@ -118,10 +118,12 @@ void ScanIntake::work_off(Line& line, const berm_scan_packet* next, const JointH
       block.point_mm[i][2] = point.z_mm;
     }
     if (located[i].found == 0 || located[i].own != 0 || kept[i] == 0) {
+      if (located[i].found != 0 && located[i].own != 0) shadow_.keep(line.packet.scanner, located[i].head, point, now_us, map);
       line.chained = false;
       continue;
     }
     insert(line, point, now_us, map);
+    shadow_.note_view(line.packet.scanner, point, now_us);
     block.used[i] = 1;
     ++points_;
   }

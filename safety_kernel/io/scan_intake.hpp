@@ -1,5 +1,5 @@
-// Packets of the panning scanners into the height map: points, filter of spurious returns, filter of the own machine, occlusion interpolation
-// between neighbouring returns of a scanline.
+// Packets of the panning scanners into the height map: points, filter of spurious returns, filter of the own machine and what it hides, occlusion
+// interpolation between neighbouring returns of a scanline.
 //
 // A packet waits until the next of its scanline is there (or it is its scanline's last, or nothing follows in time): then every sample has
 // its neighbours, and the joint angles on both sides of every sample are known.
@@ -13,6 +13,7 @@
 #include "geometry/joint_history.hpp"
 #include "geometry/scan_projection.hpp"
 #include "geometry/self_filter.hpp"
+#include "io/own_shadow.hpp"
 #include "io/scan_health.hpp"
 #include "scan/scan_packet.h"
 
@@ -36,6 +37,8 @@ class ScanIntake {
   // Once a cycle, after all packets: finishes packets that waited too long.
   void flush(const JointHistory& joints, std::int64_t now_us, sk_height_map& map, ScanBlocks& blocks);
 
+  // What the machine hides; for the lidar's returns too.
+  OwnShadow& shadow() { return shadow_; }
   const ScanHealth& health() const { return health_; }
   std::int32_t pan_urad(int scanner) const { return line_[scanner].pan_urad; }
   std::uint32_t points() const { return points_; }  // into the map since start, wrapping
@@ -59,7 +62,7 @@ class ScanIntake {
   // next: the packet after it on the same scanline, or null.
   void work_off(Line& line, const berm_scan_packet* next, const JointHistory& joints, std::int64_t now_us, sk_height_map& map, ScanBlocks& blocks);
   struct Located {
-    sk_point point;
+    sk_point point, head;  // head: the scanner's, at that time
     std::uint8_t found;  // 0: no return, or none that can be placed
     std::uint8_t own;    // 1: on the own machine
   };
@@ -72,6 +75,7 @@ class ScanIntake {
   const berm_parameters& parameters_;
   ScanProjection projection_;
   SelfFilter self_;
+  OwnShadow shadow_;
   ScanHealth health_;
   Line line_[ScanHealth::kScanners];
   std::uint32_t points_ = 0;

@@ -93,6 +93,8 @@ Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packe
   return Vlp16Result::kOk;
 }
 
+sk_point vlp16_head(const Vlp16Mount& mount) { return {rounded(mount.x_m * 1e3), rounded(mount.y_m * 1e3), rounded(mount.z_m * 1e3)}; }
+
 Vlp16Footprint vlp16_project(const Vlp16Mount& mount, const Vlp16Return& point) {
   const std::size_t channel = point.channel % kVlp16Channels;
   const double level = point.range_mm * kChannelCosine[channel];

@@ -44,6 +44,9 @@ struct Vlp16Footprint {
   sk_point left, right;
 };
 
+// The sensor's place, base frame.
+sk_point vlp16_head(const Vlp16Mount& mount);
+
 // Heights are rounded up, so that the map's height bounds the return.
 Vlp16Footprint vlp16_project(const Vlp16Mount& mount, const Vlp16Return& point);
 

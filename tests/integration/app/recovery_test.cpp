@@ -82,6 +82,54 @@ TEST(Recovery, AttemptsThatFailAtOnceFollowAtGrowingPauses) {
   EXPECT_EQ(calls, 1) << "short attempts do not put off the call";
 }
 
+// What the implements hide the kernel's map keeps: attempts from the same place fail for ever. So away from it, and a look from there.
+TEST(Recovery, SwingsBackToLookAtWhatStopsItAgainAndAgain) {
+  Recovery recovery(berm::app_bench::zx200());
+  const ProgressLog log(-1);
+  const auto at_place = [](Observation o) {
+    o.blocked_x = 5.0 * std::cos(o.blocked_bearing);
+    o.blocked_y = 5.0 * std::sin(o.blocked_bearing);
+    return o;
+  };
+  double angle = radians(60.0), farthest = angle, back_at = -1.0, handed_back = -1.0;
+  int rescans_there = 0, attempts = 0, calls = 0;
+  bool stops = true;
+  double resumed_s = 0.0;
+  for (int k = 0; k < 3500 && handed_back < 0.0; ++k) {
+    const double t = 0.01 * k;
+    Observation o = at_place(stops ? stopped(t, BERM_STOP_COLLISION_PREDICTED) : permitted(t));
+    o.angle[swing] = angle;
+    const auto advice = recovery.step(o, log);
+    calls += advice.operator_called;
+    angle += 0.01 * advice.velocity[swing];
+    ASSERT_LE(advice.velocity[swing], 0.0) << "toward what blocks";
+    ASSERT_LE(std::fabs(advice.velocity[swing]), radians(8.01));
+    farthest = std::min(farthest, angle);
+    if (angle < radians(59.0) && back_at < 0.0) back_at = t;
+    rescans_there += back_at > 0.0 && advice.rescan;
+    if (advice.resumed) {
+      ++attempts;
+      resumed_s = t;
+      if (back_at > 0.0) handed_back = t;
+      EXPECT_EQ(advice.moved, back_at > 0.0);
+    }
+    if (!stops && !advice.in_charge && t - resumed_s > 0.3) stops = true;  // the plan's motion is stopped after 0.3 s
+    else if (stops && k % 30 == 29) stops = false;
+  }
+  EXPECT_GE(attempts, 3) << "first it tries from where it is";
+  EXPECT_GE(back_at, 9.0);
+  EXPECT_NEAR(farthest, radians(40.0), radians(0.5));
+  EXPECT_EQ(rescans_there, 1);
+  EXPECT_GT(handed_back, back_at + 9.5) << "two sweeps of the scanners";
+  EXPECT_EQ(calls, 0);
+  // Stopped at the same place once more, after seconds of good motion: still the same trouble, and the operator hears of it.
+  for (int k = 0; k < 1500; ++k) {
+    const double t = handed_back + 3.0 + 0.01 * k;
+    calls += recovery.step(at_place(stopped(t, BERM_STOP_COLLISION_PREDICTED)), log).operator_called;
+  }
+  EXPECT_EQ(calls, 1);
+}
+
 TEST(Recovery, AfterGoodMotionAStopIsANewOne) {
   Recovery recovery(berm::app_bench::zx200());
   const ProgressLog log(-1);
