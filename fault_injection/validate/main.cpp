@@ -34,6 +34,8 @@ Bench make_bench(const std::string& machine) {
   bench.machine = config::load_machine_file(run::find_machine(machine));
   config::SiteFile site = config::load_site_file(run::find_site("bench"));
   site.dig_zone.clear();
+  site.pass_over = 20.0;  // no overpass rule: the boxes may be passed over, with the margin, and the oracle says how near that comes
+  site.ground_zone.clear();
   bench.parameters = config::compile_parameters(bench.machine, site);
   bench.profile = plant::load_plant_profile(BERM_PLANT_PROFILES "/" + bench.machine.name + "_plant.toml");
   return bench;

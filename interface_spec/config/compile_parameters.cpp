@@ -89,6 +89,20 @@ void compile_rules(const MachineFile& m, const SiteFile& site, berm_parameters& 
   }
 }
 
+void compile_overpass(const SiteFile& site, berm_parameters& p) {
+  p.pass_over_mm = down(site.pass_over, kMilli);
+  p.ground_zones = static_cast<std::int32_t>(site.ground_zone.size());
+  for (std::size_t i = 0; i < site.ground_zone.size(); ++i) {  // outwards: it forbids
+    const auto& z = site.ground_zone[i];
+    p.ground_zone[i] = {down(z.x_low, kMilli), down(z.y_low, kMilli), up(z.x_high, kMilli), up(z.y_high, kMilli), down(z.pass_over, kMilli)};
+  }
+  p.truck_zones = static_cast<std::int32_t>(site.truck_zone.size());
+  for (std::size_t i = 0; i < site.truck_zone.size(); ++i) {  // inwards: it permits
+    const auto& z = site.truck_zone[i];
+    p.truck_zone[i] = {up(z.x_low, kMilli), up(z.y_low, kMilli), down(z.x_high, kMilli), down(z.y_high, kMilli), down(z.ceiling, kMilli)};
+  }
+}
+
 }  // namespace
 
 berm_parameters compile_parameters(const MachineFile& m, const SiteFile& site) {
@@ -110,6 +124,7 @@ berm_parameters compile_parameters(const MachineFile& m, const SiteFile& site) {
   compile_parts(m, p);
   compile_sensors(m, p);
   compile_rules(m, site, p);
+  compile_overpass(site, p);
   p.crc32 = parameters_crc(p);
   return p;
 }

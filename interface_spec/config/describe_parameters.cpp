@@ -91,6 +91,18 @@ void rules(const berm_parameters& p, Listing& out) {
   out.row("base_frame_age_us", p.base_frame_age_us);
 }
 
+void overpass(const berm_parameters& p, Listing& out) {
+  out.row("pass_over_mm", p.pass_over_mm);
+  for (int i = 0; i < std::clamp(p.ground_zones, 0, BERM_GROUND_ZONES); ++i) {
+    const berm_ground_zone& z = p.ground_zone[i];
+    out.row(fmt::format("ground_zone[{}]", i), fmt::format("x {}..{} y {}..{} pass over {} mm", z.x_low_mm, z.x_high_mm, z.y_low_mm, z.y_high_mm, z.pass_over_mm));
+  }
+  for (int i = 0; i < std::clamp(p.truck_zones, 0, BERM_TRUCK_ZONES); ++i) {
+    const berm_truck_zone& z = p.truck_zone[i];
+    out.row(fmt::format("truck_zone[{}]", i), fmt::format("x {}..{} y {}..{} ceiling {} mm", z.x_low_mm, z.x_high_mm, z.y_low_mm, z.y_high_mm, z.ceiling_mm));
+  }
+}
+
 }  // namespace
 
 std::string describe(const berm_parameters& p) {
@@ -101,6 +113,7 @@ std::string describe(const berm_parameters& p) {
   braking(p, out);
   bodies_and_sensors(p, out);
   rules(p, out);
+  overpass(p, out);
   out.row("crc32", fmt::format("{:08x}", static_cast<std::uint32_t>(p.crc32)));
   return out.text();
 }

@@ -21,6 +21,8 @@ extern "C" {
 #define BERM_BRAKE_SPEEDS 8     /* table columns: speeds k * velocity_max / (BERM_BRAKE_SPEEDS - 1) */
 #define BERM_BRAKE_REACHES 4    /* table rows: reach up to brake_reach_mm[r] */
 #define BERM_DIG_ZONES 4
+#define BERM_GROUND_ZONES 4
+#define BERM_TRUCK_ZONES 4
 #define BERM_SCANNER_MOUNTS 2
 
 typedef struct berm_part {
@@ -37,6 +39,8 @@ typedef struct berm_scanner_mount {               /* head in the upper body's fr
 } berm_scanner_mount;
 
 typedef struct berm_dig_zone { int32_t x_low_mm, y_low_mm, x_high_mm, y_high_mm, floor_mm, ceiling_mm; } berm_dig_zone; /* base frame */
+typedef struct berm_ground_zone { int32_t x_low_mm, y_low_mm, x_high_mm, y_high_mm, pass_over_mm; } berm_ground_zone; /* lower ground; base frame */
+typedef struct berm_truck_zone { int32_t x_low_mm, y_low_mm, x_high_mm, y_high_mm, ceiling_mm; } berm_truck_zone;     /* base frame */
 
 typedef struct berm_parameters {
   int32_t magic, version, size, cell_mm;
@@ -69,6 +73,12 @@ typedef struct berm_parameters {
   int32_t dig_swing_limit_urad_s;                 /* contact in the dig zone only below this swing speed */
   int32_t dig_zones;
   berm_dig_zone dig_zone[BERM_DIG_ZONES];
+  /* overpass rule: see core/overpass.h */
+  int32_t pass_over_mm;                           /* base frame: what stands higher is passed beside, never over */
+  int32_t ground_zones;
+  berm_ground_zone ground_zone[BERM_GROUND_ZONES]; /* where the ground lies lower: the limit of the cells that it meets */
+  int32_t truck_zones;
+  berm_truck_zone truck_zone[BERM_TRUCK_ZONES];    /* while a truck is admitted: what is wholly inside and no higher may be passed over */
   /* requests and frames */
   int32_t request_age_us, request_hold_us, request_silent_us; /* 50 000 hold, 500 000 latched stop */
   int32_t state_frame_age_us, machine_state_age_us, operator_age_us;

@@ -9,6 +9,8 @@ namespace berm::config {
 
 namespace {
 
+constexpr double kHighest = 20.0;  // the map's heights end there: nothing is too high to be passed over
+
 DigZoneFile read_zone(StrictTable table) {
   DigZoneFile zone{};
   constexpr double kLeastSide = 0.01;
@@ -18,6 +20,33 @@ DigZoneFile read_zone(StrictTable table) {
   zone = {x[0], x[1], y[0], y[1], floor, table.number("ceiling", floor + kLeastSide, 10.0)};
   table.finish();
   return zone;
+}
+
+GroundZoneFile read_ground(StrictTable table) {
+  constexpr double kLeastSide = 0.01;
+  const auto x = table.interval("x", -15.0, 15.0, kLeastSide);
+  const auto y = table.interval("y", -15.0, 15.0, kLeastSide);
+  const GroundZoneFile zone{x[0], x[1], y[0], y[1], table.number("pass_over", -15.0, kHighest)};
+  table.finish();
+  return zone;
+}
+
+TruckZoneFile read_truck_zone(StrictTable table) {
+  constexpr double kLeastSide = 0.01;
+  const auto x = table.interval("x", -15.0, 15.0, kLeastSide);
+  const auto y = table.interval("y", -15.0, 15.0, kLeastSide);
+  const TruckZoneFile zone{x[0], x[1], y[0], y[1], table.number("ceiling", -10.0, kHighest)};
+  table.finish();
+  return zone;
+}
+
+// Zones of the overpass rule: there may be none of either kind.
+void read_overpass(StrictTable& file, SiteFile& site) {
+  site.pass_over = file.number("pass_over", -15.0, kHighest);
+  for (auto& zone : file.tables("ground_zone")) site.ground_zone.push_back(read_ground(std::move(zone)));
+  if (site.ground_zone.size() > BERM_GROUND_ZONES) file.fail("ground_zone", fmt::format("{} zones, up to {} are taken", site.ground_zone.size(), BERM_GROUND_ZONES));
+  for (auto& zone : file.tables("truck_zone")) site.truck_zone.push_back(read_truck_zone(std::move(zone)));
+  if (site.truck_zone.size() > BERM_TRUCK_ZONES) file.fail("truck_zone", fmt::format("{} zones, up to {} are taken", site.truck_zone.size(), BERM_TRUCK_ZONES));
 }
 
 TruckPlaceFile read_truck(StrictTable table) {
@@ -43,6 +72,7 @@ SiteFile load_site_file(const std::string& path) {
   for (auto& zone : file.tables("dig_zone")) site.dig_zone.push_back(read_zone(std::move(zone)));
   if (site.dig_zone.empty() || site.dig_zone.size() > BERM_DIG_ZONES)
     file.fail("dig_zone", fmt::format("{} zones, 1 to {} are taken", site.dig_zone.size(), BERM_DIG_ZONES));
+  read_overpass(file, site);
   site.truck = read_truck(file.table("truck"));
   StrictTable dig = file.table("dig");
   const auto swing = dig.array<2>("swing_deg", -180.0, 180.0);

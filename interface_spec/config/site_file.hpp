@@ -8,6 +8,8 @@
 namespace berm::config {
 
 struct DigZoneFile { double x_low, x_high, y_low, y_high, floor, ceiling; };
+struct GroundZoneFile { double x_low, x_high, y_low, y_high, pass_over; };  // lower ground
+struct TruckZoneFile { double x_low, x_high, y_low, y_high, ceiling; };
 
 struct TruckPlaceFile {            // the inside of the bed of a parked truck
   std::array<double, 2> centre;
@@ -25,6 +27,9 @@ struct DigFile {
 struct SiteFile {
   std::string name;
   std::vector<DigZoneFile> dig_zone;
+  double pass_over;                // z: what stands higher the implements do not pass over
+  std::vector<GroundZoneFile> ground_zone;
+  std::vector<TruckZoneFile> truck_zone;
   TruckPlaceFile truck;
   DigFile dig;
 };

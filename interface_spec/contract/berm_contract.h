@@ -77,7 +77,8 @@ enum {
   BERM_STOP_CLOCK = 15,              /* the cycle came too late or time ran backwards: fault */
   BERM_STOP_BASE_MOVED = 16,         /* the machine's base tilted or slipped, so that the map no longer fits: latched */
   BERM_STOP_UNCOMMANDED = 17,        /* a joint moves otherwise than it was ever told to: fault, category 0 */
-  BERM_STOP_REASONS = 18
+  BERM_STOP_OVERPASS = 18,           /* the reach box passes over what is too high to be passed over: a person or a vehicle may stand there */
+  BERM_STOP_REASONS = 19
 };
 
 /* Result of the check of the newest request. */
@@ -140,7 +141,7 @@ typedef struct berm_state {
   int32_t permitted_high_urad_s[BERM_JOINTS];
   int32_t reach_low_urad[BERM_JOINTS];               /* reach box of this cycle */
   int32_t reach_high_urad[BERM_JOINTS];
-  int32_t blocked_x_mm;                              /* centre of the first blocking cell, when stop_reason is 1..4 */
+  int32_t blocked_x_mm;                              /* centre of the first blocking cell, when stop_reason is 1..4 or 18 */
   int32_t blocked_y_mm;
   int32_t blocked_height_mm;
   uint32_t blocked_link;                             /* joint index of the link that would meet it */
@@ -148,7 +149,6 @@ typedef struct berm_state {
   uint32_t cycle_cpu_us;                             /* CPU time of the previous cycle (not in journals: it is not reproducible) */
   uint32_t panel;                                    /* BERM_PANEL_*: newest operator and spotter frames; not trusted */
   uint32_t journal_lost;                             /* records that the journal lost before this cycle; stays at 2^32 - 1 */
-  uint32_t reserved_tail;
 } berm_state;
 
 /* A block of consecutive samples of one scanline, as received. Range 0 means no return. */

@@ -25,7 +25,7 @@ constexpr double range_room = radians(8.0);
 
 bool by_ground(std::uint8_t reason) {
   return reason == BERM_STOP_COLLISION_PREDICTED || reason == BERM_STOP_UNKNOWN_GROUND || reason == BERM_STOP_STALE_GROUND || reason == BERM_STOP_DIG_FLOOR ||
-         reason == BERM_STOP_JOINT_RANGE;
+         reason == BERM_STOP_OVERPASS || reason == BERM_STOP_JOINT_RANGE;
 }
 
 }  // namespace
@@ -59,7 +59,8 @@ bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
     fields["advice"] = "move the joint back into its range by hand";
   } else {
     fields.update({{"x_m", o.blocked_x}, {"y_m", o.blocked_y}, {"height_m", o.blocked_height}});
-    fields["advice"] = "clear the place; if nothing stands there, press relearn";
+    fields["advice"] = o.stop_reason == BERM_STOP_OVERPASS ? "send away who or what stands there, or admit the truck; if nothing stands there, press relearn"
+                                                           : "clear the place; if nothing stands there, press relearn";
   }
   log.event("operator_needed", fields);
   return true;

@@ -1,6 +1,7 @@
 // What the app knows of the site, metres and radians; filled from the site file (app/machine_loader.hpp). Base frame.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 namespace berm::app {
@@ -13,6 +14,8 @@ struct TruckBed {                 // inside of the bed
   double length = 0.0, width = 0.0, height = 0.0;
   double wall_top = 0.0;          // z
   double target_kg = 0.0;
+  // Along the bed from its centre: how far the site's truck zone holds it. The kernel lets nothing pass over what is beyond, the cab above all.
+  double zone_low = -std::numeric_limits<double>::infinity(), zone_high = std::numeric_limits<double>::infinity();
 };
 
 struct SiteModel {

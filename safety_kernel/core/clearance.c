@@ -5,7 +5,7 @@
 enum { SK_PLANE_UNTRIED = 0, SK_PLANE_HOLDS = 1, SK_PLANE_FAILS = 2 };
 
 /* What is found out about a plane when it is first needed. */
-typedef struct sk_tried { int16_t plane[SK_SLICE_PLANES]; } sk_tried; /* SK_PLANE_* */
+typedef struct sk_tried { uint16_t plane[SK_SLICE_PLANES]; } sk_tried; /* SK_PLANE_* */
 
 /*@ predicate sk_tried_right{L}(sk_slice *s, sk_tried *t) = \forall integer k; 0 <= k < SK_SLICE_PLANES ==>
   @   (\at(t->plane[k], L) == SK_PLANE_HOLDS ==> sk_plane_bounds{L}(s, k)) &&
@@ -147,7 +147,7 @@ static bool sk_column_is_below(const sk_height_map *m, const sk_clearance_rules 
 {
   int32_t x = sk_cell_low_mm(ix);
   int32_t y = sk_cell_low_mm(iy);
-  if (sk_is_current(m, r, iy, ix)) { return sk_square_is_below(p, x, y, sk_column_top_mm(m, r, iy, ix)); }
+  if (sk_is_passable(m, r, iy, ix)) { return sk_square_is_below(p, x, y, sk_column_top_mm(m, r, iy, ix)); }
   return p->nz == 0 && sk_square_is_below(p, x, y, 0);
 }
 
@@ -196,7 +196,7 @@ static int32_t sk_dig_verdict(const sk_height_map *m, const sk_slice *s, const s
   return verdict;
 }
 
-/* Why a cell that is neither separated nor exempt is blocked. */
+/* Why a cell that is neither separated nor exempt is blocked, where it is not for the overpass rule. */
 /*@ requires \valid_read(m) && \valid_read(r) && sk_rules_fit(r) && sk_in_map(iy, ix);
   @ assigns \nothing;
   @ ensures unknown: \result == SK_BLOCKED_UNKNOWN ==> m->seen_us[iy][ix] < 0;
@@ -229,6 +229,21 @@ static bool sk_is_separated(const sk_height_map *m, const sk_slice *s, int32_t k
   return sk_column_is_below(m, r, &s->plane[k], iy, ix);
 }
 
+/* Whether the slice is clear of a current column at its height, which is too high to be passed over. */
+/*@ requires sk_readable(m, s, r, t) && sk_slice_fits(s) && sk_rules_fit(r) && sk_tried_right(s, t);
+  @ requires 0 <= k && sk_in_map(iy, ix);
+  @ assigns t->plane[0 .. SK_SLICE_PLANES - 1];
+  @ ensures sk_tried_right(s, t);
+  @ ensures \result == true <==> sk_current(m, r, iy, ix) && !sk_passable(m, r, iy, ix) && k < s->planes && sk_plane_bounds(s, k) &&
+  @   sk_square_below(&s->plane[k], sk_cell_low(ix), sk_cell_low(iy), sk_column_top(m, r, iy, ix));
+  @*/
+SK_SELDOM static bool sk_would_pass_over(const sk_height_map *m, const sk_slice *s, int32_t k, const sk_clearance_rules *r, sk_tried *t, int32_t iy,
+                                         int32_t ix)
+{
+  if (!sk_is_current(m, r, iy, ix) || sk_is_passable(m, r, iy, ix) || !sk_plane_usable(s, t, k)) { return false; }
+  return sk_square_is_below(&s->plane[k], sk_cell_low_mm(ix), sk_cell_low_mm(iy), sk_column_top_mm(m, r, iy, ix));
+}
+
 /*@ requires sk_readable(m, s, r, t) && sk_slice_fits(s) && sk_rules_fit(r) && sk_tried_right(s, t);
   @ requires 0 <= k && sk_in_map(iy, ix) && sk_is_lowest(s, 2, z_low_mm);
   @ assigns t->plane[0 .. SK_SLICE_PLANES - 1];
@@ -247,10 +262,11 @@ static int32_t sk_cell_verdict(const sk_height_map *m, const sk_slice *s, int32_
   if (sk_is_separated(m, s, k, r, t, iy, ix)) { return SK_CLEAR; }
   verdict = sk_dig_verdict(m, s, r, z_low_mm, iy, ix);
   if (verdict != SK_BLOCKED_COLLISION) { return verdict; }
+  if (sk_would_pass_over(m, s, k, r, t, iy, ix)) { return SK_BLOCKED_OVERPASS; }
   return sk_contact_verdict(m, r, iy, ix);
 }
 
-/* What a cell is held against to be clear at a glance, as nearly all are: current, and below a level plane 0. */
+/* What a cell is held against to be clear at a glance, as nearly all are: current, no higher than may be passed over, and below a level plane 0. */
 typedef struct sk_glance {
   bool level;                   /* whether there is such a plane, and no own body to look for */
   int64_t oldest_us, newest_us; /* of a current cell */
@@ -274,12 +290,13 @@ typedef struct sk_glance {
 static inline bool sk_is_settled(const sk_height_map *m, const sk_slice *s, int32_t k, const sk_clearance_rules *r, sk_glance g, int32_t iy, int32_t ix)
 {
   int64_t seen_us = m->seen_us[iy][ix];
+  int32_t most_mm = r->pass_mm[iy][ix] < g.most_mm ? r->pass_mm[iy][ix] : g.most_mm;
   (void)s;
-  (void)r;
   /*@ assert nobody: g.level != 0 ==> !sk_own_body(r, iy, ix); */
   if (k != 0 || !g.level || seen_us < g.oldest_us || seen_us > g.newest_us) { return false; }
   /*@ assert current: sk_current(m, r, iy, ix); */
-  if (m->height_mm[iy][ix] > g.most_mm || m->previous_mm[iy][ix] > g.most_mm) { return false; }
+  if (m->height_mm[iy][ix] > most_mm || m->previous_mm[iy][ix] > most_mm) { return false; }
+  /*@ assert passable: sk_passable(m, r, iy, ix); */
   /*@ assert top: sk_column_top(m, r, iy, ix) <= s->plane[0].d; */
   /*@ assert square: sk_square_below(&s->plane[0], sk_cell_low(ix), sk_cell_low(iy), sk_column_top(m, r, iy, ix)); */
   /*@ assert column: sk_column_below(m, r, &s->plane[0], iy, ix); */

@@ -10,7 +10,8 @@ SK_BEGIN
 typedef struct sk_choice { uint8_t plane_of[SK_MAP_CELLS][SK_MAP_CELLS]; } sk_choice;
 
 enum {
-  SK_CLEAR = 0, SK_BLOCKED_COLLISION = 1, SK_BLOCKED_UNKNOWN = 2, SK_BLOCKED_STALE = 3, SK_BLOCKED_FLOOR = 4, SK_BLOCKED_INVALID = 5
+  SK_CLEAR = 0, SK_BLOCKED_COLLISION = 1, SK_BLOCKED_UNKNOWN = 2, SK_BLOCKED_STALE = 3, SK_BLOCKED_FLOOR = 4, SK_BLOCKED_OVERPASS = 5,
+  SK_BLOCKED_INVALID = 6
 };
 
 typedef struct sk_clearance_result { int32_t verdict; int32_t iy, ix; int32_t cells; } sk_clearance_result;
@@ -33,9 +34,8 @@ typedef struct sk_clearance_result { int32_t verdict; int32_t iy, ix; int32_t ce
   @   sk_point_below{L}(p, x, y, z) && sk_point_below{L}(p, x + SK_CELL_MM, y, z) &&
   @   sk_point_below{L}(p, x, y + SK_CELL_MM, z) && sk_point_below{L}(p, x + SK_CELL_MM, y + SK_CELL_MM, z);
   @ predicate sk_column_below{L}(sk_height_map *m, sk_clearance_rules *r, sk_plane *p, integer iy, integer ix) =
-  @   (sk_current{L}(m, r, iy, ix) ==>
-  @     sk_square_below{L}(p, sk_cell_low(ix), sk_cell_low(iy), sk_top{L}(m, iy, ix) + \at(r->margin_mm, L))) &&
-  @   (!sk_current{L}(m, r, iy, ix) ==> \at(p->nz, L) == 0 && sk_square_below{L}(p, sk_cell_low(ix), sk_cell_low(iy), 0));
+  @   (sk_passable{L}(m, r, iy, ix) ==> sk_square_below{L}(p, sk_cell_low(ix), sk_cell_low(iy), sk_column_top{L}(m, r, iy, ix))) &&
+  @   (!sk_passable{L}(m, r, iy, ix) ==> \at(p->nz, L) == 0 && sk_square_below{L}(p, sk_cell_low(ix), sk_cell_low(iy), 0));
   @
   @ predicate sk_cell_in_zone{L}(berm_dig_zone *zone, integer iy, integer ix) =
   @   \at(zone->x_low_mm, L) <= sk_cell_low(ix) && sk_cell_low(ix) + SK_CELL_MM <= \at(zone->x_high_mm, L) &&
@@ -64,6 +64,7 @@ typedef struct sk_clearance_result { int32_t verdict; int32_t iy, ix; int32_t ce
   @   (verdict == SK_BLOCKED_COLLISION && sk_current{L}(m, r, iy, ix)) ||
   @   (verdict == SK_BLOCKED_UNKNOWN && (sk_own_body{L}(r, iy, ix) || \at(m->seen_us[iy][ix], L) < 0)) ||
   @   (verdict == SK_BLOCKED_STALE && 0 <= \at(m->seen_us[iy][ix], L) && !sk_current{L}(m, r, iy, ix)) ||
+  @   (verdict == SK_BLOCKED_OVERPASS && sk_current{L}(m, r, iy, ix) && !sk_passable{L}(m, r, iy, ix)) ||
   @   (verdict == SK_BLOCKED_FLOOR && sk_below_floor{L}(s, r, iy, ix));
   @ logic integer sk_chosen{L}(sk_choice *choice, integer iy, integer ix) = \at(choice->plane_of[iy][ix], L);
   @ // every cell of the slice in the rows before iy, and in row iy before ix
@@ -75,6 +76,8 @@ typedef struct sk_clearance_result { int32_t verdict; int32_t iy, ix; int32_t ce
 /* A column is the cell's closed square, from below everything up to the effective height plus margin. A cell never observed or stale (seen longer than
  * fresh_us ago, or in the future) is a column without a top: only a vertical plane (nz == 0) separates it. nz < 0 is never accepted. A slice with
  * a cell outside the map is BLOCKED_UNKNOWN.
+ * Overpass rule: a cell whose effective height is above pass_mm of that cell is a column without a top too; it is BLOCKED_OVERPASS where the plane
+ * chosen for it would separate it at its height, else BLOCKED_COLLISION.
  * Own body: a cell with all four corners within own_body_radius is clear for the boom and BLOCKED_UNKNOWN for stick and bucket, whatever it holds.
  * Dig-zone rule: a cell whose square lies wholly inside a dig zone needs no separation when dig_allowed, every vertex of the slice is at or above the
  * zone's floor, and the cell is observed, fresh (or dig_stale) and no higher than the zone's ceiling; not separated and below the floor it is

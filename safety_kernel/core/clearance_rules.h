@@ -15,6 +15,7 @@ typedef struct sk_clearance_rules {
   int32_t dig_zones;
   berm_dig_zone dig_zone[BERM_DIG_ZONES];
   bool dig_stale;              /* the dig-zone rule takes stale cells as they were last seen: for creeping out of a pit that the bucket hides */
+  int16_t pass_mm[SK_MAP_CELLS][SK_MAP_CELLS]; /* overpass rule: a cell that is higher (margin not counted) may be passed beside, never over; see overpass.h */
 } sk_clearance_rules;
 
 /*@ predicate sk_rules_fit{L}(sk_clearance_rules *r) =
@@ -23,6 +24,9 @@ typedef struct sk_clearance_rules {
   @
   @ predicate sk_current{L}(sk_height_map *m, sk_clearance_rules *r, integer iy, integer ix) =
   @   0 <= \at(m->seen_us[iy][ix], L) && \at(r->now_us, L) - \at(r->fresh_us, L) <= \at(m->seen_us[iy][ix], L) <= \at(r->now_us, L);
+  @ // observed, fresh, and no higher than may be passed over; any other cell is a column without a top
+  @ predicate sk_passable{L}(sk_height_map *m, sk_clearance_rules *r, integer iy, integer ix) =
+  @   sk_current{L}(m, r, iy, ix) && sk_top{L}(m, iy, ix) <= \at(r->pass_mm[iy][ix], L);
   @ predicate sk_in_circle(integer x, integer y, integer radius) = x * x + y * y <= radius * radius;
   @ predicate sk_own_body{L}(sk_clearance_rules *r, integer iy, integer ix) =
   @   sk_in_circle(sk_cell_low(ix), sk_cell_low(iy), \at(r->own_body_radius_mm, L)) &&
@@ -75,6 +79,16 @@ static inline int64_t sk_column_top_mm(const sk_height_map *m, const sk_clearanc
   int32_t height_mm = m->height_mm[iy][ix];
   int32_t previous_mm = m->previous_mm[iy][ix];
   return (int64_t)(height_mm >= previous_mm ? height_mm : previous_mm) + r->margin_mm;
+}
+
+/*@ requires \valid_read(m) && \valid_read(r) && sk_rules_fit(r) && sk_in_map(iy, ix);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_passable(m, r, iy, ix);
+  @*/
+static inline bool sk_is_passable(const sk_height_map *m, const sk_clearance_rules *r, int32_t iy, int32_t ix)
+{
+  int32_t pass_mm = r->pass_mm[iy][ix];
+  return sk_is_current(m, r, iy, ix) && m->height_mm[iy][ix] <= pass_mm && m->previous_mm[iy][ix] <= pass_mm;
 }
 
 /*@ requires -SK_COORD_MAX_MM <= low_mm <= SK_COORD_MAX_MM;

@@ -8,7 +8,10 @@
 static int32_t sk_column_at(const sk_height_map *m, const sk_clearance_rules *r, int32_t iy, int32_t ix)
 {
   int64_t top_mm = sk_column_top_mm(m, r, iy, ix);
-  if (!sk_is_current(m, r, iy, ix) || top_mm > SK_NO_TOP) { return SK_NO_TOP; }
+  int64_t most_mm = (int64_t)r->pass_mm[iy][ix] + r->margin_mm; /* one comparison, as the loop over the map is to go in lanes */
+  /*@ assert most_mm < SK_NO_TOP; */
+  /*@ assert sk_passable(m, r, iy, ix) <==> sk_current(m, r, iy, ix) && top_mm <= most_mm; */
+  if (!sk_is_current(m, r, iy, ix) || top_mm > most_mm) { return SK_NO_TOP; }
   return (int32_t)top_mm;
 }
 
@@ -25,6 +28,24 @@ static void sk_columns_row(const sk_height_map *m, const sk_clearance_rules *r, 
     @ loop variant SK_MAP_CELLS - ix;
     @*/
   for (ix = 0; ix < SK_MAP_CELLS; ix++) { c->top_mm[iy][ix] = sk_column_at(m, r, iy, ix); }
+}
+
+/* One row more, which changes nothing that those before rest on. */
+/*@ requires \valid_read(m) && \valid_read(r) && sk_rules_fit(r) && \valid(c) && \separated(c, m, r) && 0 <= iy < SK_MAP_CELLS;
+  @ requires \forall integer j, i; 0 <= j < iy && 0 <= i < SK_MAP_CELLS ==> sk_column_right(c, m, r, j, i);
+  @ assigns c->top_mm[iy][0 .. SK_MAP_CELLS - 1];
+  @ ensures \forall integer j, i; 0 <= j <= iy && 0 <= i < SK_MAP_CELLS ==> sk_column_right(c, m, r, j, i);
+  @*/
+static void sk_add_row(const sk_height_map *m, const sk_clearance_rules *r, sk_columns *c, int32_t iy)
+{
+  sk_columns_row(m, r, c, iy);
+  /*@ assert tops: \forall integer j, i; 0 <= j < iy && 0 <= i < SK_MAP_CELLS ==> c->top_mm[j][i] == \at(c->top_mm[j][i], Pre); */
+  /*@ assert heights: \forall integer j, i; sk_in_map(j, i) ==> m->height_mm[j][i] == \at(m->height_mm[j][i], Pre); */
+  /*@ assert previous: \forall integer j, i; sk_in_map(j, i) ==> m->previous_mm[j][i] == \at(m->previous_mm[j][i], Pre); */
+  /*@ assert rules: r->now_us == \at(r->now_us, Pre) && r->fresh_us == \at(r->fresh_us, Pre) && r->margin_mm == \at(r->margin_mm, Pre); */
+  /*@ assert same: \forall integer j, i; sk_in_map(j, i) ==> (sk_has_top{Here}(m, r, j, i) <==> sk_has_top{Pre}(m, r, j, i)) &&
+    @   sk_column_top{Here}(m, r, j, i) == sk_column_top{Pre}(m, r, j, i); */
+  /*@ assert before: \forall integer j, i; 0 <= j < iy && 0 <= i < SK_MAP_CELLS ==> sk_column_right(c, m, r, j, i); */
 }
 
 /* The first cell beyond a block along one axis. */
@@ -124,7 +145,7 @@ static void sk_tops_of(const sk_height_map *m, const sk_clearance_rules *r, sk_c
     @ loop assigns iy, c->top_mm[..][..];
     @ loop variant SK_MAP_CELLS - iy;
     @*/
-  for (iy = 0; iy < SK_MAP_CELLS; iy++) { sk_columns_row(m, r, c, iy); }
+  for (iy = 0; iy < SK_MAP_CELLS; iy++) { sk_add_row(m, r, c, iy); }
 }
 
 /* The blocks change nothing that the tops rest on. */
@@ -142,6 +163,7 @@ static void sk_add_blocks(const sk_height_map *m, const sk_clearance_rules *r, s
   /*@ assert previous: \forall integer iy, ix; sk_in_map(iy, ix) ==> m->previous_mm[iy][ix] == \at(m->previous_mm[iy][ix], Pre); */
   /*@ assert seen: \forall integer iy, ix; sk_in_map(iy, ix) ==> m->seen_us[iy][ix] == \at(m->seen_us[iy][ix], Pre); */
   /*@ assert rules: r->now_us == \at(r->now_us, Pre) && r->fresh_us == \at(r->fresh_us, Pre) && r->margin_mm == \at(r->margin_mm, Pre); */
+  /*@ assert pass: \forall integer iy, ix; sk_in_map(iy, ix) ==> r->pass_mm[iy][ix] == \at(r->pass_mm[iy][ix], Pre); */
   /*@ assert same: \forall integer iy, ix; sk_in_map(iy, ix) ==> (sk_has_top{Here}(m, r, iy, ix) <==> sk_has_top{Pre}(m, r, iy, ix)) &&
     @   sk_column_top{Here}(m, r, iy, ix) == sk_column_top{Pre}(m, r, iy, ix); */
 }

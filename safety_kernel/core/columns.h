@@ -7,15 +7,15 @@ SK_BEGIN
 
 #define SK_BLOCK_CELLS 4 /* along one side */
 #define SK_MAP_BLOCKS ((SK_MAP_CELLS + SK_BLOCK_CELLS - 1) / SK_BLOCK_CELLS)
-#define SK_NO_TOP 2147483647 /* of a cell never observed or stale: above every slice */
+#define SK_NO_TOP 2147483647 /* of a cell never observed, stale, or too high to be passed over: above every slice */
 
 typedef struct sk_columns {
-  int32_t top_mm[SK_MAP_CELLS][SK_MAP_CELLS];     /* effective height plus margin of a current cell; of any other SK_NO_TOP */
+  int32_t top_mm[SK_MAP_CELLS][SK_MAP_CELLS];     /* effective height plus margin of a current cell that may be passed over; of any other SK_NO_TOP */
   int32_t block_mm[SK_MAP_BLOCKS][SK_MAP_BLOCKS]; /* no less than the top of any of its cells */
 } sk_columns;
 
 /*@ predicate sk_has_top{L}(sk_height_map *m, sk_clearance_rules *r, integer iy, integer ix) =
-  @   sk_current{L}(m, r, iy, ix) && sk_column_top{L}(m, r, iy, ix) < SK_NO_TOP;
+  @   sk_passable{L}(m, r, iy, ix) && sk_column_top{L}(m, r, iy, ix) < SK_NO_TOP;
   @ predicate sk_column_right{L}(sk_columns *c, sk_height_map *m, sk_clearance_rules *r, integer iy, integer ix) =
   @   (sk_has_top{L}(m, r, iy, ix) ==> \at(c->top_mm[iy][ix], L) == sk_column_top{L}(m, r, iy, ix)) &&
   @   (!sk_has_top{L}(m, r, iy, ix) ==> \at(c->top_mm[iy][ix], L) == SK_NO_TOP);
@@ -28,9 +28,9 @@ typedef struct sk_columns {
   @ predicate sk_blocks_bound{L}(sk_columns *c) = \forall integer by, bx; 0 <= by < SK_MAP_BLOCKS && 0 <= bx < SK_MAP_BLOCKS ==>
   @   sk_block_bounds{L}(c, by, bx, \at(c->block_mm[by][bx], L));
   @ // lower than the whole slice: the level plane just below its lowest vertex separates it
-  @ predicate sk_level{L}(sk_height_map *m, sk_slice *s, sk_clearance_rules *r, integer iy, integer ix) = sk_current{L}(m, r, iy, ix) &&
+  @ predicate sk_level{L}(sk_height_map *m, sk_slice *s, sk_clearance_rules *r, integer iy, integer ix) = sk_passable{L}(m, r, iy, ix) &&
   @   \forall integer i; 0 <= i < \at(s->vertices, L) ==> \at(s->xyz_mm[2][i], L) > sk_column_top{L}(m, r, iy, ix);
-  @ // what a cell under a level slice must be: the own body's under the boom, or current and lower than every vertex
+  @ // what a cell under a level slice must be: the own body's under the boom, or one that may be passed over, and lower than every vertex
   @ predicate sk_cell_level{L}(sk_height_map *m, sk_slice *s, sk_clearance_rules *r, integer iy, integer ix) =
   @   (sk_own_body{L}(r, iy, ix) ==> \at(s->link, L) == 1) &&
   @   (!sk_own_body{L}(r, iy, ix) ==> sk_level{L}(m, s, r, iy, ix));
@@ -45,7 +45,7 @@ typedef struct sk_columns {
   @*/
 bool sk_columns_of(const sk_height_map *m, const sk_clearance_rules *rules, sk_columns *out);
 
-/* Whether the slice is clear by its own height alone: every cell under it is in the map and is the own body's under the boom, or is current and, with the
+/* Whether the slice is clear by its own height alone: every cell under it is in the map and is the own body's under the boom, or may be passed over and is, with the
  * margin, lower than every vertex. So a level plane separates the slice from all of them: with plane (0, 0, 1, lowest z - 1) chosen everywhere sk_clear_slice would say CLEAR. False says only that this
  * is not so simple. The columns must be those of this map and these rules. */
 /*@ requires \valid_read(m) && \valid_read(c) && \valid_read(s) && \valid_read(rules);

@@ -1,5 +1,6 @@
 #include "parameter_check.h"
 #include "parameter_braking.h"
+#include "parameter_overpass.h"
 #include "parameter_parts.h"
 #include "parameter_range.h"
 
@@ -304,5 +305,6 @@ int32_t sk_parameters_check(const berm_parameters *p)
   if (rule == SK_RULE_NONE) { rule = check_map(p); }
   if (rule == SK_RULE_NONE) { rule = check_times(p); }
   if (rule == SK_RULE_NONE) { rule = check_base(p); }
+  if (rule == SK_RULE_NONE) { rule = sk_check_overpass(p); }
   return rule;
 }

@@ -71,6 +71,13 @@ SK_BEGIN
   @ ensures why_base_tilt_hard: \result == SK_RULE_BASE_TILT_HARD ==> !sk_rule_base_tilt_hard(p);
   @ ensures why_base_azimuth: \result == SK_RULE_BASE_AZIMUTH ==> !sk_rule_base_azimuth(p);
   @ ensures why_base_frame_age: \result == SK_RULE_BASE_FRAME_AGE ==> !sk_rule_base_frame_age(p);
+  @ ensures why_pass_over: \result == SK_RULE_PASS_OVER ==> !sk_rule_pass_over(p);
+  @ ensures why_ground_zone_count: \result == SK_RULE_GROUND_ZONE_COUNT ==> !sk_rule_ground_zone_count(p);
+  @ ensures why_ground_zone_bounds: \result == SK_RULE_GROUND_ZONE_BOUNDS ==> !sk_rule_ground_zone_bounds(p);
+  @ ensures why_ground_zone_limit: \result == SK_RULE_GROUND_ZONE_LIMIT ==> !sk_rule_ground_zone_limit(p);
+  @ ensures why_truck_zone_count: \result == SK_RULE_TRUCK_ZONE_COUNT ==> !sk_rule_truck_zone_count(p);
+  @ ensures why_truck_zone_bounds: \result == SK_RULE_TRUCK_ZONE_BOUNDS ==> !sk_rule_truck_zone_bounds(p);
+  @ ensures why_truck_zone_ceiling: \result == SK_RULE_TRUCK_ZONE_CEILING ==> !sk_rule_truck_zone_ceiling(p);
   @*/
 int32_t sk_parameters_check(const berm_parameters *p);
 

@@ -27,7 +27,9 @@ enum {
   SK_RULE_STATE_FRAME_AGE = 52, SK_RULE_MACHINE_STATE_AGE = 53, SK_RULE_OPERATOR_AGE = 54, SK_RULE_CYCLE = 55,
   SK_RULE_STANDSTILL_SPEED = 56, SK_RULE_STANDSTILL_TIME = 57,
   SK_RULE_BASE_TILT = 58, SK_RULE_BASE_TILT_HARD = 59, SK_RULE_BASE_AZIMUTH = 60, SK_RULE_BASE_FRAME_AGE = 61,
-  SK_RULES = 62
+  SK_RULE_PASS_OVER = 62, SK_RULE_GROUND_ZONE_COUNT = 63, SK_RULE_GROUND_ZONE_BOUNDS = 64, SK_RULE_GROUND_ZONE_LIMIT = 65,
+  SK_RULE_TRUCK_ZONE_COUNT = 66, SK_RULE_TRUCK_ZONE_BOUNDS = 67, SK_RULE_TRUCK_ZONE_CEILING = 68,
+  SK_RULES = 69
 };
 
 /*@ predicate sk_within(integer v, integer low, integer high) = low <= v <= high;
@@ -175,9 +177,26 @@ enum {
   @ predicate sk_base_ok(berm_parameters *p) =
   @   sk_rule_base_tilt(p) && sk_rule_base_tilt_hard(p) && sk_rule_base_azimuth(p) && sk_rule_base_frame_age(p);
   @
+  @ // overpass rule
+  @ predicate sk_rectangle_ok(integer x_low, integer y_low, integer x_high, integer y_high) =
+  @   -15000 <= x_low < x_high <= 15000 && -15000 <= y_low < y_high <= 15000;
+  @ predicate sk_height_ok(integer z) = sk_within(z, -SK_HEIGHT_MAX_MM, SK_HEIGHT_MAX_MM);
+  @ predicate sk_ground_bounds_ok(berm_ground_zone *z) = sk_rectangle_ok(z->x_low_mm, z->y_low_mm, z->x_high_mm, z->y_high_mm);
+  @ predicate sk_truck_bounds_ok(berm_truck_zone *z) = sk_rectangle_ok(z->x_low_mm, z->y_low_mm, z->x_high_mm, z->y_high_mm);
+  @ predicate sk_rule_pass_over(berm_parameters *p) = sk_height_ok(p->pass_over_mm);
+  @ predicate sk_rule_ground_zone_count(berm_parameters *p) = sk_within(p->ground_zones, 0, BERM_GROUND_ZONES);
+  @ predicate sk_rule_ground_zone_bounds(berm_parameters *p) = \forall integer i; 0 <= i < p->ground_zones ==> sk_ground_bounds_ok(&p->ground_zone[i]);
+  @ predicate sk_rule_ground_zone_limit(berm_parameters *p) = \forall integer i; 0 <= i < p->ground_zones ==> sk_height_ok(p->ground_zone[i].pass_over_mm);
+  @ predicate sk_rule_truck_zone_count(berm_parameters *p) = sk_within(p->truck_zones, 0, BERM_TRUCK_ZONES);
+  @ predicate sk_rule_truck_zone_bounds(berm_parameters *p) = \forall integer i; 0 <= i < p->truck_zones ==> sk_truck_bounds_ok(&p->truck_zone[i]);
+  @ predicate sk_rule_truck_zone_ceiling(berm_parameters *p) = \forall integer i; 0 <= i < p->truck_zones ==> sk_height_ok(p->truck_zone[i].ceiling_mm);
+  @ predicate sk_overpass_ok(berm_parameters *p) =
+  @   sk_rule_pass_over(p) && sk_rule_ground_zone_count(p) && sk_rule_ground_zone_bounds(p) && sk_rule_ground_zone_limit(p) &&
+  @   sk_rule_truck_zone_count(p) && sk_rule_truck_zone_bounds(p) && sk_rule_truck_zone_ceiling(p);
+  @
   @ predicate sk_parameters_ok(berm_parameters *p) =
   @   sk_head_ok(p) && sk_kinematics_ok(p) && sk_joints_ok(p) && sk_braking_ok(p) && sk_parts_ok(p) && sk_sensors_ok(p) && sk_map_rules_ok(p) &&
-  @   sk_times_ok(p) && sk_base_ok(p);
+  @   sk_times_ok(p) && sk_base_ok(p) && sk_overpass_ok(p);
   @*/
 
 SK_END

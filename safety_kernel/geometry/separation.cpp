@@ -167,6 +167,11 @@ bool planes_in_range(const sk_slice& slice) noexcept {
   return true;
 }
 
+// Height of the column of a current cell.
+int32_t column_height(const sk_height_map& map, const sk_clearance_rules& rules, int32_t iy, int32_t ix) noexcept {
+  return static_cast<int32_t>(std::min<int64_t>(sk_column_top_mm(&map, &rules, iy, ix), SK_NO_TOP));
+}
+
 // The first from ix on that is not lower than z, or one beyond the last; nearly all are lower.
 int32_t next_high(const int32_t* row, int32_t ix, int32_t last, int32_t z) noexcept {
   if (ix <= last && row[ix] >= z) return ix; // high ones stand together
@@ -222,11 +227,16 @@ bool choose_planes(const sk_height_map& map, const sk_columns& columns, const sk
         own = exceptions.own_body(x, y);
         if (own ? exceptions.boom() : top < z_low) continue;
       }
-      if (exceptions.any_zone() && (top != SK_NO_TOP || (rules.dig_stale && map.seen_us[iy][ix] >= 0)) && exceptions.dig_zone(x, y, sk_map_top(&map, iy, ix))) continue;
+      const bool current = top != SK_NO_TOP || sk_is_current(&map, &rules, iy, ix);  // one that is too high to be passed over has no top either
+      if (exceptions.any_zone() && (current || (rules.dig_stale && map.seen_us[iy][ix] >= 0)) && exceptions.dig_zone(x, y, sk_map_top(&map, iy, ix))) continue;
       const bool has_top = !own && top <= SK_COORD_MAX_MM;
       const Column column = {x, y, has_top ? std::max(top, -SK_COORD_MAX_MM) : 0, has_top};
       const int plane = search.find(column);
-      if (plane == 0) return false;
+      if (plane == 0) {
+        // Blocked; a plane over it, where it is merely too high to be passed over, lets the core say so.
+        if (!own && !has_top && current) choice.plane_of[iy][ix] = static_cast<uint8_t>(search.find({x, y, std::clamp(column_height(map, rules, iy, ix), -SK_COORD_MAX_MM, SK_COORD_MAX_MM), true}));
+        return false;
+      }
       choice.plane_of[iy][ix] = static_cast<uint8_t>(plane);
       if (!bodied && !exceptions.any_zone()) ix = search.extend(row, ix, cells.ix_high, column, z_low, choice.plane_of[iy]);
     }

@@ -130,6 +130,7 @@ void Cycle::judge_motion(std::int64_t now_us) {
   std::copy(picture.velocity.velocity_urad_s, picture.velocity.velocity_urad_s + SK_JOINTS, query.velocity_urad_s);
   std::copy(requested_urad_s_, requested_urad_s_ + SK_JOINTS, query.requested_urad_s);
   commands_.range(now_us, query.under_way_low_urad_s, query.under_way_high_urad_s);
+  query.truck_admitted = frames_.spotter_fresh(now_us) && picture.spotter.truck_parked && !picture.spotter.truck_leaving;
   motion_.check(query, map_, verdict_);
   motion_fault_ = motion_watch_.check(query, verdict_.box, frames_.angle_us(), frames_.velocity_us());
 }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/overpass.h"
 #include "geometry/reach.hpp"
 #include "geometry/separation.hpp"
-#include "io/own_cells.hpp"
 
 namespace berm::kernel {
 
@@ -17,6 +17,7 @@ std::uint8_t reason_of(std::int32_t verdict) {
     case SK_BLOCKED_UNKNOWN: return BERM_STOP_UNKNOWN_GROUND;
     case SK_BLOCKED_STALE: return BERM_STOP_STALE_GROUND;
     case SK_BLOCKED_FLOOR: return BERM_STOP_DIG_FLOOR;
+    case SK_BLOCKED_OVERPASS: return BERM_STOP_OVERPASS;
     default: return BERM_STOP_INTERNAL;
   }
 }
@@ -27,7 +28,7 @@ std::int32_t cell_centre_mm(std::int32_t index) { return SK_MAP_ORIGIN_MM + inde
 
 }  // namespace
 
-MotionCheck::MotionCheck(const berm_parameters& parameters) : parameters_(parameters), shape_(parameters), rules_{}, columns_{}, choice_{} {
+MotionCheck::MotionCheck(const berm_parameters& parameters) : parameters_(parameters), shape_(parameters), own_cells_(parameters), rules_{}, columns_{}, choice_{} {
   rules_.fresh_us = parameters.fresh_us;
   rules_.margin_mm = parameters.margin_mm;
   rules_.dig_zones = parameters.dig_zones;
@@ -189,11 +190,20 @@ void MotionCheck::govern_swing(const MotionQuery& query, const sk_height_map& ma
   verdict.command_urad_s[BERM_SWING] = sk_governor_clamp(requested, -speed, speed);
 }
 
+// Made anew when a truck is admitted or is no longer: seldom, and a bounded time.
+bool MotionCheck::limit_overpass(bool truck_admitted) {
+  if (limited_ && truck_admitted == truck_admitted_) return true;
+  limited_ = sk_pass_limits(&parameters_, truck_admitted, &rules_);
+  own_cells_.permit(rules_);
+  truck_admitted_ = truck_admitted;
+  return limited_;
+}
+
 void MotionCheck::check(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
   verdict = MotionVerdict{};
   request_slices_.count = 0;
   rules_.now_us = query.now_us;
-  if (!sk_columns_of(&map, &rules_, &columns_)) {
+  if (!limit_overpass(query.truck_admitted) || !sk_columns_of(&map, &rules_, &columns_)) {
     verdict.permission = Permission::kHeld;
     verdict.reason = BERM_STOP_INTERNAL;
     return;

@@ -14,6 +14,7 @@
 #include "core/governor.h"
 #include "core/reach_box.h"
 #include "geometry/swept_slices.hpp"
+#include "io/own_cells.hpp"
 
 namespace berm::kernel {
 
@@ -26,6 +27,7 @@ struct MotionQuery {
   std::int32_t requested_urad_s[4];     // zeros when there is no usable request
   std::int32_t under_way_low_urad_s[4];  // commands sent and perhaps not yet obeyed
   std::int32_t under_way_high_urad_s[4];
+  bool truck_admitted;                   // by the spotter, now: trucks in the truck zones may be passed over
 };
 
 struct MotionVerdict {
@@ -66,11 +68,14 @@ class MotionCheck {
   // Room (urad from the measured angle) that is clear in the swing's direction of the request, as far as the box and wanted reach.
   std::int64_t room_ahead(const MotionQuery& query, const sk_height_map& map, std::int64_t wanted_urad, MotionVerdict& verdict);
   void govern_swing(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
+  bool limit_overpass(bool truck_admitted);
   void note_cell(const sk_height_map& map, const sk_slice& slice, const sk_clearance_result& result, MotionVerdict& verdict) const;
 
   const berm_parameters& parameters_;
   const ImplementShape shape_;
+  const OwnCells own_cells_;
   sk_clearance_rules rules_{};
+  bool limited_ = false, truck_admitted_ = false;  // what the overpass limits of the rules are made for
   SliceSet request_slices_;
   SliceSet other_slices_;  // of the room ahead, or of a slower request
   sk_columns columns_;

@@ -40,4 +40,11 @@ void OwnCells::stamp(sk_height_map& map, std::int64_t now_us, std::int32_t gener
   for (int i = 0; i < count_; ++i) sk_map_insert(&map, cell_[i].iy, cell_[i].ix, cell_[i].height_mm, now_us, generation_us);
 }
 
+void OwnCells::permit(sk_clearance_rules& rules) const {
+  for (int i = 0; i < count_; ++i) {
+    std::int16_t& limit_mm = rules.pass_mm[cell_[i].iy][cell_[i].ix];
+    limit_mm = static_cast<std::int16_t>(std::max<std::int32_t>(limit_mm, cell_[i].height_mm));
+  }
+}
+
 }  // namespace berm::kernel

@@ -4,12 +4,13 @@
 // those that the circle only touches (the rim); and the boom is always over some of them. Therefore:
 //   for the boom, cells within the radius and a cell's diagonal are the machine's own: nothing to check (core/clearance.h);
 //   for stick and bucket, a cell wholly inside the circle is a column without end: passed at the side, never over;
-//   a cell of the rim is as high as the own body may be, and higher where something higher was seen.
+//   a cell of the rim is as high as the own body may be, and higher where something higher was seen; up to that height it may be passed over.
 #pragma once
 
 #include <cstdint>
 
 #include "config/parameter_block.h"
+#include "core/clearance_rules.h"
 #include "core/height_map.h"
 
 namespace berm::kernel {
@@ -23,6 +24,8 @@ class OwnCells {
   explicit OwnCells(const berm_parameters& parameters);
   // Keeps these cells at their heights at least, and fresh. Once a cycle.
   void stamp(sk_height_map& map, std::int64_t now_us, std::int32_t generation_us) const;
+  // The overpass rule does not take the own body for a person: these cells may be passed over at the heights they are kept at.
+  void permit(sk_clearance_rules& rules) const;
 
  private:
   struct Cell {

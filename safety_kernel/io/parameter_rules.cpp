@@ -69,6 +69,13 @@ constexpr const char* kText[] = {
     "base_tilt_hard_urad: within base_tilt_urad..90000",
     "base_azimuth_urad: within 1000..35000",
     "base_frame_age_us: within 1..1000000",
+    "pass_over_mm: within +-20000",
+    "ground_zones: 0 to 4",
+    "ground_zone: low below high, within +-15000 mm",
+    "ground_zone pass_over_mm: within +-20000",
+    "truck_zones: 0 to 4",
+    "truck_zone: low below high, within +-15000 mm",
+    "truck_zone ceiling_mm: within +-20000",
 };
 static_assert(sizeof kText / sizeof kText[0] == SK_RULES, "one text a rule");
 

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "geometry/separation.hpp"
+#include "pass_over.hpp"
 
 namespace berm::bench {
 
@@ -21,6 +22,7 @@ Certificate::Certificate(const berm_parameters& parameters, const std::vector<st
         throw std::runtime_error("the map refuses a height");
   rules_.now_us = kNowUs;
   rules_.fresh_us = parameters.fresh_us;
+  test::pass_over(rules_);
   prepare();
 }
 

@@ -9,6 +9,7 @@
 #include "column_mesh.hpp"
 #include "convex_body.hpp"
 #include "geometry/separation.hpp"
+#include "pass_over.hpp"
 #include "peer_bullet.hpp"
 #include "peer_fcl.hpp"
 
@@ -75,6 +76,7 @@ class Question {
       for (int ix = 0; ix < SK_MAP_CELLS; ++ix) sk_map_insert(map_.get(), iy, ix, heights_[iy * SK_MAP_CELLS + ix], kNowUs, 1000000);
     rules_.now_us = kNowUs;
     rules_.fresh_us = 1000000;
+    test::pass_over(rules_);
     sk_columns_of(map_.get(), &rules_, columns_.get());
     std::vector<std::int32_t> patch(9, kGroundMm);
     patch[4] = c.corner[2];

@@ -30,7 +30,7 @@ class ClearanceGrid : public testing::Test {
   std::unique_ptr<sk_height_map> map = cleared_map();
   std::unique_ptr<sk_choice> choice = std::make_unique<sk_choice>();
   sk_clearance_rules rules = scene_rules();
-  long verdicts[6] = {};
+  long verdicts[7] = {};
 };
 
 sk_slice point_slice(std::int32_t x, std::int32_t y, std::int32_t z) {
@@ -104,6 +104,37 @@ TEST_F(ClearanceGrid, EveryStateOfACell) {
                     if (HasFailure()) FAIL() << cell_of(*map, 52, 52) << "; fresh " << rules.fresh_us << " floor " << floor << " ceiling " << ceiling;
                   }
   for (int verdict = SK_CLEAR; verdict <= SK_BLOCKED_FLOOR; ++verdict) EXPECT_GT(verdicts[verdict], 1000) << verdict;
+}
+
+// Every height about every limit, with every kind of plane under the slice, in every state of the cell.
+// verifies: SK-CL-15, SK-CL-16
+TEST_F(ClearanceGrid, EveryHeightAboutTheOverpassLimit) {
+  rules.now_us = 4;
+  rules.margin_mm = 1;
+  for (const int link : {1, 2, 3})
+    for (int plane = 0; plane <= 5; ++plane) {
+      const sk_slice s = block_slice(link, {10, 20, 10, 20, 0, 500});
+      choose(*choice, plane);
+      for (const bool own : {false, true})
+        for (const bool dig : {false, true})
+          for (rules.fresh_us = 0; rules.fresh_us <= 2; ++rules.fresh_us)
+            for (int seen = -1; seen <= 5; ++seen)
+              for (int height = -4; height <= 2; ++height)
+                for (int previous = -4; previous <= 2; ++previous)
+                  for (int limit = -5; limit <= 3; ++limit) {
+                    rules.own_body_radius_mm = own ? 500 : 0;
+                    rules.dig_allowed = dig;
+                    rules.dig_zones = 1;
+                    rules.dig_zone[0] = {0, 0, 300, 300, -10, -2};
+                    rules.pass_mm[52][52] = static_cast<std::int16_t>(limit);
+                    put(*map, 52, 52, {height, previous, 0, seen});
+                    expect_as_said(s);
+                    if (HasFailure()) FAIL() << cell_of(*map, 52, 52) << "; fresh " << rules.fresh_us << " limit " << limit << " plane " << plane;
+                  }
+    }
+  EXPECT_GT(verdicts[SK_BLOCKED_OVERPASS], 300);
+  EXPECT_GT(verdicts[SK_CLEAR], 1000);
+  EXPECT_GT(verdicts[SK_BLOCKED_COLLISION], 1000);
 }
 
 // verifies: SK-CL-7

@@ -130,6 +130,24 @@ TEST(Recovery, SwingsBackToLookAtWhatStopsItAgainAndAgain) {
   EXPECT_EQ(calls, 1);
 }
 
+// What may not be passed over is ground like any other: looked at again, crept away from.
+TEST(Recovery, GoesRoundWhatMayNotBePassedOver) {
+  Recovery recovery(berm::app_bench::zx200());
+  const ProgressLog log(-1);
+  int rescans = 0, calls = 0;
+  bool swung_away = false;
+  for (int k = 0; k < 4000; ++k) {
+    const auto advice = recovery.step(stopped(0.01 * k, BERM_STOP_OVERPASS), log);
+    rescans += advice.rescan;
+    calls += advice.operator_called;
+    swung_away = swung_away || advice.velocity[swing] < 0.0;
+    ASSERT_LE(advice.velocity[swing], 0.0) << "toward what blocks";
+  }
+  EXPECT_GE(rescans, 5);
+  EXPECT_TRUE(swung_away);
+  EXPECT_EQ(calls, 1);
+}
+
 TEST(Recovery, AfterGoodMotionAStopIsANewOne) {
   Recovery recovery(berm::app_bench::zx200());
   const ProgressLog log(-1);

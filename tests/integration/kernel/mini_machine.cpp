@@ -21,7 +21,9 @@ constexpr double kRangeMaxM = 50.0;
 
 berm_parameters demo_parameters() {
   const std::string files = BERM_CONFIG_FILES;
-  return config::compile_parameters(config::load_machine_file(files + "/machines/zx200.toml"), config::load_site_file(files + "/sites/bench.toml"));
+  config::SiteFile site = config::load_site_file(files + "/sites/bench.toml");
+  site.ground_zone.clear();  // the miniature machine's ground is level
+  return config::compile_parameters(config::load_machine_file(files + "/machines/zx200.toml"), site);
 }
 
 std::int32_t urad(double degrees) { return static_cast<std::int32_t>(std::lround(degrees * kPi / 180.0 * 1e6)); }
@@ -86,7 +88,7 @@ void MiniMachine::make_frames() {
     add_guarded(berm_encode_operator(&panel));
   }
   if (spotter_present) {
-    const berm_spotter spotter{true, false, false, 0};
+    const berm_spotter spotter{!truck_leaving, truck_leaving, false, 0};
     add_guarded(berm_encode_spotter(&spotter));
   }
 }

@@ -40,7 +40,8 @@ class MiniMachine {
   bool run_switch = true;
   bool operator_stop = false;
   bool estop_pressed = false;
-  bool spotter_present = false;
+  bool spotter_present = false;  // says that a truck is parked
+  bool truck_leaving = false;    // or that it leaves
   bool system_error = false;
   bool attitude_silent = false;  // Roll_Pitch
   bool azimuth_silent = false;   // Vehicle_Azimuth

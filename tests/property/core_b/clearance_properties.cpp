@@ -72,6 +72,11 @@ sk_clearance_rules random_rules(const sk_slice& s) {
     z = {x - draw(0, 3000), y - draw(0, 3000), x + draw(0, 3000), y + draw(0, 3000), lowest(s) + draw(-500, 100), lowest(s) + draw(-1000, 1500)};
     if (chance(50)) z = {z.x_low_mm / 300 * 300, z.y_low_mm / 300 * 300, z.x_high_mm / 300 * 300, z.y_high_mm / 300 * 300, z.floor_mm, z.ceiling_mm};
   }
+  if (chance(50)) {
+    const std::int32_t limit = lowest(s) - r.margin_mm + draw(-600, 300);
+    for (auto& row : r.pass_mm)
+      for (auto& each : row) each = static_cast<std::int16_t>(std::clamp(limit + draw(0, 400), -20000, 20000));
+  }
   return r;
 }
 
@@ -116,7 +121,7 @@ void choose_at_random(const sk_height_map& map, const sk_slice& s, const sk_clea
     }
 }
 
-// No point of a clear slice is in a column, own body under the boom and soil to dig excepted. Returns how many columns it is in.
+// No point of a clear slice is in or over a column that it may not be over, own body under the boom and soil to dig excepted. Returns how many columns it is in.
 int expect_apart(const sk_height_map& map, const sk_slice& s, const sk_clearance_rules& r) {
   std::vector<Vector> vertices;
   for (int i = 0; i < s.vertices; ++i) vertices.push_back({s.xyz_mm[0][i], s.xyz_mm[1][i], s.xyz_mm[2][i]});
@@ -127,7 +132,8 @@ int expect_apart(const sk_height_map& map, const sk_slice& s, const sk_clearance
     for (int ix = 0; ix < SK_MAP_CELLS; ++ix) {
       Column c{low_of_cell_mm(ix), low_of_cell_mm(ix + 1), low_of_cell_mm(iy), low_of_cell_mm(iy + 1), 0};
       if (c.x_high < (*west)[0] || c.x_low > (*east)[0]) continue;
-      c.top = current(map, r, iy, ix) ? std::max(map.height_mm[iy][ix], map.previous_mm[iy][ix]) + r.margin_mm : hull.highest() + 1;
+      const std::int32_t top = std::max(map.height_mm[iy][ix], map.previous_mm[iy][ix]);
+      c.top = current(map, r, iy, ix) && top <= r.pass_mm[iy][ix] ? top + r.margin_mm : hull.highest() + 1;
       if (!hull.meets(c)) continue;
       ++touched;
       RC_ASSERT((own_body(r, iy, ix) && s.link == 1) || may_be_dug(map, s, r, iy, ix));
@@ -137,13 +143,13 @@ int expect_apart(const sk_height_map& map, const sk_slice& s, const sk_clearance
 }
 
 struct Tally {
-  std::array<long, 6> verdicts{};
+  std::array<long, 7> verdicts{};
   long touching = 0;
 };
 
 }  // namespace
 
-// verifies: SK-CL-1, SK-CL-2, SK-CL-3, SK-CL-5, SK-CL-6, SK-CL-7, SK-CL-8, SK-CL-9, SK-CL-10, SK-CL-13, SK-CL-14
+// verifies: SK-CL-1, SK-CL-2, SK-CL-3, SK-CL-5, SK-CL-6, SK-CL-7, SK-CL-8, SK-CL-9, SK-CL-10, SK-CL-13, SK-CL-14, SK-CL-15, SK-CL-16
 TEST(ClearanceProperties, WhatIsClearTouchesNothing) {
   const auto map = std::make_unique<sk_height_map>();
   const auto choice = std::make_unique<sk_choice>();
@@ -163,10 +169,10 @@ TEST(ClearanceProperties, WhatIsClearTouchesNothing) {
   }));
   std::cout << "clear " << tally.verdicts[SK_CLEAR] << " (of these touching soil to dig or the own body " << tally.touching << "), collision "
             << tally.verdicts[SK_BLOCKED_COLLISION] << ", unknown " << tally.verdicts[SK_BLOCKED_UNKNOWN] << ", stale "
-            << tally.verdicts[SK_BLOCKED_STALE] << ", floor " << tally.verdicts[SK_BLOCKED_FLOOR] << "\n";
+            << tally.verdicts[SK_BLOCKED_STALE] << ", floor " << tally.verdicts[SK_BLOCKED_FLOOR] << ", overpass " << tally.verdicts[SK_BLOCKED_OVERPASS] << "\n";
   EXPECT_GT(tally.verdicts[SK_CLEAR], 500);
   EXPECT_GT(tally.touching, 30);
-  for (const int verdict : {SK_BLOCKED_COLLISION, SK_BLOCKED_UNKNOWN, SK_BLOCKED_STALE, SK_BLOCKED_FLOOR}) {
+  for (const int verdict : {SK_BLOCKED_COLLISION, SK_BLOCKED_UNKNOWN, SK_BLOCKED_STALE, SK_BLOCKED_FLOOR, SK_BLOCKED_OVERPASS}) {
     EXPECT_GT(tally.verdicts[static_cast<std::size_t>(verdict)], 30) << verdict;
   }
 }

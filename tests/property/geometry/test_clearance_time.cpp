@@ -11,6 +11,7 @@
 #include "geometry/separation.hpp"
 #include "geometry/swept_slices.hpp"
 #include "machine_profile.hpp"
+#include "pass_over.hpp"
 
 namespace berm::kernel::test {
 namespace {
@@ -71,6 +72,7 @@ TEST(ClearanceTime, FullSpeedReachBox) {
   rules.now_us = now_us;
   rules.fresh_us = 20000000;
   rules.margin_mm = 300;
+  berm::test::pass_over(rules);
   for (const Machine& machine : machines) {
     rules.own_body_radius_mm = machine.parameters.own_body_radius_mm;
     for (const Scene& scene : scenes) {

@@ -7,6 +7,7 @@
 
 #include "geometry/separation.hpp"
 #include "machine_profile.hpp"
+#include "pass_over.hpp"
 
 namespace berm::kernel::test {
 namespace {
@@ -42,6 +43,7 @@ public:
   Scene() : map_(std::make_unique<sk_height_map>()), columns_(std::make_unique<sk_columns>()), choice_(std::make_unique<sk_choice>()) {
     rules_.now_us = now_us;
     rules_.fresh_us = 1000000;
+    berm::test::pass_over(rules_);
   }
   void stand(const Case& c) {
     sk_map_clear(map_.get());
@@ -113,6 +115,7 @@ TEST(Grazing, GroundAtTheLowestVertexTouchesASlice) {
   rules.now_us = now_us;
   rules.fresh_us = 1000000;
   rules.margin_mm = 300;
+  berm::test::pass_over(rules);
   int asked = 0;
   for (const Machine& machine : machine_profiles())
     for (int n = 0; n < 30; ++n) {

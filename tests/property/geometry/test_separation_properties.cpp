@@ -10,6 +10,7 @@
 #include "geometry/separation.hpp"
 #include "geometry/swept_slices.hpp"
 #include "machine_profile.hpp"
+#include "pass_over.hpp"
 
 namespace berm::kernel::test {
 namespace {
@@ -180,6 +181,7 @@ TEST(Separation, ClaimsOnlyWhatHoldsAndFindsWhatIsThere) {
   rules.now_us = now_us;
   rules.fresh_us = fresh_us;
   rules.margin_mm = 300;
+  berm::test::pass_over(rules);
   for (const Machine& machine : machine_profiles()) {
     rules.own_body_radius_mm = machine.parameters.own_body_radius_mm;
     Tally tally;

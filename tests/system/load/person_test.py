@@ -8,7 +8,7 @@ from berm_command import check_slowed, load, main
 MARGIN_M = 0.30
 STILL_RAD_S = 0.005
 STOPPED = 4
-WHY = "collision_predicted"
+WHY = ("collision_predicted", "overpass")  # whichever the map knew first: his head at the bucket's height, or that he may not be passed over
 
 
 def seconds_of_standstill(trace):
@@ -32,10 +32,10 @@ def stands_for_a_person():
         assert result is not None, text[-500:]
         assert result["contacts"] == 0, f"seed {seed}: {result['contacts']} contacts"
         assert result["closest_approach_m"] >= MARGIN_M, f"seed {seed}: only {result['closest_approach_m']:.2f} m"
-        assert result["kernel_stops"].get(WHY, 0) >= 1, f"seed {seed}: the kernel did not stop for the person: {result['kernel_stops']}"
+        assert sum(result["kernel_stops"].get(why, 0) for why in WHY) >= 1, f"seed {seed}: the kernel did not stop for the person: {result['kernel_stops']}"
         spans += check_slowed(result, out, text)
         line = [row for row in text.splitlines() if row.strip().startswith("kernel stops")]
-        assert len(line) == 1 and WHY in line[0], f"seed {seed}: the summary does not say why: {line}"
+        assert len(line) == 1 and any(why in line[0] for why in WHY), f"seed {seed}: the summary does not say why: {line}"
         stood = seconds_of_standstill(out / "trace.csv")
         assert stood >= 2.0, f"seed {seed}: stood still for only {stood:.1f} s while the person was there"
         print(f"seed {seed}: closest {result['closest_approach_m']:.2f} m, stood {stood:.1f} s, kernel stops {result['kernel_stops']}")

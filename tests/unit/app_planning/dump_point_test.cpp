@@ -65,6 +65,26 @@ TEST(DumpPoint, StaysABucketsWidthFromTheEndWalls) {
   }
 }
 
+// The kernel lets nothing pass over what stands beyond the site's truck zone: the cab.
+TEST(DumpPoint, StaysWellWithinTheTruckZone) {
+  TruckBed bed = berm::app_bench::bench().truck;
+  EXPECT_NEAR(bed.zone_low, -2.6, 0.011) << "of the site file: to the cab";
+  EXPECT_NEAR(bed.zone_high, 5.2, 0.011);
+  bed.zone_low = -2.2;
+  bed.zone_high = 1.9;
+  BedMap map(bed);
+  double lowest = 0.0, highest = 0.0;
+  for (int pass = 0; pass < 9; ++pass) {
+    const DumpPoint p = choose_dump_point(map, half_bucket, 0.0);
+    lowest = std::fmin(lowest, p.u);
+    highest = std::fmax(highest, p.u);
+    map.note_dump(p.u, 1500.0);
+  }
+  EXPECT_GE(lowest - half_bucket, bed.zone_low + 0.5);
+  EXPECT_LE(highest + half_bucket, bed.zone_high - 0.5);
+  EXPECT_GT(highest - lowest, 1.0) << "it still fills the bed";
+}
+
 TEST(BedMap, HiddenCellsCountAsTheMeanOfTheSeen) {
   const TruckBed bed = berm::app_bench::bench().truck;
   BedMap map(bed);

@@ -123,6 +123,25 @@ void expect_places_safe(const MachineFile& m, const SiteFile& site, const berm_p
     expect_up(zone.floor * 1e3, p.dig_zone[i].floor_mm, "zone floor");
     expect_down(zone.ceiling * 1e3, p.dig_zone[i].ceiling_mm, "zone ceiling");
   }
+  expect_down(site.pass_over * 1e3, p.pass_over_mm, "pass_over");
+  ASSERT_EQ(p.ground_zones, static_cast<std::int32_t>(site.ground_zone.size()));
+  for (std::size_t i = 0; i < site.ground_zone.size(); ++i) {
+    const GroundZoneFile& zone = site.ground_zone[i];
+    expect_down(zone.x_low * 1e3, p.ground_zone[i].x_low_mm, "ground x_low");
+    expect_up(zone.x_high * 1e3, p.ground_zone[i].x_high_mm, "ground x_high");
+    expect_down(zone.y_low * 1e3, p.ground_zone[i].y_low_mm, "ground y_low");
+    expect_up(zone.y_high * 1e3, p.ground_zone[i].y_high_mm, "ground y_high");
+    expect_down(zone.pass_over * 1e3, p.ground_zone[i].pass_over_mm, "ground pass_over");
+  }
+  ASSERT_EQ(p.truck_zones, static_cast<std::int32_t>(site.truck_zone.size()));
+  for (std::size_t i = 0; i < site.truck_zone.size(); ++i) {
+    const TruckZoneFile& zone = site.truck_zone[i];
+    expect_up(zone.x_low * 1e3, p.truck_zone[i].x_low_mm, "truck x_low");
+    expect_down(zone.x_high * 1e3, p.truck_zone[i].x_high_mm, "truck x_high");
+    expect_up(zone.y_low * 1e3, p.truck_zone[i].y_low_mm, "truck y_low");
+    expect_down(zone.y_high * 1e3, p.truck_zone[i].y_high_mm, "truck y_high");
+    expect_down(zone.ceiling * 1e3, p.truck_zone[i].ceiling_mm, "truck ceiling");
+  }
 }
 
 // Scales every number by a little, so that hardly any is whole; the statement above is per field and independent of the product's helpers.
@@ -142,6 +161,9 @@ void disturb(MachineFile& m, SiteFile& site, std::mt19937_64& random) {
         k.request_hold, k.request_silent, k.state_frame_age, k.machine_state_age, k.operator_age, k.standstill_speed, k.standstill,
         k.base_tilt, k.base_tilt_hard, k.base_azimuth, k.base_frame_age);
   for (DigZoneFile& zone : site.dig_zone) shake(zone.x_low, zone.x_high, zone.y_low, zone.y_high, zone.floor, zone.ceiling);
+  shake(site.pass_over);
+  for (GroundZoneFile& zone : site.ground_zone) shake(zone.x_low, zone.x_high, zone.y_low, zone.y_high, zone.pass_over);
+  for (TruckZoneFile& zone : site.truck_zone) shake(zone.x_low, zone.x_high, zone.y_low, zone.y_high, zone.ceiling);
 }
 
 // verifies: IF-CF-10, IF-CF-11, IF-CF-12, IF-CF-13

@@ -19,10 +19,33 @@ TEST(SiteFileTest, TheDefaultInSiUnits) {
   EXPECT_DOUBLE_EQ(site.dig_zone[0].y_high, 4.2);
   EXPECT_DOUBLE_EQ(site.dig_zone[0].floor, -3.4);
   EXPECT_DOUBLE_EQ(site.dig_zone[0].ceiling, 1.1);
+  EXPECT_DOUBLE_EQ(site.pass_over, 0.8);
+  ASSERT_EQ(site.ground_zone.size(), 3u);
+  EXPECT_DOUBLE_EQ(site.ground_zone[0].y_low, 5.5);
+  EXPECT_DOUBLE_EQ(site.ground_zone[2].x_low, 8.8);
+  EXPECT_DOUBLE_EQ(site.ground_zone[2].y_high, -4.5);
+  EXPECT_DOUBLE_EQ(site.ground_zone[0].pass_over, -0.9);
+  ASSERT_EQ(site.truck_zone.size(), 1u);
+  EXPECT_DOUBLE_EQ(site.truck_zone[0].x_low, -3.3);
+  EXPECT_DOUBLE_EQ(site.truck_zone[0].x_high, 4.5);
+  EXPECT_DOUBLE_EQ(site.truck_zone[0].y_low, 4.8);
+  EXPECT_DOUBLE_EQ(site.truck_zone[0].y_high, 10.5);
+  EXPECT_DOUBLE_EQ(site.truck_zone[0].ceiling, 1.0);
   EXPECT_DOUBLE_EQ(site.truck.centre[1], 6.75);
   EXPECT_DOUBLE_EQ(site.truck.target_kg, 18000.0);
   EXPECT_DOUBLE_EQ(site.dig.swing[0], radians(12.0));
   EXPECT_DOUBLE_EQ(site.dig.radius[1], 5.6);
+}
+
+// verifies: IF-CF-16
+TEST(SiteFileTest, ThereNeedBeNoZoneOfTheOverpassRule) {
+  const Scratch scratch;
+  std::string text = read_text(site_path());
+  const std::size_t from = text.find("[[ground_zone]]"), to = text.find("[[dig_zone]]");
+  ASSERT_LT(from, to);
+  const SiteFile site = load_site_file(scratch.write("site.toml", text.erase(from, to - from)));
+  EXPECT_TRUE(site.ground_zone.empty());
+  EXPECT_TRUE(site.truck_zone.empty());
 }
 
 // verifies: IF-CF-1, IF-CF-2, IF-CF-8

@@ -64,6 +64,9 @@ std::vector<Limit> limits(const berm_parameters& ok) {
       limit(SK_RULE_BASE_TILT_HARD, ok.base_tilt_urad, 90000, FIELD(base_tilt_hard_urad)),
       limit(SK_RULE_BASE_AZIMUTH, 1000, 35000, FIELD(base_azimuth_urad)),
       limit(SK_RULE_BASE_FRAME_AGE, 1, 1000000, FIELD(base_frame_age_us)),
+      limit(SK_RULE_PASS_OVER, -20000, 20000, FIELD(pass_over_mm)),
+      limit(SK_RULE_GROUND_ZONE_COUNT, 0, BERM_GROUND_ZONES, FIELD(ground_zones)),
+      limit(SK_RULE_TRUCK_ZONE_COUNT, 0, BERM_TRUCK_ZONES, FIELD(truck_zones)),
   };
   for (int j = 0; j < 4; ++j) {
     const std::int32_t bound = j == 0 ? 6283186 : 3141593;
@@ -103,7 +106,7 @@ TEST(ParameterCheck, AcceptsTheDemonstrationMachine) {
 // verifies: SK-PC-1, SK-PC-2, SK-PC-3, SK-PC-4, SK-PC-5, SK-PC-6, SK-PC-7, SK-PC-8, SK-PC-9, SK-PC-11, SK-PC-12, SK-PC-13, SK-PC-14, SK-PC-15
 // verifies: SK-PC-16, SK-PC-17, SK-PC-18, SK-PC-19, SK-PC-28, SK-PC-35, SK-PC-36, SK-PC-37, SK-PC-38, SK-PC-39, SK-PC-40, SK-PC-41, SK-PC-42
 // verifies: SK-PC-43, SK-PC-44, SK-PC-45, SK-PC-46, SK-PC-49, SK-PC-50, SK-PC-51, SK-PC-52, SK-PC-53, SK-PC-54, SK-PC-55, SK-PC-56, SK-PC-57
-// verifies: SK-PC-58, SK-PC-59, SK-PC-60, SK-PC-61
+// verifies: SK-PC-58, SK-PC-59, SK-PC-60, SK-PC-61, SK-PC-62, SK-PC-63, SK-PC-66
 // verifies: SK-PC-101
 TEST(ParameterCheck, EachFieldBeyondEachLimit) {
   const berm_parameters ok = valid_parameters();

@@ -115,7 +115,7 @@ TEST_F(ParameterTables, PartFields) {
   }
 }
 
-// verifies: SK-PC-28, SK-PC-46
+// verifies: SK-PC-28, SK-PC-46, SK-PC-63, SK-PC-66
 TEST_F(ParameterTables, WhatIsNotCountedIsNotLookedAt) {
   const int last = ok.parts - 1;
   p.part[BERM_PARTS - 1] = {99, -1, 99, {}};
@@ -126,6 +126,10 @@ TEST_F(ParameterTables, WhatIsNotCountedIsNotLookedAt) {
   p = ok;
   p.dig_zones = 0;
   p.dig_zone[0] = {0, 0, -1, -1, kMax32, 0};
+  EXPECT_EQ(check(), SK_RULE_NONE);
+  p.ground_zones = p.truck_zones = 0;
+  p.ground_zone[0] = {0, 0, -1, -1, kMax32};
+  p.truck_zone[0] = {0, 0, -1, -1, kMax32};
   EXPECT_EQ(check(), SK_RULE_NONE);
 }
 
@@ -204,6 +208,52 @@ TEST_F(ParameterTables, DigZones) {
     EXPECT_EQ(with({-1, -1, 0, 0, 20001, 20002}), SK_RULE_DIG_ZONE_HEIGHTS);
     EXPECT_EQ(with({-1, -1, 0, 0, 0, 20001}), SK_RULE_DIG_ZONE_HEIGHTS);
     EXPECT_EQ(with({-1, -1, 0, 0, 500, 500}), SK_RULE_DIG_ZONE_HEIGHTS);
+  }
+}
+
+// verifies: SK-PC-64, SK-PC-65
+TEST_F(ParameterTables, GroundZones) {
+  for (int i = 0; i < BERM_GROUND_ZONES; ++i) {
+    SCOPED_TRACE(testing::Message() << "zone " << i);
+    const auto with = [&](berm_ground_zone z) {
+      p = ok;
+      p.ground_zones = BERM_GROUND_ZONES;
+      for (berm_ground_zone& each : p.ground_zone) each = {-15000, -15000, 15000, 15000, -20000};
+      p.ground_zone[i] = z;
+      return check();
+    };
+    EXPECT_EQ(with({-1, -1, 0, 0, 20000}), SK_RULE_NONE);
+    EXPECT_EQ(with({-15001, -1, 0, 0, 0}), SK_RULE_GROUND_ZONE_BOUNDS);
+    EXPECT_EQ(with({-1, -15001, 0, 0, 0}), SK_RULE_GROUND_ZONE_BOUNDS);
+    EXPECT_EQ(with({-1, -1, 15001, 0, 0}), SK_RULE_GROUND_ZONE_BOUNDS);
+    EXPECT_EQ(with({-1, -1, 0, 15001, 0}), SK_RULE_GROUND_ZONE_BOUNDS);
+    EXPECT_EQ(with({0, -1, 0, 0, 0}), SK_RULE_GROUND_ZONE_BOUNDS);
+    EXPECT_EQ(with({-1, 0, 0, 0, 0}), SK_RULE_GROUND_ZONE_BOUNDS);
+    EXPECT_EQ(with({-1, -1, 0, 0, -20001}), SK_RULE_GROUND_ZONE_LIMIT);
+    EXPECT_EQ(with({-1, -1, 0, 0, 20001}), SK_RULE_GROUND_ZONE_LIMIT);
+  }
+}
+
+// verifies: SK-PC-67, SK-PC-68
+TEST_F(ParameterTables, TruckZones) {
+  for (int i = 0; i < BERM_TRUCK_ZONES; ++i) {
+    SCOPED_TRACE(testing::Message() << "zone " << i);
+    const auto with = [&](berm_truck_zone z) {
+      p = ok;
+      p.truck_zones = BERM_TRUCK_ZONES;
+      for (berm_truck_zone& each : p.truck_zone) each = {-15000, -15000, 15000, 15000, -20000};
+      p.truck_zone[i] = z;
+      return check();
+    };
+    EXPECT_EQ(with({-1, -1, 0, 0, 20000}), SK_RULE_NONE);
+    EXPECT_EQ(with({-15001, -1, 0, 0, 0}), SK_RULE_TRUCK_ZONE_BOUNDS);
+    EXPECT_EQ(with({-1, -15001, 0, 0, 0}), SK_RULE_TRUCK_ZONE_BOUNDS);
+    EXPECT_EQ(with({-1, -1, 15001, 0, 0}), SK_RULE_TRUCK_ZONE_BOUNDS);
+    EXPECT_EQ(with({-1, -1, 0, 15001, 0}), SK_RULE_TRUCK_ZONE_BOUNDS);
+    EXPECT_EQ(with({0, -1, 0, 0, 0}), SK_RULE_TRUCK_ZONE_BOUNDS);
+    EXPECT_EQ(with({-1, 0, 0, 0, 0}), SK_RULE_TRUCK_ZONE_BOUNDS);
+    EXPECT_EQ(with({-1, -1, 0, 0, -20001}), SK_RULE_TRUCK_ZONE_CEILING);
+    EXPECT_EQ(with({-1, -1, 0, 0, 20001}), SK_RULE_TRUCK_ZONE_CEILING);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "map_cells.hpp"
+#include "pass_over.hpp"
 
 namespace berm::core_test {
 namespace {
@@ -30,13 +31,35 @@ int dig_rule(const sk_height_map& map, const sk_slice& slice, const sk_clearance
   return found;
 }
 
+// Whether a plane separates the slice from a column that ends at this height, or never.
+bool apart(const sk_slice& slice, int plane, std::int64_t top, int iy, int ix) {
+  if (plane < 0 || plane >= slice.planes) return false;
+  const sk_plane& p = slice.plane[plane];
+  const auto side = [&](std::int64_t x, std::int64_t y, std::int64_t z) { return Wide{p.nx} * x + Wide{p.ny} * y + Wide{p.nz} * z; };
+  for (int i = 0; i < slice.vertices; ++i)
+    if (side(slice.xyz_mm[0][i], slice.xyz_mm[1][i], slice.xyz_mm[2][i]) <= p.d) return false;
+  for (const std::int64_t x : {low_of_cell_mm(ix), low_of_cell_mm(ix + 1)})
+    for (const std::int64_t y : {low_of_cell_mm(iy), low_of_cell_mm(iy + 1)})
+      for (const std::int64_t z : {-kFarAway, top})
+        if (side(x, y, z) > p.d) return false;
+  return true;
+}
+
+std::int64_t top_of(const sk_height_map& map, int iy, int ix) { return std::max(map.height_mm[iy][ix], map.previous_mm[iy][ix]); }
+
+// Apart from a column that is too high to be passed over, were it not for that.
+bool over(const sk_height_map& map, const sk_slice& slice, const sk_clearance_rules& rules, int plane, int iy, int ix) {
+  return top_of(map, iy, ix) > rules.pass_mm[iy][ix] && apart(slice, plane, top_of(map, iy, ix) + rules.margin_mm, iy, ix);
+}
+
 std::int32_t judge_cell(const sk_height_map& map, const sk_slice& slice, int plane, const sk_clearance_rules& rules, int iy, int ix) {
   if (own_body(rules, iy, ix)) return slice.link == 1 ? SK_CLEAR : SK_BLOCKED_UNKNOWN;
   if (separates(map, slice, rules, plane, iy, ix)) return SK_CLEAR;
   const int dig = dig_rule(map, slice, rules, iy, ix);
   if (dig != 0) return dig == 2 ? SK_CLEAR : SK_BLOCKED_FLOOR;
   if (map.seen_us[iy][ix] < 0) return SK_BLOCKED_UNKNOWN;
-  return current(map, rules, iy, ix) ? SK_BLOCKED_COLLISION : SK_BLOCKED_STALE;
+  if (!current(map, rules, iy, ix)) return SK_BLOCKED_STALE;
+  return over(map, slice, rules, plane, iy, ix) ? SK_BLOCKED_OVERPASS : SK_BLOCKED_COLLISION;
 }
 
 bool within(std::int64_t v, std::int64_t low, std::int64_t high) { return low <= v && v <= high; }
@@ -108,6 +131,7 @@ sk_clearance_rules scene_rules() {
   r.now_us = kSceneNow;
   r.fresh_us = kSceneFresh;
   r.margin_mm = 300;
+  test::pass_over(r);
   return r;
 }
 
@@ -119,18 +143,8 @@ void level(sk_height_map& map, std::int32_t height_mm) {
 void choose(sk_choice& choice, int plane) { std::memset(choice.plane_of, plane, sizeof choice.plane_of); }
 
 bool separates(const sk_height_map& map, const sk_slice& slice, const sk_clearance_rules& rules, int plane, int iy, int ix) {
-  if (plane < 0 || plane >= slice.planes) return false;
-  const sk_plane& p = slice.plane[plane];
-  const auto side = [&](std::int64_t x, std::int64_t y, std::int64_t z) { return Wide{p.nx} * x + Wide{p.ny} * y + Wide{p.nz} * z; };
-  for (int i = 0; i < slice.vertices; ++i)
-    if (side(slice.xyz_mm[0][i], slice.xyz_mm[1][i], slice.xyz_mm[2][i]) <= p.d) return false;
-  const std::int64_t top =
-      current(map, rules, iy, ix) ? std::int64_t{std::max(map.height_mm[iy][ix], map.previous_mm[iy][ix])} + rules.margin_mm : kFarAway;
-  for (const std::int64_t x : {low_of_cell_mm(ix), low_of_cell_mm(ix + 1)})
-    for (const std::int64_t y : {low_of_cell_mm(iy), low_of_cell_mm(iy + 1)})
-      for (const std::int64_t z : {-kFarAway, top})
-        if (side(x, y, z) > p.d) return false;
-  return true;
+  const bool topped = current(map, rules, iy, ix) && top_of(map, iy, ix) <= rules.pass_mm[iy][ix];
+  return apart(slice, plane, topped ? top_of(map, iy, ix) + rules.margin_mm : kFarAway, iy, ix);
 }
 
 sk_clearance_result judge(const sk_height_map& map, const sk_slice& slice, const sk_choice& choice, const sk_clearance_rules& rules) {

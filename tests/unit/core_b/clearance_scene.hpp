@@ -17,7 +17,7 @@ struct Block {
 // A block's eight corners, with six planes: 0 under it, 1 to 4 upright at its sides (-x, +x, -y, +y), 5 slanted under its -x edge.
 sk_slice block_slice(std::int32_t link, const Block& block);
 
-// Now, fresh and margin of 300 mm; no own body, no dig zone.
+// Now, fresh and margin of 300 mm; no own body, no dig zone, no overpass rule.
 sk_clearance_rules scene_rules();
 
 // Every cell seen at kSceneNow at this height.

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 
 #include "clearance_scene.hpp"
@@ -306,6 +308,49 @@ TEST_F(Clearance, WhatStandsHigherThanTheCeilingIsNoSoil) {
   expect(check(s), SK_BLOCKED_FLOOR, 53, 54, 2);
   rules.dig_zone[1].floor_mm = 1000;
   expect(check(s), SK_CLEAR, -1, -1, 2);
+}
+
+// A column that is too high to be passed over: beside it is clear, over it is not, however high.
+// verifies: SK-CL-15, SK-CL-16
+TEST_F(Clearance, WhatIsTooHighIsNotPassedOver) {
+  const sk_slice s = block_slice(3, kBlock);
+  rules.pass_mm[53][54] = 200;
+  map->height_mm[53][54] = 200;
+  expect(check(s), SK_CLEAR, -1, -1, 2);  // the margin is not counted
+  map->height_mm[53][54] = 201;
+  expect(check(s), SK_BLOCKED_OVERPASS, 53, 54, 2);
+  put(*map, 53, 54, {200, 201, kSceneNow, kSceneNow});
+  expect(check(s), SK_BLOCKED_OVERPASS, 53, 54, 2);
+  const sk_slice far_up = block_slice(3, {kBlock.x_low, kBlock.x_high, kBlock.y_low, kBlock.y_high, 15000, 15500});
+  expect(check(far_up), SK_BLOCKED_OVERPASS, 53, 54, 2);
+  map->height_mm[53][54] = 700;  // it would be struck, with the margin
+  expect(check(s), SK_BLOCKED_COLLISION, 53, 54, 2);
+  age(53, 54, kSceneFresh + 1);
+  expect(check(s), SK_BLOCKED_STALE, 53, 54, 2);
+}
+
+// verifies: SK-CL-15, SK-CL-16
+TEST_F(Clearance, WhatIsTooHighIsPassedBesideByAnUprightPlane) {
+  rules.pass_mm[54][54] = 200;
+  map->height_mm[54][54] = 201;
+  expect(check(triangle()), SK_BLOCKED_OVERPASS, 54, 54, 4);
+  choice->plane_of[54][54] = 5;
+  expect(check(triangle()), SK_CLEAR, -1, -1, 4);
+  map->height_mm[54][54] = 9000;
+  expect(check(triangle()), SK_CLEAR, -1, -1, 4);
+  choice->plane_of[54][54] = 0;
+  expect(check(triangle()), SK_BLOCKED_COLLISION, 54, 54, 4);
+}
+
+// verifies: SK-CL-7, SK-CL-8, SK-CL-15
+TEST_F(Clearance, OwnBodyAndSoilToDigHaveTheirOwnRules) {
+  level(*map, 2000);
+  for (auto& row : rules.pass_mm) std::fill(std::begin(row), std::end(row), std::int16_t{-20000});
+  zone({300, 300, 900, 600, 1000, 2000});
+  expect(check(block_slice(3, kBlock)), SK_CLEAR, -1, -1, 2);
+  rules.own_body_radius_mm = 1500;
+  expect(check(block_slice(1, kBlock)), SK_CLEAR, -1, -1, 2);
+  expect(check(block_slice(3, kBlock)), SK_BLOCKED_UNKNOWN, 53, 53, 1);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "clearance_scene.hpp"
 #include "core/columns.h"
 #include "map_cells.hpp"
+#include "pass_over.hpp"
 
 namespace berm::core_test {
 namespace {
@@ -33,13 +34,16 @@ TEST_F(Columns, AreTheMapsAndTheBlocksBoundThem) {
       const std::int64_t stamps[] = {-1, kSceneNow, kSceneNow + 1, kSceneNow - rules.fresh_us, kSceneNow - rules.fresh_us - 1};
       map->seen_us[iy][ix] = stamps[random() % 5];
     }
+  for (auto& row : rules.pass_mm)
+    for (auto& limit : row) limit = static_cast<std::int16_t>(static_cast<std::int32_t>(random() % 40001) - 20000);
   map->height_mm[3][3] = INT32_MAX;
   map->seen_us[3][3] = kSceneNow;
   ASSERT_TRUE(make());
   for (int iy = 0; iy < SK_MAP_CELLS; ++iy)
     for (int ix = 0; ix < SK_MAP_CELLS; ++ix) {
       const std::int64_t top = std::int64_t{std::max(map->height_mm[iy][ix], map->previous_mm[iy][ix])} + rules.margin_mm;
-      const std::int64_t wanted = current(*map, rules, iy, ix) ? std::min<std::int64_t>(top, SK_NO_TOP) : SK_NO_TOP;
+      const bool passed = current(*map, rules, iy, ix) && top - rules.margin_mm <= rules.pass_mm[iy][ix];
+      const std::int64_t wanted = passed ? std::min<std::int64_t>(top, SK_NO_TOP) : SK_NO_TOP;
       ASSERT_EQ(columns->top_mm[iy][ix], wanted) << "seed " << kSeed << " cell " << iy << ", " << ix;
       ASSERT_GE(columns->block_mm[iy / SK_BLOCK_CELLS][ix / SK_BLOCK_CELLS], columns->top_mm[iy][ix]);
     }
@@ -75,6 +79,8 @@ TEST_F(Columns, WhatIsClearByHeightIsClear) {
     for (int k = between(0, 6); k > 0; --k) map->height_mm[between(40, 64)][between(40, 64)] = between(-500, 2000);
     if (between(0, 3) == 0) map->seen_us[between(45, 60)][between(45, 60)] = between(0, 1) == 0 ? -1 : kSceneNow - rules.fresh_us - 1;
     rules.own_body_radius_mm = between(0, 1) * 1500;
+    test::pass_over(rules);
+    for (int k = between(0, 3); k > 0; --k) rules.pass_mm[between(45, 60)][between(45, 60)] = static_cast<std::int16_t>(between(-600, 1500));
     ASSERT_TRUE(make());
     const int x = between(-3000, 3000), y = between(-3000, 3000), z = between(200, 2500);
     const sk_slice slice = block_slice(between(1, 3), {x, x + between(10, 2500), y, y + between(10, 2500), z, z + 500});

@@ -11,6 +11,7 @@
 #include "geometry/separation.hpp"
 #include "geometry/swept_slices.hpp"
 #include "machine_profile.hpp"
+#include "pass_over.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
 #define BERM_COUNTS_MALLOC 0 // the sanitizer has replaced malloc already
@@ -77,6 +78,7 @@ TEST(NoAllocation, InACycle) {
     rules.now_us = now_us;
     rules.fresh_us = 20000000;
     rules.margin_mm = 300;
+    berm::test::pass_over(rules);
     rules.own_body_radius_mm = machine.parameters.own_body_radius_mm;
     berm_scan_packet packet{};
     packet.samples_per_revolution = 400;
@@ -116,6 +118,7 @@ TEST(NoAllocation, InDegenerateTests) {
   sk_clearance_rules rules{};
   rules.now_us = now_us;
   rules.fresh_us = 20000000;
+  berm::test::pass_over(rules);
   long touched = 0;
   const long before = allocations;
   for (int i = 0; i < 60; ++i) {

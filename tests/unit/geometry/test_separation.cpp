@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/slice_planes.hpp"
+#include "pass_over.hpp"
 
 namespace berm::kernel::test {
 namespace {
@@ -25,6 +26,7 @@ protected:
     rules.fresh_us = 1000000;
     rules.margin_mm = 300;
     rules.own_body_radius_mm = 3000;
+    berm::test::pass_over(rules);
     block(2, 5010, 10, 6190, 290, 1000, 2000);
     std::memset(choice.get(), 77, sizeof(sk_choice));
   }
@@ -196,6 +198,29 @@ TEST_F(SeparationUnit, SoilInADigZoneNeedsNoPlaneAboveTheFloor) {
   rules.dig_zone[0].floor_mm = 1001; // the lowest vertex is at 1000
   EXPECT_FALSE(choose());
   EXPECT_EQ(verdict(), SK_BLOCKED_FLOOR);
+}
+
+// verifies: SK-GE-10, SK-GE-12
+TEST_F(SeparationUnit, WhatIsTooHighToBePassedOverGetsAnUprightPlaneOrNone) {
+  raise(5500, 100, 400);
+  EXPECT_TRUE(choose());
+  EXPECT_EQ(verdict(), SK_CLEAR);
+  rules.pass_mm[cell(100)][cell(5500)] = 399;
+  EXPECT_FALSE(choose());
+  EXPECT_EQ(verdict(), SK_BLOCKED_OVERPASS);
+  raise(5500, 100, 900);  // into the slice, with the margin
+  EXPECT_FALSE(choose());
+  EXPECT_EQ(verdict(), SK_BLOCKED_COLLISION);
+  block(2, 5110, 10, 6190, 290, 1000, 2000);
+  raise(5000, 100, 5000);  // beside the slice, outside its rectangle
+  rules.pass_mm[cell(100)][cell(5500)] = 30000;
+  EXPECT_FALSE(choose());
+  rules.dig_zones = 1;
+  rules.dig_zone[0] = {4000, -4000, 9000, 4000, 900, 1000};
+  rules.dig_allowed = true;
+  rules.pass_mm[cell(100)][cell(5500)] = 399;  // soil that may be dug is touched, not passed over
+  EXPECT_TRUE(choose());
+  EXPECT_EQ(verdict(), SK_CLEAR);
 }
 
 // verifies: SK-GE-14

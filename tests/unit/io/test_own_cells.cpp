@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 
 #include "io/own_cells.hpp"
@@ -54,6 +55,22 @@ TEST_F(OwnCellsTest, SomethingHigherInTheRimStays) {
   for (int k = 2; k < 90; ++k) own.stamp(*map, kNow + k * 10000, kGeneration);
   EXPECT_EQ(sk_map_top(map.get(), iy, ix), 4500);
   EXPECT_EQ(map->seen_us[iy][ix], kNow + 890000);
+}
+
+// verifies: SK-CY-25
+TEST_F(OwnCellsTest, TheOverpassRuleLeavesThemAlone) {
+  const OwnCells own(parameters);
+  own.stamp(*map, kNow, kGeneration);
+  const auto rules = std::make_unique<sk_clearance_rules>();
+  for (auto& row : rules->pass_mm) std::fill(std::begin(row), std::end(row), std::int16_t{800});
+  rules->pass_mm[52][52] = 30000;  // a higher limit stays
+  own.permit(*rules);
+  for (int iy = 0; iy < SK_MAP_CELLS; ++iy)
+    for (int ix = 0; ix < SK_MAP_CELLS; ++ix) {
+      const bool stamped = map->seen_us[iy][ix] >= 0;
+      const int limit = iy == 52 && ix == 52 ? 30000 : stamped ? sk_map_top(map.get(), iy, ix) : 800;
+      ASSERT_EQ(rules->pass_mm[iy][ix], limit) << ix << ' ' << iy;
+    }
 }
 
 }  // namespace
