@@ -148,7 +148,7 @@ typedef struct berm_state {
   uint32_t cycle_cpu_us;                             /* CPU time of the previous cycle (not in journals: it is not reproducible) */
   uint32_t panel;                                    /* BERM_PANEL_*: newest operator and spotter frames; not trusted */
   uint32_t journal_lost;                             /* records that the journal lost before this cycle; stays at 2^32 - 1 */
-  uint32_t reserved_tail;
+  uint32_t terrain_confirmed_ms;                     /* since the scanned terrain last excluded a slip of the base; 2^32 - 1: not since the map was begun */
 } berm_state;
 
 /* A block of consecutive samples of one scanline, as received. Range 0 means no return. */
