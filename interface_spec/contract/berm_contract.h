@@ -149,6 +149,8 @@ typedef struct berm_state {
   uint32_t cycle_cpu_us;                             /* CPU time of the previous cycle (not in journals: it is not reproducible) */
   uint32_t panel;                                    /* BERM_PANEL_*: newest operator and spotter frames; not trusted */
   uint32_t journal_lost;                             /* records that the journal lost before this cycle; stays at 2^32 - 1 */
+  uint32_t terrain_confirmed_ms;                     /* since the scanned terrain last excluded a slip of the base; 2^32 - 1: not since the map was begun */
+  uint32_t reserved_tail;
 } berm_state;
 
 /* A block of consecutive samples of one scanline, as received. Range 0 means no return. */
@@ -232,7 +234,7 @@ typedef struct berm_state_segment {
 BERM_STATIC_ASSERT(sizeof(berm_request) == 64, "request layout");
 BERM_STATIC_ASSERT(offsetof(berm_request, crc32) == sizeof(berm_request) - 4, "the CRC is the last field");
 BERM_STATIC_ASSERT(sizeof(berm_request_segment) == 128, "request segment layout");
-BERM_STATIC_ASSERT(sizeof(berm_state) == 256, "state layout");
+BERM_STATIC_ASSERT(sizeof(berm_state) == 264, "state layout");
 BERM_STATIC_ASSERT(sizeof(berm_scan_block) == 40 + BERM_SCAN_BLOCK_SAMPLES * 18, "scan block layout");
 BERM_STATIC_ASSERT(sizeof(berm_decision) == 176, "decision layout");
 BERM_STATIC_ASSERT(sizeof(berm_slice) == 8 + BERM_SLICE_VERTICES * 12, "slice layout");

@@ -74,6 +74,11 @@ void sk_base_azimuth(sk_base_state *s, const berm_parameters *p, int32_t track_u
   if (s->turn_frames >= SK_BASE_TURN_FRAMES) { s->moved = true; }
 }
 
+void sk_base_slipped(sk_base_state *s)
+{
+  if (s->learned) { s->moved = true; }
+}
+
 /*@ assigns \nothing;
   @ ensures \result == true <==> sk_base_heard(last_us, now_us, age_us);
   @*/

@@ -1,6 +1,6 @@
 /* Base motion: whether the machine's base still stands as it did when the map was begun. The map is in the base frame: a base that tilts or
- * turns takes the map with it. Roll, pitch and the tracks' azimuth are held against a reference. A slip that turns nothing no frame shows. The
- * frames are unguarded: they can only stop the machine. */
+ * turns takes the map with it. Roll, pitch and the tracks' azimuth are held against a reference. A slip that turns nothing no frame shows: the
+ * terrain shows it (base_slip.h). The frames are unguarded: they can only stop the machine. */
 #ifndef SK_BASE_MOTION_H
 #define SK_BASE_MOTION_H
 #include "sk_common.h"
@@ -74,6 +74,13 @@ void sk_base_attitude(sk_base_state *s, const berm_parameters *p, int32_t roll_u
   @ ensures moved: s->learned == true ==> (s->moved == true <==> \old(s->moved) == true || s->turn_frames >= SK_BASE_TURN_FRAMES);
   @*/
 void sk_base_azimuth(sk_base_state *s, const berm_parameters *p, int32_t track_urad, int64_t now_us);
+
+/* The terrain lies elsewhere than when the reference was taken. */
+/*@ requires \valid(s);
+  @ assigns s->moved;
+  @ ensures s->moved == true <==> \old(s->moved) == true || s->learned == true;
+  @*/
+void sk_base_slipped(sk_base_state *s);
 
 /* Both messages were heard within base_frame_age_us. A message from the future was not. */
 /*@ requires \valid_read(s) && \valid_read(p);

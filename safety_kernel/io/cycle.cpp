@@ -14,7 +14,8 @@ Cycle::Cycle(const berm_parameters& parameters, bool map_only)
       commands_(parameters.command_latency_us + parameters.state_latency_us + parameters.cycle_us),
       motion_(parameters),
       motion_watch_(parameters),
-      own_cells_(parameters) {
+      own_cells_(parameters),
+      registration_(parameters) {
   sk_map_clear(&map_);
   sk_stop_init(&stop_);
 }
@@ -39,8 +40,9 @@ void Cycle::step(const CycleInputs& in, CycleOutputs& out) {
   map_points_ += scans_.points() - points_before;
   take_points(in);
   if (!map_only_) {
+    register_terrain(out.blocks, in.now_us);
     // Nothing is kept while the base has moved, for it may still be moving, nor while the operator has the map learned anew.
-    if (frames_.base().moved || relearns(in.now_us)) sk_map_clear(&map_);
+    if (frames_.base().moved || relearns(in.now_us)) begin_map();
     own_cells_.stamp(map_, in.now_us, parameters_.generation_us);
     take_request(in);
     judge_motion(in.now_us);
@@ -87,7 +89,24 @@ void Cycle::learn_base(std::int64_t now_us) {
   const bool reset = frames_.operator_fresh(now_us) && frames_.picture().panel.reset && stop_.latched && stop_.reset_seen_released;
   const bool learns_anew = base.moved && standstill_ && (reset || stop_.code == SK_STATE_INIT);
   // The map begins with its reference.
-  if ((!base.learned || learns_anew) && sk_base_learn(&base, &parameters_, now_us)) sk_map_clear(&map_);
+  if ((!base.learned || learns_anew) && sk_base_learn(&base, &parameters_, now_us)) begin_map();
+}
+
+void Cycle::begin_map() {
+  sk_map_clear(&map_);
+  registration_.begin();
+}
+
+void Cycle::register_terrain(const ScanBlocks& blocks, std::int64_t now_us) {
+  if (!frames_.base().moved) {
+    for (int b = 0; b < blocks.count; ++b) {
+      const berm_scan_block& block = blocks.block[b];
+      for (int i = 0; i < block.count; ++i)
+        if (block.used[i] != 0) registration_.take({block.point_mm[i][0], block.point_mm[i][1], block.point_mm[i][2]});
+    }
+  }
+  registration_.step(now_us);
+  if (registration_.slipped()) sk_base_slipped(&frames_.base());
 }
 
 // At standstill alone; a key that stays down keeps the map empty, and the machine where it stands.

@@ -13,6 +13,7 @@
 #include "core/stop_logic.h"
 #include "geometry/joint_history.hpp"
 #include "geometry/self_filter.hpp"
+#include "geometry/terrain_registration.hpp"
 #include "io/command_history.hpp"
 #include "io/frame_intake.hpp"
 #include "io/frame_output.hpp"
@@ -72,6 +73,7 @@ class Cycle {
 
   const sk_height_map& map() const { return map_; }
   const SliceSet& slices() const { return motion_.slices(); }
+  const TerrainRegistration& registration() const { return registration_; }
   std::uint64_t frames_rejected() const { return frames_.rejected(); }
   std::uint64_t scans_rejected() const { return scans_rejected_; }
 
@@ -80,6 +82,8 @@ class Cycle {
   void take_scans(const CycleInputs& in, ScanBlocks& blocks);
   void take_points(const CycleInputs& in);
   void learn_base(std::int64_t now_us);
+  void register_terrain(const ScanBlocks& blocks, std::int64_t now_us);
+  void begin_map();
   bool relearns(std::int64_t now_us) const;
   void take_request(const CycleInputs& in);
   void judge_motion(std::int64_t now_us);
@@ -105,6 +109,7 @@ class Cycle {
   OwnCells own_cells_;
   StandstillWatch standstill_watch_;
   sk_height_map map_;
+  TerrainRegistration registration_;
   sk_request_state request_state_{};
   sk_request request_{};            // newest accepted
   sk_stop_state stop_{};

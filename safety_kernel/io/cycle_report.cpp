@@ -63,6 +63,9 @@ void Cycle::report_state(const CycleInputs& in, berm_state& state) const {
   state.cycle_cpu_us = in.cycle_cpu_us;
   state.panel = panel_flags(in.now_us);
   state.journal_lost = in.journal_lost;
+  const std::int64_t confirmed_us = registration_.confirmed_us();
+  state.terrain_confirmed_ms = UINT32_MAX;
+  if (confirmed_us >= 0) state.terrain_confirmed_ms = static_cast<std::uint32_t>(std::clamp<std::int64_t>((in.now_us - confirmed_us) / 1000, 0, UINT32_MAX - 1));
 }
 
 void Cycle::report_decision(const CycleInputs& in, berm_decision& decision) const {

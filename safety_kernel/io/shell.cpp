@@ -123,6 +123,8 @@ std::string Shell::report() const {
   add("vlp16_packets", c.vlp16_packets);
   add("vlp16_rejected", c.vlp16_rejected);
   add("vlp16_points", c.vlp16_points);
+  add("terrain_rounds", cycle_->registration().rounds());
+  add("terrain_rounds_confirmed", cycle_->registration().rounds_confirmed());
   add("journal_records", journal_.offered());
   add("journal_lost", journal_.lost());
   return json + "}";

@@ -99,6 +99,11 @@ double MiniMachine::pan_at(double time_s) const {
   return pan_low_rad + (way < width ? way : 2 * width - way);
 }
 
+double MiniMachine::relief_at(double x, double y) const {
+  const double u = x + base_x_m, v = y + base_y_m;
+  return relief_m * (std::sin(3.1 * u + 1.3 * v) + std::sin(4.7 * v - 2.3 * u) + std::sin(1.7 * u - 0.9 * v + 2.0)) / 3;
+}
+
 double MiniMachine::range_m(int scanner, double pan_rad, double elevation_rad, double swing_rad) const {
   const berm_scanner_mount& mount = parameters_.scanner[scanner];
   const double x = mount.x_mm * 1e-3, y = mount.y_mm * 1e-3, z = mount.z_mm * 1e-3;
@@ -106,6 +111,10 @@ double MiniMachine::range_m(int scanner, double pan_rad, double elevation_rad, d
   const double along_y = std::cos(elevation_rad) * std::sin(pan_rad + swing_rad);
   const double along_z = std::sin(elevation_rad);
   double range = along_z < 0 ? (ground_m - z) / along_z : kRangeMaxM + 1;
+  for (int i = 0; relief_m > 0 && along_z < 0 && i < 4; ++i) {  // the ground is nearly level: this settles
+    const double head_x = x * std::cos(swing_rad) - y * std::sin(swing_rad), along_x = std::cos(elevation_rad) * std::cos(pan_rad + swing_rad);
+    range = (ground_m + relief_at(head_x + range * along_x, head_y + range * along_y) - z) / along_z;
+  }
   if (wall.height_m > 0) {
     const double to_wall = (wall.y_m - head_y) / along_y;
     if (to_wall > 0 && to_wall < range && z + to_wall * along_z < wall.height_m) range = to_wall;

@@ -47,6 +47,8 @@ class MiniMachine {
   bool azimuth_silent = false;   // Vehicle_Azimuth
   std::int32_t roll_urad = 0, pitch_urad = 0, track_urad = 0;
   double ground_m = 0.0;
+  double relief_m = 0.0;              // of the ground: waves of this height
+  double base_x_m = 0.0, base_y_m = 0.0;  // where the base stands on it
   Wall wall;
   double angle_rad[4];     // swing, boom, stick, bucket
   double velocity_rad_s[4] = {};
@@ -72,6 +74,7 @@ class MiniMachine {
   void move();
   void make_frames();
   void make_packets(int scanner);
+  double relief_at(double x, double y) const;  // base frame
   double range_m(int scanner, double pan_rad, double elevation_rad, double swing_rad) const;
   double pan_at(double time_s) const;
 

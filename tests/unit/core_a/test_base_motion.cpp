@@ -125,5 +125,20 @@ TEST_F(BaseMotion, NothingHasMovedBeforeThereIsAReference) {
   EXPECT_FALSE(base.moved);
 }
 
+// verifies: SK-BM-24, SK-BM-5
+TEST_F(BaseMotion, WhatTheTerrainShowsMovesABaseThatHasAReferenceUntilItIsLearnedAnew) {
+  sk_base_slipped(&base);
+  EXPECT_FALSE(base.moved) << "no reference yet: nothing has moved";
+  learn(0, 0, 0);
+  const sk_base_state before = base;
+  sk_base_slipped(&base);
+  EXPECT_TRUE(base.moved);
+  EXPECT_EQ(base.tilt_frames, before.tilt_frames);
+  tilt(0, 0, 100);
+  EXPECT_TRUE(base.moved);
+  learn(0, 0, 0);
+  EXPECT_FALSE(base.moved);
+}
+
 }  // namespace
 }  // namespace berm::core_test

@@ -135,5 +135,42 @@ TEST_F(CycleBase, ABaseThatMovesBeforeTheFirstRunIsLearnedAnewAtStandstill) {
   EXPECT_TRUE(rig.reach_state(BERM_STATE_RUN, kStartLimit));
 }
 
+// verifies: SK-BM-20, SK-BM-24, SK-BM-25
+TEST_F(CycleBase, ASlipThatNoFrameShowsIsFoundByTheTerrainAndTheResetLearnsItAnew) {
+  rig.machine.relief_m = 0.06;
+  run();
+  for (int i = 0; i < 6000 && rig.state().terrain_confirmed_ms == UINT32_MAX; ++i) rig.step();
+  ASSERT_NE(rig.state().terrain_confirmed_ms, UINT32_MAX) << "the relief is never told from its shifts";
+  rig.steps(200);
+  EXPECT_LT(rig.state().terrain_confirmed_ms, 1000U);
+  ASSERT_EQ(rig.state().kernel_state, BERM_STATE_RUN);
+  rig.machine.base_x_m = 0.3;
+  rig.machine.base_y_m = -0.2;
+  int cycles = 0;
+  while (rig.state().stop_reason != BERM_STOP_BASE_MOVED && cycles < 1000) rig.step(), ++cycles;
+  EXPECT_EQ(rig.state().stop_reason, BERM_STOP_BASE_MOVED);
+  EXPECT_EQ(rig.state().stop_category, 1);
+  EXPECT_EQ(seen_cells(), 0);
+  rig.steps(200);
+  EXPECT_EQ(rig.state().stop_reason, BERM_STOP_BASE_MOVED);
+  EXPECT_EQ(seen_cells(), 0);
+  EXPECT_EQ(rig.state().terrain_confirmed_ms, UINT32_MAX);
+  press_reset();
+  ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, kStartLimit));
+  rig.steps(2000);
+  EXPECT_EQ(rig.state().kernel_state, BERM_STATE_RUN) << "the new place is the reference";
+  EXPECT_EQ(rig.state().stop_count[BERM_STOP_BASE_MOVED], 1U);
+}
+
+// verifies: SK-BM-25
+TEST_F(CycleBase, OverLevelGroundWithoutReliefTheKernelSaysThatItSeesNoSlip) {
+  run();
+  rig.steps(3000);
+  EXPECT_EQ(rig.state().terrain_confirmed_ms, UINT32_MAX);
+  rig.machine.base_x_m = 0.5;
+  rig.steps(1000);
+  EXPECT_EQ(rig.state().kernel_state, BERM_STATE_RUN);
+}
+
 }  // namespace
 }  // namespace berm::kernel::test

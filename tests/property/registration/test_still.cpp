@@ -1,0 +1,119 @@
+// A base that stands still is not called slipped, whatever moves around it; and where nothing can be seen nothing is claimed.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "watch.hpp"
+
+namespace berm::registration_test {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+double draw(Site& site, double low, double high) { return std::uniform_real_distribution<double>(low, high)(site.random); }
+
+std::string again(std::uint64_t seed) { return "seed " + std::to_string(seed) + "; again: BERM_SEED=" + std::to_string(seed) + " BERM_SEEDS=1"; }
+
+// Two people who walk up and away, a truck that leaves and one that parks some decimetres from where it stood, heaps and pits beside the machine.
+class Traffic {
+ public:
+  explicit Traffic(Site& site) : site_(site) {
+    site.things.assign(3, {});
+    site.things[0] = {-0.7, 6.75, 0.0, 7.4, 2.6, 0.3};
+    for (int i = 1; i < 3; ++i) site.things[static_cast<std::size_t>(i)] = {100, 100, 0, 0.5, 0.5, 1.8};
+  }
+
+  void operator()(double now_s) {
+    truck(now_s);
+    for (std::size_t i = 1; i < 3; ++i) {
+      const double walked = 1.4 * (now_s - 8.0 * static_cast<double>(i)), way = std::fmod(std::max(walked, 0.0), 30.0), heading = static_cast<double>(i) * 1.9;
+      const double away = std::fabs(way - 15.0) + 4.0;  // in from 19 m to 4 m, and out
+      site_.things[i].x = away * std::cos(heading);
+      site_.things[i].y = away * std::sin(heading);
+    }
+    if (now_s < next_heap_s_) return;
+    next_heap_s_ = now_s + 3.0;
+    const double bearing = draw(site_, -kPi, kPi), distance = draw(site_, 4.0, 10.0);
+    site_.dig(distance * std::cos(bearing), distance * std::sin(bearing), draw(site_, 0.4, 1.2), draw(site_, -0.4, 0.4));
+  }
+
+ private:
+  void truck(double now_s) {
+    const double phase = std::fmod(now_s, 50.0);
+    Thing& truck = site_.things[0];
+    if (phase < 35.0) {
+      truck.x = place_;
+      truck.top = 0.3 + 0.6 * phase / 35.0;  // it is loaded
+    } else if (phase < 42.0) {
+      truck.x = place_ - 2.5 * (phase - 35.0);
+      drawn_ = false;
+    } else {
+      if (!drawn_) place_ = -0.7 + draw(site_, -0.5, 0.5), side_ = 6.75 + draw(site_, -0.4, 0.4);
+      drawn_ = true;
+      truck.y = side_;
+      truck.x = place_ - 2.5 * (49.0 - std::min(phase, 49.0));
+      truck.top = 0.3;
+    }
+  }
+
+  Site& site_;
+  double next_heap_s_ = 30.0, place_ = -0.7, side_ = 6.75;
+  bool drawn_ = false;
+};
+
+void still(const char* what, const SiteConfig& config, std::uint64_t count, double seconds, bool confirmed) {
+  const Seeds s = seeds(count);
+  std::uint64_t rounds = 0, excluded = 0;  // excluded: by a terrain that is trusted to show slips
+  for (std::uint64_t seed = s.first; seed < s.first + s.count; ++seed) {
+    Watch watch(config, seed);
+    Traffic traffic(watch.site);
+    watch.run(seconds, traffic);
+    EXPECT_LT(watch.found_s, 0) << again(seed) << ": called slipped at " << watch.found_s << " s";
+    rounds += watch.registration->rounds();
+    excluded += watch.registration->rounds_confirmed();
+  }
+  std::cout << what << ", seeds " << s.first << " to " << s.first + s.count - 1 << ", " << seconds << " s each: " << excluded << " of " << rounds << " rounds excluded every slip\n";
+  if (confirmed) EXPECT_GT(2 * excluded, rounds) << "a registration that cannot say where it stands is no watch";
+  else EXPECT_LT(50 * excluded, rounds) << "hardly anything can be seen here, and hardly anything may be claimed";
+}
+
+// verifies: SK-BM-20, SK-BM-23
+TEST(Still, PeopleTrucksAndDiggingAreNoSlip) { still("bench of 20 mm relief", {}, 6, 120.0, true); }
+
+// verifies: SK-BM-23, SK-BM-25
+TEST(Still, LevelGroundWithoutReliefShowsNoSlipAndSaysSo) {
+  SiteConfig config;
+  config.relief_m = 0.0;
+  config.edges = false;
+  still("level ground without relief", config, 6, 120.0, false);
+}
+
+// verifies: SK-BM-23
+TEST(Still, EdgesWithoutRelief) {
+  SiteConfig config;
+  config.relief_m = 0.0;
+  const Seeds s = seeds(4);
+  for (std::uint64_t seed = s.first; seed < s.first + s.count; ++seed) {
+    Watch watch(config, seed);
+    Traffic traffic(watch.site);
+    watch.run(120.0, traffic);
+    EXPECT_LT(watch.found_s, 0) << again(seed) << ": called slipped at " << watch.found_s << " s";
+  }
+}
+
+// What its frames do not show of a tilt or a turn is no slip either: up to 0.37 degrees (SK-BM-2, SK-BM-4).
+// verifies: SK-BM-23
+TEST(Still, ATurnBelowItsLimitIsNoSlip) {
+  const Seeds s = seeds(4);
+  for (std::uint64_t seed = s.first; seed < s.first + s.count; ++seed) {
+    Watch watch({}, seed);
+    watch.run(25.0);
+    watch.site.base_yaw = (seed % 2 == 0 ? 1 : -1) * 0.37 * kPi / 180;
+    watch.run(60.0);
+    EXPECT_LT(watch.found_s, 0) << again(seed) << ": called slipped at " << watch.found_s << " s";
+  }
+}
+
+}  // namespace
+}  // namespace berm::registration_test
