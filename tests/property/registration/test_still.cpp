@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <iostream>
+#include <memory>
+#include <vector>
 
 #include "watch.hpp"
 
@@ -113,6 +116,38 @@ TEST(Still, ATurnBelowItsLimitIsNoSlip) {
     watch.run(60.0);
     EXPECT_LT(watch.found_s, 0) << again(seed) << ": called slipped at " << watch.found_s << " s";
   }
+}
+
+// Contradictory returns behind the 48 of a cycle change nothing.
+// verifies: SK-BM-26
+TEST(Still, ReturnsBeyondTheCyclesShareHaveNoVote) {
+  using kernel::TerrainRegistration;
+  std::vector<sk_point> place;  // one in each cell
+  for (std::int32_t y = -11925; y < 12000; y += TerrainRegistration::cell_mm)
+    for (std::int32_t x = -11925; x < 12000; x += TerrainRegistration::cell_mm)
+      place.push_back({x, y, static_cast<std::int32_t>(std::lround(30 * std::sin(x / 310.0 + y / 770.0) + 30 * std::sin(y / 260.0 - x / 530.0)))});
+  std::erase_if(place, [](const sk_point& p) { return std::hypot(p.x_mm, p.y_mm) < 3300 || std::hypot(p.x_mm, p.y_mm) > 11800 || (p.x_mm > 3200 && std::abs(p.y_mm) < 4900); });
+  const auto few = std::make_unique<TerrainRegistration>(site_parameters()), many = std::make_unique<TerrainRegistration>(site_parameters());
+  for (auto* registration : {few.get(), many.get()})
+    for (int i = 0; i < 16; ++i)  // the reference is full
+      for (const sk_point& p : place) registration->take(p);
+  std::size_t next = 0;
+  for (std::int64_t cycle = 0; cycle < 3000; ++cycle) {
+    for (int i = 0; i < TerrainRegistration::returns_a_cycle; ++i, next = (next + 7) % place.size()) {
+      few->take(place[next]);
+      many->take(place[next]);
+    }
+    for (std::size_t i = 0; i < 200; ++i) {
+      sk_point wrong = place[(next + 1 + 7 * i) % place.size()];
+      wrong.z_mm += 150;
+      many->take(wrong);
+    }
+    few->step(cycle * 10000);
+    many->step(cycle * 10000);
+  }
+  EXPECT_GT(few->rounds_confirmed(), 20U);
+  EXPECT_EQ(many->rounds_confirmed(), few->rounds_confirmed());
+  EXPECT_FALSE(many->slipped());
 }
 
 }  // namespace
