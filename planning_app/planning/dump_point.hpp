@@ -1,4 +1,4 @@
-// Where the next bucket goes: the lowest part of the bed along its long axis, of what lies well within the site's truck zone.
+// Where the next bucket goes: the lowest part of the bed along its long axis, but no nearer to the end of the site's truck zone than a bucket needs.
 #pragma once
 
 #include "motion/machine_model.hpp"

@@ -8,10 +8,7 @@
 static int32_t sk_column_at(const sk_height_map *m, const sk_clearance_rules *r, int32_t iy, int32_t ix)
 {
   int64_t top_mm = sk_column_top_mm(m, r, iy, ix);
-  int64_t most_mm = (int64_t)r->pass_mm[iy][ix] + r->margin_mm; /* one comparison, as the loop over the map is to go in lanes */
-  /*@ assert most_mm < SK_NO_TOP; */
-  /*@ assert sk_passable(m, r, iy, ix) <==> sk_current(m, r, iy, ix) && top_mm <= most_mm; */
-  if (!sk_is_current(m, r, iy, ix) || top_mm > most_mm) { return SK_NO_TOP; }
+  if (!sk_is_passable(m, r, iy, ix) || top_mm > SK_NO_TOP) { return SK_NO_TOP; }
   return (int32_t)top_mm;
 }
 
