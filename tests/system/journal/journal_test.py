@@ -13,7 +13,7 @@ from journal_records import cycles_in, records
 
 SEED = 20240611  # of the damage below
 scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-journal-"))
-HEAD, FRAME = 560, 16  # cycle record: 128 + state 256 + decision 176
+HEAD, FRAME = 568, 16  # cycle record: 128 + state 264 + decision 176
 seen = {}
 
 
