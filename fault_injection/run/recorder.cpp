@@ -100,8 +100,7 @@ void Recorder::take(const berm_decision& d) {
   if (decisions_ > 0 && last_.kernel_state == BERM_STATE_RUN && d.kernel_state != BERM_STATE_RUN && d.stop_reason != BERM_STOP_NONE) {
     const std::string reason = stop_reason_name(d.stop_reason);
     ++stops_[reason];
-    const bool has_place = (d.stop_reason >= BERM_STOP_COLLISION_PREDICTED && d.stop_reason <= BERM_STOP_DIG_FLOOR) || d.stop_reason == BERM_STOP_OVERPASS;
-    stop_events_.push_back({seconds(d), reason, has_place, d.blocked_x_mm * 1e-3, d.blocked_y_mm * 1e-3, d.blocked_height_mm * 1e-3});
+    stop_events_.push_back({seconds(d), reason, BERM_STOP_HAS_CELL(d.stop_reason), d.blocked_x_mm * 1e-3, d.blocked_y_mm * 1e-3, d.blocked_height_mm * 1e-3});
   }
   if (d.kernel_state == BERM_STATE_FAULT && (decisions_ == 0 || last_.kernel_state != BERM_STATE_FAULT)) {
     ++faults_;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "config/parameter_block.h"
 #include "config/strict_table.hpp"
 
@@ -11,31 +13,35 @@ namespace {
 
 constexpr double kHighest = 20.0;  // the map's heights end there: nothing is too high to be passed over
 
-DigZoneFile read_zone(StrictTable table) {
-  DigZoneFile zone{};
-  constexpr double kLeastSide = 0.01;
+constexpr double kLeastSide = 0.01;
+
+struct Sides {
+  std::array<double, 2> x, y;
+};
+
+Sides read_sides(StrictTable& table) {
   const auto x = table.interval("x", -15.0, 15.0, kLeastSide);
-  const auto y = table.interval("y", -15.0, 15.0, kLeastSide);
+  return {x, table.interval("y", -15.0, 15.0, kLeastSide)};
+}
+
+DigZoneFile read_zone(StrictTable table) {
+  const Sides s = read_sides(table);
   const double floor = table.number("floor", -15.0, 5.0);
-  zone = {x[0], x[1], y[0], y[1], floor, table.number("ceiling", floor + kLeastSide, 10.0)};
+  const DigZoneFile zone{s.x[0], s.x[1], s.y[0], s.y[1], floor, table.number("ceiling", floor + kLeastSide, 10.0)};
   table.finish();
   return zone;
 }
 
 GroundZoneFile read_ground(StrictTable table) {
-  constexpr double kLeastSide = 0.01;
-  const auto x = table.interval("x", -15.0, 15.0, kLeastSide);
-  const auto y = table.interval("y", -15.0, 15.0, kLeastSide);
-  const GroundZoneFile zone{x[0], x[1], y[0], y[1], table.number("pass_over", -15.0, kHighest)};
+  const Sides s = read_sides(table);
+  const GroundZoneFile zone{s.x[0], s.x[1], s.y[0], s.y[1], table.number("pass_over", -15.0, kHighest)};
   table.finish();
   return zone;
 }
 
 TruckZoneFile read_truck_zone(StrictTable table) {
-  constexpr double kLeastSide = 0.01;
-  const auto x = table.interval("x", -15.0, 15.0, kLeastSide);
-  const auto y = table.interval("y", -15.0, 15.0, kLeastSide);
-  const TruckZoneFile zone{x[0], x[1], y[0], y[1], table.number("ceiling", -10.0, kHighest)};
+  const Sides s = read_sides(table);
+  const TruckZoneFile zone{s.x[0], s.x[1], s.y[0], s.y[1], table.number("ceiling", -10.0, kHighest)};
   table.finish();
   return zone;
 }

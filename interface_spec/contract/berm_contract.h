@@ -81,6 +81,9 @@ enum {
   BERM_STOP_REASONS = 19
 };
 
+/* Whether a reason is a cell of the map's: then the blocked_* fields say which. */
+#define BERM_STOP_HAS_CELL(reason) (((reason) >= BERM_STOP_COLLISION_PREDICTED && (reason) <= BERM_STOP_DIG_FLOOR) || (reason) == BERM_STOP_OVERPASS)
+
 /* Result of the check of the newest request. */
 enum {
   BERM_REQUEST_ACCEPTED = 0,
@@ -141,7 +144,7 @@ typedef struct berm_state {
   int32_t permitted_high_urad_s[BERM_JOINTS];
   int32_t reach_low_urad[BERM_JOINTS];               /* reach box of this cycle */
   int32_t reach_high_urad[BERM_JOINTS];
-  int32_t blocked_x_mm;                              /* centre of the first blocking cell, when stop_reason is 1..4 or 18 */
+  int32_t blocked_x_mm;                              /* centre of the first blocking cell, when BERM_STOP_HAS_CELL(stop_reason) */
   int32_t blocked_y_mm;
   int32_t blocked_height_mm;
   uint32_t blocked_link;                             /* joint index of the link that would meet it */

@@ -28,10 +28,7 @@ struct Observation {
   bool truck_parked = false;
 
   // Whether blocked_x and blocked_y are those of a cell.
-  bool has_place() const {
-    const bool by_cell = (stop_reason >= BERM_STOP_COLLISION_PREDICTED && stop_reason <= BERM_STOP_DIG_FLOOR) || stop_reason == BERM_STOP_OVERPASS;
-    return by_cell && (blocked_x != 0.0 || blocked_y != 0.0);
-  }
+  bool has_place() const { return BERM_STOP_HAS_CELL(stop_reason) && (blocked_x != 0.0 || blocked_y != 0.0); }
   bool running() const { return kernel_state == BERM_STATE_RUN; }
 };
 

@@ -23,10 +23,7 @@ constexpr double retreat_for = 1.0;     // s
 constexpr double creep_share = 0.9;
 constexpr double range_room = radians(8.0);
 
-bool by_ground(std::uint8_t reason) {
-  return reason == BERM_STOP_COLLISION_PREDICTED || reason == BERM_STOP_UNKNOWN_GROUND || reason == BERM_STOP_STALE_GROUND || reason == BERM_STOP_DIG_FLOOR ||
-         reason == BERM_STOP_OVERPASS || reason == BERM_STOP_JOINT_RANGE;
-}
+bool by_ground(std::uint8_t reason) { return BERM_STOP_HAS_CELL(reason) || reason == BERM_STOP_JOINT_RANGE; }
 
 }  // namespace
 

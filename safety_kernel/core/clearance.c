@@ -1,4 +1,5 @@
 #include "clearance.h"
+#include "cell_zone.h"
 
 #define SK_SIDE_MAX 9223372036854775807 /* beyond any n . vertex */
 
@@ -149,17 +150,6 @@ static bool sk_column_is_below(const sk_height_map *m, const sk_clearance_rules 
   int32_t y = sk_cell_low_mm(iy);
   if (sk_is_passable(m, r, iy, ix)) { return sk_square_is_below(p, x, y, sk_column_top_mm(m, r, iy, ix)); }
   return p->nz == 0 && sk_square_is_below(p, x, y, 0);
-}
-
-/*@ requires \valid_read(zone) && sk_in_map(iy, ix);
-  @ assigns \nothing;
-  @ ensures \result == true <==> sk_cell_in_zone(zone, iy, ix);
-  @*/
-static bool sk_is_in_zone(const berm_dig_zone *zone, int32_t iy, int32_t ix)
-{
-  int32_t x = sk_cell_low_mm(ix);
-  int32_t y = sk_cell_low_mm(iy);
-  return zone->x_low_mm <= x && x + SK_CELL_MM <= zone->x_high_mm && zone->y_low_mm <= y && y + SK_CELL_MM <= zone->y_high_mm;
 }
 
 /* A cell that is not separated, by the dig rule: clear, below the floor, or a collision when the rule does not apply. A cell in two zones may be dug

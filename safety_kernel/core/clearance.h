@@ -37,9 +37,6 @@ typedef struct sk_clearance_result { int32_t verdict; int32_t iy, ix; int32_t ce
   @   (sk_passable{L}(m, r, iy, ix) ==> sk_square_below{L}(p, sk_cell_low(ix), sk_cell_low(iy), sk_column_top{L}(m, r, iy, ix))) &&
   @   (!sk_passable{L}(m, r, iy, ix) ==> \at(p->nz, L) == 0 && sk_square_below{L}(p, sk_cell_low(ix), sk_cell_low(iy), 0));
   @
-  @ predicate sk_cell_in_zone{L}(berm_dig_zone *zone, integer iy, integer ix) =
-  @   \at(zone->x_low_mm, L) <= sk_cell_low(ix) && sk_cell_low(ix) + SK_CELL_MM <= \at(zone->x_high_mm, L) &&
-  @   \at(zone->y_low_mm, L) <= sk_cell_low(iy) && sk_cell_low(iy) + SK_CELL_MM <= \at(zone->y_high_mm, L);
   @ predicate sk_slice_above{L}(sk_slice *s, integer z) = \forall integer i; 0 <= i < \at(s->vertices, L) ==> \at(s->xyz_mm[2][i], L) >= z;
   @ predicate sk_known{L}(sk_height_map *m, sk_clearance_rules *r, integer iy, integer ix) =
   @   sk_current{L}(m, r, iy, ix) || (\at(r->dig_stale, L) == true && 0 <= \at(m->seen_us[iy][ix], L));

@@ -27,6 +27,10 @@ typedef struct sk_clearance_rules {
   @ // observed, fresh, and no higher than may be passed over; any other cell is a column without a top
   @ predicate sk_passable{L}(sk_height_map *m, sk_clearance_rules *r, integer iy, integer ix) =
   @   sk_current{L}(m, r, iy, ix) && sk_top{L}(m, iy, ix) <= \at(r->pass_mm[iy][ix], L);
+  @ predicate sk_square_within(integer x_low, integer y_low, integer x_high, integer y_high, integer iy, integer ix) =
+  @   x_low <= sk_cell_low(ix) && sk_cell_low(ix) + SK_CELL_MM <= x_high && y_low <= sk_cell_low(iy) && sk_cell_low(iy) + SK_CELL_MM <= y_high;
+  @ predicate sk_cell_in_zone{L}(berm_dig_zone *zone, integer iy, integer ix) =
+  @   sk_square_within(\at(zone->x_low_mm, L), \at(zone->y_low_mm, L), \at(zone->x_high_mm, L), \at(zone->y_high_mm, L), iy, ix);
   @ predicate sk_in_circle(integer x, integer y, integer radius) = x * x + y * y <= radius * radius;
   @ predicate sk_own_body{L}(sk_clearance_rules *r, integer iy, integer ix) =
   @   sk_in_circle(sk_cell_low(ix), sk_cell_low(iy), \at(r->own_body_radius_mm, L)) &&

@@ -64,13 +64,11 @@ bool sk_map_insert(sk_height_map *m, int32_t iy, int32_t ix, int32_t z_mm, int64
   return true;
 }
 
-bool sk_map_keep(sk_height_map *m, int32_t iy, int32_t ix, int32_t z_mm)
+bool sk_map_keep(sk_height_map *m, int32_t iy, int32_t ix)
 {
-  int32_t kept_mm = sk_clamp_height(z_mm);
   if (iy < 0 || iy >= SK_MAP_CELLS || ix < 0 || ix >= SK_MAP_CELLS) { return false; }
   if (m->seen_us[iy][ix] < 0) { return false; }
-  if (kept_mm > m->previous_mm[iy][ix]) { kept_mm = m->previous_mm[iy][ix]; }
-  if (m->height_mm[iy][ix] < kept_mm) { m->height_mm[iy][ix] = kept_mm; }
+  if (m->height_mm[iy][ix] < m->previous_mm[iy][ix]) { m->height_mm[iy][ix] = m->previous_mm[iy][ix]; }
   return true;
 }
 

@@ -69,19 +69,17 @@ int32_t sk_map_index(int32_t v_mm);
   @*/
 bool sk_map_insert(sk_height_map *m, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us, int32_t generation_us);
 
-/* Carries what the cell's effective height holds of z into this generation, so that the next rotation does not forget it; the effective height stays,
- * and so does when the cell was seen. For a return that may be of a thing, and may be of the machine itself. False, and nothing changes, for a cell outside the
- * map or never observed. */
+/* Carries the cell's effective height into this generation, so that the next rotation does not forget it; the effective height stays, and so does
+ * when the cell was seen. For what the machine itself hides. False, and nothing changes, for a cell outside the map or never observed. */
 /*@ requires \valid(m);
   @ assigns m->height_mm[..][..];
   @ ensures accepts: \result == true <==> sk_in_map(iy, ix) && \old(m->seen_us[iy][ix]) >= 0;
   @ ensures refused: \result == false ==> sk_map_kept{Pre, Post}(m);
   @ ensures others: sk_others_kept{Pre, Post}(m, iy, ix);
   @ ensures top: \result == true ==> sk_top{Post}(m, iy, ix) == sk_top{Pre}(m, iy, ix);
-  @ ensures carried: \result == true ==> m->height_mm[iy][ix] >= \old(m->height_mm[iy][ix]) &&
-  @   (m->height_mm[iy][ix] >= sk_clamped(z_mm) || m->height_mm[iy][ix] == sk_top{Pre}(m, iy, ix));
+  @ ensures carried: \result == true ==> m->height_mm[iy][ix] == sk_top{Pre}(m, iy, ix);
   @*/
-bool sk_map_keep(sk_height_map *m, int32_t iy, int32_t ix, int32_t z_mm);
+bool sk_map_keep(sk_height_map *m, int32_t iy, int32_t ix);
 
 /* The effective height: the larger of the two generations. Outside the map: SK_HEIGHT_MAX_MM. */
 /*@ requires \valid_read(m);

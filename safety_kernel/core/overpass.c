@@ -1,4 +1,5 @@
 #include "overpass.h"
+#include "cell_zone.h"
 
 /*@ requires \valid_read(z) && sk_in_map(iy, ix);
   @ assigns \nothing;
@@ -17,20 +18,7 @@ static bool sk_meets_ground(const berm_ground_zone *z, int32_t iy, int32_t ix)
   @*/
 static bool sk_within_truck(const berm_truck_zone *z, int32_t iy, int32_t ix)
 {
-  int32_t x = sk_cell_low_mm(ix);
-  int32_t y = sk_cell_low_mm(iy);
-  return z->x_low_mm <= x && x + SK_CELL_MM <= z->x_high_mm && z->y_low_mm <= y && y + SK_CELL_MM <= z->y_high_mm;
-}
-
-/*@ requires \valid_read(z) && sk_in_map(iy, ix);
-  @ assigns \nothing;
-  @ ensures \result == true <==> sk_in_dig_zone(z, iy, ix);
-  @*/
-static bool sk_within_dig(const berm_dig_zone *z, int32_t iy, int32_t ix)
-{
-  int32_t x = sk_cell_low_mm(ix);
-  int32_t y = sk_cell_low_mm(iy);
-  return z->x_low_mm <= x && x + SK_CELL_MM <= z->x_high_mm && z->y_low_mm <= y && y + SK_CELL_MM <= z->y_high_mm;
+  return sk_is_square_within(z->x_low_mm, z->y_low_mm, z->x_high_mm, z->y_high_mm, iy, ix);
 }
 
 /*@ requires \valid_read(p);
@@ -108,7 +96,7 @@ static int32_t sk_raised_by_trucks(const berm_parameters *p, int32_t iy, int32_t
   @ assigns \nothing;
   @ ensures height: sk_height_ok(\result);
   @ ensures no_lower: from_mm <= \result;
-  @ ensures every: \forall integer k; 0 <= k < p->dig_zones && sk_in_dig_zone(&p->dig_zone[k], iy, ix) ==> p->dig_zone[k].ceiling_mm <= \result;
+  @ ensures every: \forall integer k; 0 <= k < p->dig_zones && sk_cell_in_zone(&p->dig_zone[k], iy, ix) ==> p->dig_zone[k].ceiling_mm <= \result;
   @ ensures reached: \result == from_mm || sk_dig_passes(p, iy, ix, p->dig_zones, \result);
   @*/
 static int32_t sk_raised_by_digging(const berm_parameters *p, int32_t iy, int32_t ix, int32_t from_mm)
@@ -117,13 +105,13 @@ static int32_t sk_raised_by_digging(const berm_parameters *p, int32_t iy, int32_
   int32_t i;
   /*@ loop invariant 0 <= i <= p->dig_zones;
     @ loop invariant sk_height_ok(limit_mm) && from_mm <= limit_mm;
-    @ loop invariant \forall integer k; 0 <= k < i && sk_in_dig_zone(&p->dig_zone[k], iy, ix) ==> p->dig_zone[k].ceiling_mm <= limit_mm;
+    @ loop invariant \forall integer k; 0 <= k < i && sk_cell_in_zone(&p->dig_zone[k], iy, ix) ==> p->dig_zone[k].ceiling_mm <= limit_mm;
     @ loop invariant limit_mm == from_mm || sk_dig_passes(p, iy, ix, i, limit_mm);
     @ loop assigns i, limit_mm;
     @ loop variant p->dig_zones - i;
     @*/
   for (i = 0; i < p->dig_zones; i++) {
-    if (sk_within_dig(&p->dig_zone[i], iy, ix) && p->dig_zone[i].ceiling_mm > limit_mm) { limit_mm = p->dig_zone[i].ceiling_mm; }
+    if (sk_is_in_zone(&p->dig_zone[i], iy, ix) && p->dig_zone[i].ceiling_mm > limit_mm) { limit_mm = p->dig_zone[i].ceiling_mm; }
   }
   return limit_mm;
 }

@@ -6,12 +6,8 @@
 #include "parameter_overpass.h"
 SK_BEGIN
 
-/*@ predicate sk_square_within(integer x_low, integer y_low, integer x_high, integer y_high, integer iy, integer ix) =
-  @   x_low <= sk_cell_low(ix) && sk_cell_low(ix) + SK_CELL_MM <= x_high && y_low <= sk_cell_low(iy) && sk_cell_low(iy) + SK_CELL_MM <= y_high;
-  @ predicate sk_square_meets(integer x_low, integer y_low, integer x_high, integer y_high, integer iy, integer ix) =
+/*@ predicate sk_square_meets(integer x_low, integer y_low, integer x_high, integer y_high, integer iy, integer ix) =
   @   x_low <= sk_cell_low(ix) + SK_CELL_MM && sk_cell_low(ix) <= x_high && y_low <= sk_cell_low(iy) + SK_CELL_MM && sk_cell_low(iy) <= y_high;
-  @ predicate sk_in_dig_zone{L}(berm_dig_zone *z, integer iy, integer ix) =
-  @   sk_square_within(\at(z->x_low_mm, L), \at(z->y_low_mm, L), \at(z->x_high_mm, L), \at(z->y_high_mm, L), iy, ix);
   @ predicate sk_in_truck_zone{L}(berm_truck_zone *z, integer iy, integer ix) =
   @   sk_square_within(\at(z->x_low_mm, L), \at(z->y_low_mm, L), \at(z->x_high_mm, L), \at(z->y_high_mm, L), iy, ix);
   @ predicate sk_meets_ground_zone{L}(berm_ground_zone *z, integer iy, integer ix) =
@@ -25,7 +21,7 @@ SK_BEGIN
   @   \exists integer i; 0 <= i < zones && sk_in_truck_zone{L}(&p->truck_zone[i], iy, ix) && z <= \at(p->truck_zone[i].ceiling_mm, L);
   @ // the same of a dig zone: soil that may be dug
   @ predicate sk_dig_passes{L}(berm_parameters *p, integer iy, integer ix, integer zones, integer z) =
-  @   \exists integer i; 0 <= i < zones && sk_in_dig_zone{L}(&p->dig_zone[i], iy, ix) && z <= \at(p->dig_zone[i].ceiling_mm, L);
+  @   \exists integer i; 0 <= i < zones && sk_cell_in_zone{L}(&p->dig_zone[i], iy, ix) && z <= \at(p->dig_zone[i].ceiling_mm, L);
   @ predicate sk_may_pass{L}(berm_parameters *p, integer truck, integer iy, integer ix, integer z) =
   @   sk_ground_passes{L}(p, iy, ix, \at(p->ground_zones, L), z) ||
   @   (truck != 0 && sk_truck_passes{L}(p, iy, ix, \at(p->truck_zones, L), z)) || sk_dig_passes{L}(p, iy, ix, \at(p->dig_zones, L), z);

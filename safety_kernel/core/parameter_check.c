@@ -3,6 +3,7 @@
 #include "parameter_overpass.h"
 #include "parameter_parts.h"
 #include "parameter_range.h"
+#include "parameter_rectangle.h"
 
 /*@ requires \valid_read(v + (0 .. SK_JOINTS - 1));
   @ assigns \nothing;
@@ -175,8 +176,7 @@ static int32_t check_sensors(const berm_parameters *p)
   @*/
 static bool zone_bounds_ok(const berm_dig_zone *z)
 {
-  return -15000 <= z->x_low_mm && z->x_low_mm < z->x_high_mm && z->x_high_mm <= 15000 && -15000 <= z->y_low_mm &&
-         z->y_low_mm < z->y_high_mm && z->y_high_mm <= 15000;
+  return sk_is_rectangle(z->x_low_mm, z->y_low_mm, z->x_high_mm, z->y_high_mm);
 }
 
 /*@ requires \valid_read(p) && sk_rule_dig_zone_count(p);

@@ -1,13 +1,6 @@
 #include "parameter_overpass.h"
 #include "parameter_range.h"
-
-/*@ assigns \nothing;
-  @ ensures \result == true <==> sk_rectangle_ok(x_low_mm, y_low_mm, x_high_mm, y_high_mm);
-  @*/
-static bool rectangle_ok(int32_t x_low_mm, int32_t y_low_mm, int32_t x_high_mm, int32_t y_high_mm)
-{
-  return -15000 <= x_low_mm && x_low_mm < x_high_mm && x_high_mm <= 15000 && -15000 <= y_low_mm && y_low_mm < y_high_mm && y_high_mm <= 15000;
-}
+#include "parameter_rectangle.h"
 
 /*@ requires \valid_read(z);
   @ assigns \nothing;
@@ -15,7 +8,7 @@ static bool rectangle_ok(int32_t x_low_mm, int32_t y_low_mm, int32_t x_high_mm, 
   @*/
 static bool ground_ok(const berm_ground_zone *z)
 {
-  return rectangle_ok(z->x_low_mm, z->y_low_mm, z->x_high_mm, z->y_high_mm);
+  return sk_is_rectangle(z->x_low_mm, z->y_low_mm, z->x_high_mm, z->y_high_mm);
 }
 
 /*@ requires \valid_read(z);
@@ -24,7 +17,7 @@ static bool ground_ok(const berm_ground_zone *z)
   @*/
 static bool truck_ok(const berm_truck_zone *z)
 {
-  return rectangle_ok(z->x_low_mm, z->y_low_mm, z->x_high_mm, z->y_high_mm);
+  return sk_is_rectangle(z->x_low_mm, z->y_low_mm, z->x_high_mm, z->y_high_mm);
 }
 
 /*@ requires \valid_read(p) && 0 <= p->ground_zones <= BERM_GROUND_ZONES;

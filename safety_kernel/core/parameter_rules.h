@@ -142,7 +142,9 @@ enum {
   @   sk_rule_spurious_range(p) && sk_rule_range_limits(p) && sk_rule_self_margin(p);
   @
   @ // map and clearance
-  @ predicate sk_zone_bounds_ok(berm_dig_zone *z) = -15000 <= z->x_low_mm < z->x_high_mm <= 15000 && -15000 <= z->y_low_mm < z->y_high_mm <= 15000;
+  @ predicate sk_rectangle_ok(integer x_low, integer y_low, integer x_high, integer y_high) =
+  @   -15000 <= x_low < x_high <= 15000 && -15000 <= y_low < y_high <= 15000;
+  @ predicate sk_zone_bounds_ok(berm_dig_zone *z) = sk_rectangle_ok(z->x_low_mm, z->y_low_mm, z->x_high_mm, z->y_high_mm);
   @ predicate sk_zone_heights_ok(berm_dig_zone *z) = -SK_HEIGHT_MAX_MM <= z->floor_mm < z->ceiling_mm <= SK_HEIGHT_MAX_MM;
   @ predicate sk_rule_margin(berm_parameters *p) = sk_within(p->margin_mm, 0, 3000);
   @ predicate sk_rule_fresh(berm_parameters *p) = sk_within(p->fresh_us, 1, 600000000);
@@ -178,8 +180,6 @@ enum {
   @   sk_rule_base_tilt(p) && sk_rule_base_tilt_hard(p) && sk_rule_base_azimuth(p) && sk_rule_base_frame_age(p);
   @
   @ // overpass rule
-  @ predicate sk_rectangle_ok(integer x_low, integer y_low, integer x_high, integer y_high) =
-  @   -15000 <= x_low < x_high <= 15000 && -15000 <= y_low < y_high <= 15000;
   @ predicate sk_height_ok(integer z) = sk_within(z, -SK_HEIGHT_MAX_MM, SK_HEIGHT_MAX_MM);
   @ predicate sk_ground_bounds_ok(berm_ground_zone *z) = sk_rectangle_ok(z->x_low_mm, z->y_low_mm, z->x_high_mm, z->y_high_mm);
   @ predicate sk_truck_bounds_ok(berm_truck_zone *z) = sk_rectangle_ok(z->x_low_mm, z->y_low_mm, z->x_high_mm, z->y_high_mm);

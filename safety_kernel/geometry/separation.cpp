@@ -167,9 +167,10 @@ bool planes_in_range(const sk_slice& slice) noexcept {
   return true;
 }
 
-// Height of the column of a current cell.
-int32_t column_height(const sk_height_map& map, const sk_clearance_rules& rules, int32_t iy, int32_t ix) noexcept {
-  return static_cast<int32_t>(std::min<int64_t>(sk_column_top_mm(&map, &rules, iy, ix), SK_NO_TOP));
+// The column of a current cell as high as it stands, whether it may be passed over or not.
+Column standing(const sk_height_map& map, const sk_clearance_rules& rules, int32_t x, int32_t y, int32_t iy, int32_t ix) noexcept {
+  const int64_t top = sk_column_top_mm(&map, &rules, iy, ix);
+  return {x, y, static_cast<int32_t>(std::clamp<int64_t>(top, -SK_COORD_MAX_MM, SK_COORD_MAX_MM)), true};
 }
 
 // The first from ix on that is not lower than z, or one beyond the last; nearly all are lower.
@@ -234,7 +235,8 @@ bool choose_planes(const sk_height_map& map, const sk_columns& columns, const sk
       const int plane = search.find(column);
       if (plane == 0) {
         // Blocked; a plane over it, where it is merely too high to be passed over, lets the core say so.
-        if (!own && !has_top && current) choice.plane_of[iy][ix] = static_cast<uint8_t>(search.find({x, y, std::clamp(column_height(map, rules, iy, ix), -SK_COORD_MAX_MM, SK_COORD_MAX_MM), true}));
+        const bool too_high = !own && !has_top && current;
+        if (too_high) choice.plane_of[iy][ix] = static_cast<uint8_t>(search.find(standing(map, rules, x, y, iy, ix)));
         return false;
       }
       choice.plane_of[iy][ix] = static_cast<uint8_t>(plane);

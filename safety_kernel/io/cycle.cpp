@@ -12,9 +12,9 @@ Cycle::Cycle(const berm_parameters& parameters, bool map_only)
       scans_(parameters),
       self_(parameters),
       commands_(parameters.command_latency_us + parameters.state_latency_us + parameters.cycle_us),
-      motion_(parameters),
-      motion_watch_(parameters),
       own_cells_(parameters),
+      motion_(parameters, own_cells_),
+      motion_watch_(parameters),
       registration_(parameters) {
   sk_map_clear(&map_);
   sk_stop_init(&stop_);

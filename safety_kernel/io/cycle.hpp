@@ -104,9 +104,9 @@ class Cycle {
   SelfFilter self_;
   JointHistory joints_;
   CommandHistory commands_;
+  OwnCells own_cells_;
   MotionCheck motion_;
   MotionWatch motion_watch_;
-  OwnCells own_cells_;
   StandstillWatch standstill_watch_;
   sk_height_map map_;
   TerrainRegistration registration_;

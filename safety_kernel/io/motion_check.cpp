@@ -28,7 +28,8 @@ std::int32_t cell_centre_mm(std::int32_t index) { return SK_MAP_ORIGIN_MM + inde
 
 }  // namespace
 
-MotionCheck::MotionCheck(const berm_parameters& parameters) : parameters_(parameters), shape_(parameters), own_cells_(parameters), rules_{}, columns_{}, choice_{} {
+MotionCheck::MotionCheck(const berm_parameters& parameters, const OwnCells& own_cells)
+    : parameters_(parameters), shape_(parameters), own_cells_(own_cells), rules_{}, columns_{}, choice_{} {
   rules_.fresh_us = parameters.fresh_us;
   rules_.margin_mm = parameters.margin_mm;
   rules_.dig_zones = parameters.dig_zones;

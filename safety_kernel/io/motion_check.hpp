@@ -44,7 +44,7 @@ struct MotionVerdict {
 
 class MotionCheck {
  public:
-  explicit MotionCheck(const berm_parameters& parameters);
+  MotionCheck(const berm_parameters& parameters, const OwnCells& own_cells);
 
   void check(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
 
@@ -73,7 +73,7 @@ class MotionCheck {
 
   const berm_parameters& parameters_;
   const ImplementShape shape_;
-  const OwnCells own_cells_;
+  const OwnCells& own_cells_;
   sk_clearance_rules rules_{};
   bool limited_ = false, truck_admitted_ = false;  // what the overpass limits of the rules are made for
   SliceSet request_slices_;

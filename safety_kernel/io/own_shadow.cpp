@@ -64,7 +64,7 @@ void OwnShadow::keep(int scanner, const sk_point& head, const sk_point& own, std
       view.hidden_us = now_us;
       bool seen = false;
       for (int other = 0; other < kViewers; ++other) seen = seen || (other != scanner && clear(view_[other][y.index][x.index], now_us));
-      if (!seen) static_cast<void>(sk_map_keep(&map, y.index, x.index, SK_HEIGHT_MAX_MM));
+      if (!seen) static_cast<void>(sk_map_keep(&map, y.index, x.index));
     }
     if (x.next_mm <= y.next_mm) x.advance();
     else y.advance();

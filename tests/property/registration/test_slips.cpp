@@ -14,10 +14,6 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kSettled_s = 25.0;  // by then every shift has been excluded often enough
 constexpr double kFound_s = 12.0;    // at the latest, after the slip: more than one sweep of the site's scanner
 
-double draw(Site& site, double low, double high) { return std::uniform_real_distribution<double>(low, high)(site.random); }
-
-std::string again(std::uint64_t seed) { return "seed " + std::to_string(seed) + "; again: BERM_SEED=" + std::to_string(seed) + " BERM_SEEDS=1"; }
-
 // Seconds from the slip until it was found.
 double slip(const SiteConfig& config, std::uint64_t seed, double length_m) {
   Watch watch(config, seed);

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <vector>
@@ -13,10 +12,6 @@ namespace berm::registration_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-double draw(Site& site, double low, double high) { return std::uniform_real_distribution<double>(low, high)(site.random); }
-
-std::string again(std::uint64_t seed) { return "seed " + std::to_string(seed) + "; again: BERM_SEED=" + std::to_string(seed) + " BERM_SEEDS=1"; }
 
 // Two people who walk up and away, a truck that leaves and one that parks some decimetres from where it stood, heaps and pits beside the machine.
 class Traffic {

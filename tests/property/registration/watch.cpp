@@ -15,6 +15,10 @@ std::uint64_t number(const char* name, std::uint64_t otherwise) {
 
 Seeds seeds(std::uint64_t otherwise) { return {number("BERM_SEED", 1), number("BERM_SEEDS", otherwise)}; }
 
+std::string again(std::uint64_t seed) { return "seed " + std::to_string(seed) + "; again: BERM_SEED=" + std::to_string(seed) + " BERM_SEEDS=1"; }
+
+double draw(Site& site, double low, double high) { return std::uniform_real_distribution<double>(low, high)(site.random); }
+
 berm_parameters site_parameters() {
   berm_parameters p{};
   p.own_body_radius_mm = 3000;

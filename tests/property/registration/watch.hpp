@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "geometry/terrain_registration.hpp"
@@ -32,6 +33,11 @@ class Watch {
   std::int64_t cycle_ = 0;
   std::vector<sk_point> returns_;
 };
+
+// How a failed seed is run again.
+std::string again(std::uint64_t seed);
+
+double draw(Site& site, double low, double high);
 
 // Own body of 3 m; a dig zone in front, as on the bench.
 berm_parameters site_parameters();

@@ -160,23 +160,20 @@ TEST_F(HeightMap, TopIsTheLargerGenerationAndHighestOutside) {
 }
 
 // verifies: SK-HM-12
-TEST_F(HeightMap, KeepCarriesWhatTheCellHoldsIntoThisSweepAndNoMore) {
-  for (const std::int32_t height : {-500, 0, 700, 1400})
-    for (const std::int32_t previous : {-500, 0, 700, 1400})
-      for (const std::int32_t z : {kMin32, -500, 0, 699, 1400, 20000, kMax32}) {
-        put(*map, 40, 60, {height, previous, 3'000'000, 3'200'000});
-        const auto before = std::make_unique<sk_height_map>(*map);
-        ASSERT_TRUE(sk_map_keep(map.get(), 40, 60, z));
-        const Cell after = cell();
-        ASSERT_EQ(top(), std::max(height, previous)) << "the effective height stays";
-        ASSERT_EQ(after.height_mm, std::max(height, std::min(z, previous)));
-        ASSERT_EQ(after.previous_mm, previous);
-        map->height_mm[40][60] = height;
-        ASSERT_TRUE(same(*map, *before)) << "nothing else changes, not even when it was seen";
-      }
+TEST_F(HeightMap, KeepCarriesTheEffectiveHeightIntoThisSweep) {
+  for (const std::int32_t height : {kMin32, -500, 0, 700, 1400, 20000})
+    for (const std::int32_t previous : {-500, 0, 700, 1400, kMax32}) {
+      put(*map, 40, 60, {height, previous, 3'000'000, 3'200'000});
+      const auto before = std::make_unique<sk_height_map>(*map);
+      ASSERT_TRUE(sk_map_keep(map.get(), 40, 60));
+      ASSERT_EQ(cell().height_mm, std::max(height, previous));
+      ASSERT_EQ(top(), std::max(height, previous)) << "the effective height stays";
+      map->height_mm[40][60] = height;
+      ASSERT_TRUE(same(*map, *before)) << "nothing else changes, not even when it was seen";
+    }
   // The next sweep finds only ground; the one after forgets.
   put(*map, 40, 60, {0, 1400, 3'000'000, 3'200'000});
-  ASSERT_TRUE(sk_map_keep(map.get(), 40, 60, 20000));
+  ASSERT_TRUE(sk_map_keep(map.get(), 40, 60));
   ASSERT_TRUE(insert(0, 4'000'000));
   EXPECT_EQ(top(), 1400);
   ASSERT_TRUE(insert(0, 5'000'000));
@@ -187,10 +184,10 @@ TEST_F(HeightMap, KeepCarriesWhatTheCellHoldsIntoThisSweepAndNoMore) {
 TEST_F(HeightMap, KeepRefusesWhatIsNotThere) {
   const auto before = std::make_unique<sk_height_map>(*map);
   for (const std::int32_t i : {kMin32, -1, SK_MAP_CELLS, kMax32}) {
-    EXPECT_FALSE(sk_map_keep(map.get(), i, 60, 100));
-    EXPECT_FALSE(sk_map_keep(map.get(), 40, i, 100));
+    EXPECT_FALSE(sk_map_keep(map.get(), i, 60));
+    EXPECT_FALSE(sk_map_keep(map.get(), 40, i));
   }
-  EXPECT_FALSE(sk_map_keep(map.get(), 40, 60, 100)) << "never observed";
+  EXPECT_FALSE(sk_map_keep(map.get(), 40, 60)) << "never observed";
   EXPECT_TRUE(same(*map, *before));
 }
 

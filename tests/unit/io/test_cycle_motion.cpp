@@ -53,6 +53,31 @@ TEST(CycleMotion, AMachineAtFullSwingStopsBeforeTheWall) {
   EXPECT_GE(rig.state().stop_count[rig.state().stop_reason], 1U);
 }
 
+// A thing behind the machine's right side, where no panning scanner looks; then the lidar sees only ground in its cell, and its beam over it ends on the own body.
+// verifies: SK-CY-105
+TEST(CycleMotion, WhatTheLidarsOwnReturnsHideKeepsItsHeight) {
+  for (const bool hidden : {false, true}) {
+    CycleRig rig;
+    rig.machine.pan_low_rad = 1.2;
+    rig.machine.pan_high_rad = 1.6;
+    rig.steps(200);
+    const sk_point thing{150, -6000, 1500}, ground{150, -6000, 0}, body{100, -2400, 2600};
+    const auto sees = [&](const sk_point& p, int cycles) {
+      for (int i = 0; i < cycles; ++i) {
+        rig.gather();
+        rig.in->lidar_head = {0, 0, 3400};
+        rig.in->footprint[rig.in->footprint_count++] = {p, p};
+        if (hidden) rig.in->footprint[rig.in->footprint_count++] = {body, body};
+        rig.cycle->step(*rig.in, *rig.out);
+        rig.obey();
+      }
+    };
+    sees(thing, 1);
+    sees(ground, static_cast<int>(4 * rig.parameters.generation_us / rig.parameters.cycle_us));
+    EXPECT_EQ(sk_map_top(&rig.cycle->map(), sk_map_index(thing.y_mm), sk_map_index(thing.x_mm)), hidden ? thing.z_mm : ground.z_mm);
+  }
+}
+
 constexpr int kBucket = BERM_BUCKET;
 constexpr double kCurled = -135.8 * kPi / 180;  // -136 degrees is the end
 constexpr double kMiddle = -40.0 * kPi / 180;

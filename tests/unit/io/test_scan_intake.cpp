@@ -141,6 +141,36 @@ TEST_F(ScanIntakeTest, OwnReturnsDoNotEnterTheMap) {
   EXPECT_EQ(blocks->block[0].range_mm[5], 1000U);
 }
 
+// The sweep before found a thing in every cell, this one only ground.
+// verifies: SK-CY-105
+TEST_F(ScanIntakeTest, WhatTheOwnReturnsHideKeepsItsHeight) {
+  constexpr std::int32_t thing_mm = 1500;
+  for (const bool own : {false, true}) {
+    for (int iy = 0; iy < SK_MAP_CELLS; ++iy)
+      for (int ix = 0; ix < SK_MAP_CELLS; ++ix) {
+        map->height_mm[iy][ix] = 0;
+        map->previous_mm[iy][ix] = thing_mm;
+        map->began_us[iy][ix] = map->seen_us[iy][ix] = kNow;
+      }
+    ScanIntake fresh(parameters);
+    berm_scan_packet p = ground(330, 40, 1);
+    p.flags = BERM_SCAN_FLAG_LAST;
+    for (int i = 0; i < 40; ++i) p.range[i][0] = own ? 1000 / BERM_SCAN_RANGE_LSB_MM : 0;
+    ASSERT_TRUE(fresh.take(p, joints, kNow, *map, *blocks));
+    int kept = 0, near = 0;
+    for (int iy = 0; iy < SK_MAP_CELLS; ++iy)
+      for (int ix = 0; ix < SK_MAP_CELLS; ++ix) {
+        if (map->height_mm[iy][ix] != thing_mm) continue;
+        ++kept;
+        const double x = SK_MAP_ORIGIN_MM + SK_CELL_MM * (ix + 0.5), y = SK_MAP_ORIGIN_MM + SK_CELL_MM * (iy + 0.5);
+        near += std::hypot(x - parameters.scanner[0].x_mm, y - parameters.scanner[0].y_mm) < 1000 - SK_CELL_MM ? 1 : 0;
+      }
+    EXPECT_EQ(kept > 20, own) << kept;
+    EXPECT_EQ(kept == 0, !own) << kept;
+    EXPECT_EQ(near, 0) << "before the return nothing is hidden";
+  }
+}
+
 // verifies: SK-CY-103
 TEST_F(ScanIntakeTest, ReplayedLateAndDirtyPacketsAreRefused) {
   ASSERT_TRUE(take(ground(320, 20, 10)));
