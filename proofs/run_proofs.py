@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Proves every file of the safety kernel's core with Frama-C/WP.
+"""Proves every file of the safety kernel's core with Frama-C/WP, and the theorems of the safety argument with Why3.
 
 A line each: goals, proved, seconds; then the totals and the tools' versions. Exit 0 only when every goal of every file is proved, every
 file has exactly the number of goals recorded in goals.json (so a contract that vanished is noticed), every function has a contract, no
@@ -13,6 +13,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import theorem_session
 import wp_session
 
 RECORD = Path(__file__).resolve().parent / "goals.json"
@@ -21,7 +22,7 @@ FILES_AT_A_TIME = 2
 
 def arguments():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("--only", metavar="UNIT", action="append", help="prove this file of the core only (name without .c; may be repeated)")
+    p.add_argument("--only", metavar="UNIT", action="append", help="prove this file of the core or of theorems only (its name without ending; may be repeated)")
     p.add_argument("--json", metavar="FILE", help='write {"goals","proved","skipped","seconds","functions":[{"name","goals","proved"}]}')
     p.add_argument("--record", action="store_true", help="write the goal counts to goals.json; refused when anything is unproved")
     p.add_argument("--timeout", metavar="S", type=int, default=60, help="seconds for each prover and goal (default 60)")
@@ -33,13 +34,15 @@ def arguments():
 
 def chosen_units(only):
     every = sorted(path.stem for path in wp_session.CORE.glob("*.c"))
-    if not every:
-        raise SystemExit(f"run_proofs: no files in {wp_session.CORE}")
+    theorems = sorted(path.stem for path in theorem_session.FOLDER.glob("*.mlw"))
+    for files, folder in ((every, wp_session.CORE), (theorems, theorem_session.FOLDER)):
+        if not files:
+            raise SystemExit(f"run_proofs: no files in {folder}")
     for unit in only or []:
-        if unit not in every:
-            sys.stderr.write(f"run_proofs: --only {unit}: no such file of the core; there are {', '.join(every)}\n")
+        if unit not in every + theorems:
+            sys.stderr.write(f"run_proofs: --only {unit}: no such file; there are {', '.join(every + theorems)}\n")
             raise SystemExit(2)
-    return every, sorted(set(only)) if only else every
+    return every, theorems, sorted(set(only)) if only else every + theorems
 
 
 def check_sources(every, units, env, outcomes):
@@ -71,7 +74,7 @@ def check_counts(every, units, recorded, outcomes):
             outcomes[unit].errors.append("no recorded goal count in goals.json (run with --record when the change is meant)")
         elif outcomes[unit].goals is not None and outcomes[unit].goals != expected:
             outcomes[unit].errors.append(f"{outcomes[unit].goals} goals, but {expected} are recorded in goals.json (run with --record when the change is meant)")
-    return [f"goals.json records {unit}, which is no file of the core" for unit in sorted(set(recorded) - set(every))]
+    return [f"goals.json records {unit}, which is no file" for unit in sorted(set(recorded) - set(every))]
 
 
 def write_whole(path, text):
@@ -92,7 +95,8 @@ def main():
     if missing:
         sys.stderr.write(f"run_proofs: not installed: {', '.join(missing)} (Debian: frama-c-base why3 cvc4 z3 gcc)\n")
         return 2
-    every, units = chosen_units(a.only)
+    core, theorems, units = chosen_units(a.only)
+    every = core + theorems
     record = json.loads(RECORD.read_text()) if RECORD.exists() else {"versions": {}, "units": {}}
     recorded = record["units"]
     versions = wp_session.versions()
@@ -102,14 +106,14 @@ def main():
         outcomes = {unit: wp_session.Outcome(unit) for unit in every}
 
         def one(unit):
-            out = wp_session.prove_file(wp_session.CORE, unit, env, a.timeout, folder)
+            out = theorem_session.prove_file(unit, env, a.timeout) if unit in theorems else wp_session.prove_file(wp_session.CORE, unit, env, a.timeout, folder)
             print(f"{unit:<20} {out.goals if out.goals is not None else '-':>5} goals {out.proved if out.proved is not None else '-':>5} proved {out.seconds:7.1f} s", flush=True)
             return unit, out
 
         longest_first = sorted(units, key=lambda u: -recorded.get(u, 1 << 20))
         with ThreadPoolExecutor(FILES_AT_A_TIME) as pool:
             outcomes.update(dict(pool.map(one, longest_first)))
-        check_sources(every, units, env, outcomes)
+        check_sources(core, units, env, outcomes)
     seconds = time.monotonic() - begin
 
     done = [outcomes[u] for u in units]
