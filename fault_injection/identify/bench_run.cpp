@@ -48,27 +48,34 @@ class Plant {
   run::ChildProcess child_;
 };
 
+StopPlan plan_of(const config::MachineFile& machine, const Station& station, std::size_t number, std::size_t column, bool between) {
+  StopPlan stop;
+  stop.joint = station.joint;
+  stop.row = station.row;
+  stop.column = column;
+  stop.between = between;
+  stop.station = number;
+  stop.speed = machine.joint[station.joint].velocity_max * (static_cast<double>(column) - (between ? 0.5 : 0.0)) / kLargestColumn;
+  return stop;
+}
+
 void test_station(Driver& driver, const config::MachineFile& machine, const BenchPlan& plan, const Station& station, std::size_t number, BenchRecord& record) {
   driver.take_pose(station.pose);
   driver.begin_station(station.joint, station.span);
   const auto highest = plan.columns.back();
+  const auto test = [&](StopPlan stop, std::size_t manner, double direction) {
+    stop.direction = direction;
+    stop.manner = static_cast<StopManner>(manner);
+    StopRecord result = driver.stop_test(stop, station.span);
+    result.seed = plan.seed;
+    result.loaded = plan.loaded;
+    record.stops.push_back(std::move(result));
+  };
   for (const std::size_t column : plan.columns) {
     if (!plan.loaded && column != highest) continue;
     for (std::size_t manner = 0; manner < kManners; ++manner) {
-      for (const double direction : {1.0, -1.0}) {
-        StopPlan stop;
-        stop.joint = station.joint;
-        stop.row = station.row;
-        stop.column = column;
-        stop.station = number;
-        stop.speed = machine.joint[station.joint].velocity_max * static_cast<double>(column) / kLargestColumn;
-        stop.direction = direction;
-        stop.manner = static_cast<StopManner>(manner);
-        StopRecord result = driver.stop_test(stop, station.span);
-        result.seed = plan.seed;
-        result.loaded = plan.loaded;
-        record.stops.push_back(std::move(result));
-      }
+      for (const double direction : {1.0, -1.0}) test(plan_of(machine, station, number, column, false), manner, direction);
+      if (plan.loaded) test(plan_of(machine, station, number, column, true), manner, (column + manner) % 2 == 0 ? 1.0 : -1.0);
     }
   }
 }

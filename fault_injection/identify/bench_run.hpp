@@ -13,7 +13,7 @@ namespace berm::identify {
 struct BenchPlan {
   std::string scenario;              // file
   std::uint64_t seed = 1;
-  bool loaded = true;                // with the heaviest payload: every column; else the highest column alone, once in a row
+  bool loaded = true;                // with the heaviest payload: every column, and halfway below it; else the highest column alone, once in a row
   std::vector<std::size_t> joints;
   std::vector<std::size_t> columns;  // 1..7, rising
   std::string plant_out;             // folder for what the plant writes, not read here; empty: thrown away

@@ -75,12 +75,32 @@ bool measured(const Row& row) {
   return std::any_of(row.begin(), row.end(), [](const TableEntry& e) { return e.runs > 0; });
 }
 
+// From the slowest column up: to raise one raises the chord above it too.
+void raise_to_chords(const config::MachineFile& m, const std::vector<BenchRecord>& runs, std::size_t joint, const Bounds& bounds, double allowance, std::vector<Row>& rows) {
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (std::size_t k = 1; k < kColumns; ++k) {
+      TableEntry& upper = rows[r][k];
+      const double chord = 0.5 * (rows[r][k - 1].angle + upper.angle);
+      double needed = 0.0;
+      for (const BenchRecord& run : runs) {
+        for (const StopRecord& stop : run.stops) {
+          if (stop.plan.joint != joint || !stop.plan.between || stop.plan.column != k || (joint == swing && stop.plan.row != r)) continue;
+          const double after = bounds.earliest_obeyed[joint][static_cast<std::size_t>(stop.plan.manner)];
+          needed = std::max(needed, (1.0 + allowance) * stop_bound(m, stop, after, stop.plan.speed).angle);
+        }
+      }
+      if (chord > 0.0) upper.between_share = needed / chord;
+      if (needed > chord) upper.angle = rounded_up((upper.angle + 2.0 * (needed - chord)) * kDegree, kAngleGrid_deg) / kDegree;
+    }
+  }
+}
+
 std::vector<Row> table_of(const config::MachineFile& m, const std::vector<BenchRecord>& runs, std::size_t joint, const Bounds& bounds, double allowance) {
   const std::size_t reaches = m.braking.reach.size();
   std::vector<Row> rows(reaches, Row(kColumns));
   for (const BenchRecord& run : runs) {
     for (const StopRecord& stop : run.stops) {
-      if (stop.plan.joint != joint) continue;
+      if (stop.plan.joint != joint || stop.plan.between) continue;
       const double speed = column_speed(m, joint, stop.plan.column);
       const double after = bounds.earliest_obeyed[joint][static_cast<std::size_t>(stop.plan.manner)];
       const StopBound bound = stop_bound(m, stop, after, speed);
@@ -102,6 +122,8 @@ std::vector<Row> table_of(const config::MachineFile& m, const std::vector<BenchR
       entry.time = rounded_up(entry.time * (1.0 + allowance), kTimeGrid_s);
     }
   }
+  make_monotone(rows);
+  raise_to_chords(m, runs, joint, bounds, allowance, rows);
   make_monotone(rows);
   return rows;
 }

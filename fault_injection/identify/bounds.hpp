@@ -8,6 +8,8 @@
 //   time  = (bound of the standstill - that moment) v / (held speed - speed error), the ratio when above 1
 //
 // with v the column's speed; then the largest over all runs, the allowance on top, rounded up, never falling with speed or reach.
+// Between two columns the kernel takes the angle on the chord. Stops from halfway between them are held against it, by the same bound and with the
+// allowance; where one needs more, the upper column is raised by twice that.
 #pragma once
 
 #include <array>
@@ -25,6 +27,7 @@ struct TableEntry {
   double slowest_speed = 0.0;                        // least held speed of its runs, rad/s
   int runs = 0;
   bool extrapolated = false;                         // from a lower speed, with its square
+  double between_share = 0.0;                        // largest bound of a stop from halfway below, of the chord before it was raised; 0 without one
 };
 
 struct Bounds {

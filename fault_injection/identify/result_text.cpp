@@ -128,7 +128,8 @@ std::string json_text(const Result& r, const config::MachineFile& machine) {
                                   {"bound_s", rounded(e.time)},
                                   {"before_s", rounded(machine.braking.time[j][row][k])},
                                   {"runs", e.runs},
-                                  {"extrapolated", e.extrapolated}});
+                                  {"extrapolated", e.extrapolated},
+                                  {"between_share", e.between_share > 0.0 ? Json(rounded(e.between_share)) : Json(nullptr)}});
       }
     }
   }
@@ -154,6 +155,18 @@ std::string summary_text(const Result& r, const config::MachineFile& machine) {
                             machine.braking.time[j][row][k], e.runs, e.extrapolated ? "  extrapolated" : "");
       }
     }
+  }
+  for (const std::size_t j : r.joints) {
+    double share = 0.0;
+    int raised = 0;
+    for (const auto& row : r.bounds.table[j]) {
+      for (const TableEntry& e : row) {
+        share = std::max(share, e.between_share);
+        raised += e.between_share > 1.0 ? 1 : 0;
+      }
+    }
+    if (share > 0.0) text += fmt::format("{}Between the columns, {}: at most {:.0f} % of the chord{}\n", j == r.joints.front() ? "\n" : "", config::kJointNames[j], 100.0 * share,
+                                         raised > 0 ? fmt::format("; {} entries were raised for it", raised) : "");
   }
   text += fmt::format("\nLargest acceleration (over the kernel's {:.2f} s of state latency, cycle and command latency), rad/s2: measured > bound [before]\n",
                       r.bounds.window_s);

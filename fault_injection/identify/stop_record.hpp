@@ -18,7 +18,8 @@ struct StopPlan {
   std::size_t row = 0;      // of the braking table; for the swing alone
   std::size_t column = 0;
   std::size_t station = 0;  // number of the pose
-  double speed = 0.0;       // the column's, rad/s
+  bool between = false;     // halfway from the column before to this one: holds the table against what lies between its speeds
+  double speed = 0.0;       // rad/s
   double direction = 1.0;
   StopManner manner = StopManner::zero_command;
 };

@@ -20,7 +20,7 @@ SITE = ROOT / "interface_spec/config/sites/bench.toml"
 SCENARIO = ROOT / "fault_injection/scenarios/identify.toml"
 DEGREE = 57.29577951308232
 JOINT = "stick"
-REDUCED = ("--joint", JOINT, "--columns", 3, 7, "--repetitions", 1, "--seed", 5)
+REDUCED = ("--joint", JOINT, "--columns", 3, 6, 7, "--repetitions", 1, "--seed", 5)
 LEAST_FALL_RAD_S = 0.02  # in one cycle: a stop; the slowing down between two tests is gentler
 scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-identify-"))
 seen = {}
@@ -65,10 +65,13 @@ def bounds_hold_the_true_stops():
         column = next(k for k in range(8) if speed * DEGREE <= fastest * k / 7 + 0.01)
         for row in range(4):
             assert angle * DEGREE <= angle_deg[row][column], f"true stop of {angle * DEGREE:.2f} deg at {speed * DEGREE:.1f} deg/s, bound {angle_deg[row][column]}"
+            low, high = angle_deg[row][column - 1], angle_deg[row][column]  # the kernel takes the chord between two columns
+            chord = low + (high - low) * (speed * DEGREE * 7 / fastest - (column - 1)) + 0.01
+            assert angle * DEGREE <= chord, f"true stop of {angle * DEGREE:.2f} deg at {speed * DEGREE:.1f} deg/s, chord {chord:.2f}"
             assert seconds <= time_s[row][column], f"true stop of {seconds:.2f} s at {speed * DEGREE:.1f} deg/s, bound {time_s[row][column]}"
         longest[column] = max(longest.get(column, 0.0), angle * DEGREE)
     print("true longest by column, deg:", {k: round(v, 2) for k, v in sorted(longest.items())}, "bounds:", angle_deg[0])
-    for column in (3, 7):
+    for column in (3, 6, 7):
         assert angle_deg[0][column] <= 1.4 * longest[column] + 1.0, "the bound is no measurement"
 
 
@@ -77,9 +80,10 @@ def entries_say_what_was_measured():
     entries = result["entries"]
     assert len(entries) == 4 * 7 and {e["joint"] for e in entries} == {JOINT}
     for e in entries:
-        if e["column"] in (3, 7):
+        if e["column"] in (3, 6, 7):
             assert e["runs"] > 0 and e["bound_deg"] > e["measured_deg"] > 0 and e["bound_s"] > e["measured_s"] > 0, e
             assert not e["extrapolated"]
+            assert 0.3 < e["between_share"] or e["column"] == 3, e
         else:
             assert e["runs"] == 0 and e["measured_deg"] is None, e
     assert 0.05 <= result["command_obeyed_after_s"] <= 0.08 and 1750 <= result["weighed_kg"] <= 1850

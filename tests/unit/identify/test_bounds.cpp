@@ -18,15 +18,17 @@ struct Machine {
   config::MachineFile file = config::load_machine_file(BERM_MACHINE_FILE);
   double speed(std::size_t joint, std::size_t column) const { return file.joint[joint].velocity_max * static_cast<double>(column) / 7.0; }
 
-  StopRecord stop(std::size_t joint, std::size_t row, std::size_t column, double deceleration, double share = 1.0) const {
+  StopRecord stop(std::size_t joint, std::size_t row, std::size_t column, double deceleration, double share = 1.0, bool between = false) const {
+    const double asked = between ? 0.5 * (speed(joint, column) + speed(joint, column - 1)) : speed(joint, column);
     IdealStop ideal;
-    ideal.speed = share * speed(joint, column);
+    ideal.speed = share * asked;
     ideal.deceleration = deceleration;
     StopPlan plan;
     plan.joint = joint;
     plan.row = row;
     plan.column = column;
-    plan.speed = speed(joint, column);
+    plan.between = between;
+    plan.speed = asked;
     return evaluate_stop(plan, ideal.samples(), IdealStop::kSent, file.joint[joint].velocity_error);
   }
 };
@@ -85,6 +87,29 @@ TEST(Bounds, AWorseStopOfALowerRowOrColumnRaisesAllBeyondIt) {
   const double worst = b.table[swing][1][4].angle;
   EXPECT_GT(worst, 2 * b.table[swing][0][4].angle);
   EXPECT_GE(b.table[swing][3][5].angle, worst);
+}
+
+TEST(Bounds, AStopBetweenTheColumnsThatNeedsMoreThanTheChordRaisesTheUpperOne) {
+  const Machine m;
+  for (const bool worse : {false, true}) {
+    BenchRecord run;
+    for (std::size_t k = 1; k < 8; ++k) {
+      run.stops.push_back(m.stop(swing, 3, k, 0.25));
+      run.stops.push_back(m.stop(swing, 3, k, worse && k == 5 ? 0.1 : 0.25, 1.0, true));
+    }
+    const Bounds b = bounds_of(m.file, {run}, {swing}, kAllowance);
+    expect_monotone_and_complete(b.table[swing]);
+    const auto& row = b.table[swing][3];
+    for (std::size_t k = 1; k < 8; ++k) {
+      EXPECT_EQ(row[k].runs, 1) << "a stop between is none of the column";
+      EXPECT_GT(row[k].between_share, 0.4);
+      if (k > 1) {
+        EXPECT_EQ(row[k].between_share > 1.0, worse && k == 5) << "column " << k;
+      }
+      const double v = 0.5 * (m.speed(swing, k) + m.speed(swing, k - 1)), angle = v * v / (2 * (worse && k == 5 ? 0.1 : 0.25));
+      EXPECT_GE(0.5 * (row[k - 1].angle + row[k].angle), (angle + 2 * m.file.joint[swing].angle_error) * (1 + kAllowance) - 1e-9) << "column " << k;
+    }
+  }
 }
 
 TEST(Bounds, WhatWasNotTestedIsCoveredFromAboveOrMarkedAsExtrapolated) {
