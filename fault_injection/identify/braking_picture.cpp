@@ -45,10 +45,10 @@ class Panel {
     words(left_ - 40, top_ + kHeight / 2, "12px", "middle", "stop angle (deg)",
           fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", left_ - 40, top_ + kHeight / 2));
   }
-  void steps(const std::vector<double>& speed, const std::vector<double>& angle, const std::string& style) {
+  // The kernel takes the angle on the chord between two entries.
+  void chords(const std::vector<double>& speed, const std::vector<double>& angle, const std::string& style) {
     std::string points;
-    for (std::size_t k = 1; k < speed.size(); ++k)  // an entry holds for every speed down to the column before
-      points += fmt::format("{:.1f},{:.1f} {:.1f},{:.1f} ", x(speed[k - 1]), y(angle[k]), x(speed[k]), y(angle[k]));
+    for (std::size_t k = 0; k < speed.size(); ++k) points += fmt::format("{:.1f},{:.1f} ", x(speed[k]), y(angle[k]));
     text_ += fmt::format("<polyline points=\"{}\" fill=\"none\" {}/>\n", points, style);
   }
   // Where a pixel has one already, none is added.
@@ -85,8 +85,8 @@ std::string joint_panel(const Result& r, const config::MachineFile& m, std::size
       now.push_back(rows[row][k].angle * kDegree);
       before.push_back(m.braking.angle[j][row][k] * kDegree);
     }
-    panel.steps(speed, before, fmt::format("stroke=\"{}\" stroke-opacity=\"0.45\" stroke-dasharray=\"4 3\"", colour));
-    panel.steps(speed, now, fmt::format("stroke=\"{}\" stroke-width=\"1.6\"", colour));
+    panel.chords(speed, before, fmt::format("stroke=\"{}\" stroke-opacity=\"0.45\" stroke-dasharray=\"4 3\"", colour));
+    panel.chords(speed, now, fmt::format("stroke=\"{}\" stroke-width=\"1.6\"", colour));
     panel.words(left + 10, top + 18 + 16 * static_cast<double>(row - first), "12px", "start",
                 j == swing ? fmt::format("to {:g} m reach", m.braking.reach[row]) : "every reach",
                 fmt::format(" fill=\"{}\"", colour));

@@ -9,7 +9,7 @@
  * each term rounded outward to the microradian. c = velocity_max in SK_REACH_ANY; in SK_REACH_COMMANDED the larger of s and the commands,
  * plus velocity_error, at most velocity_max.
  * Assumed: a joint is never faster than velocity_max, speeds up by no more than acceleration_max, and stops as the braking table says; between
- * two of the table's speeds its stop angle is at most on the chord (it is convex in speed: the faster, the more a further rad/s costs). */
+ * two of the table's speeds its stop angle is at most on the chord (identified at the middle: fault_injection/identify/IDENTIFY.md). */
 #ifndef SK_REACH_BOX_H
 #define SK_REACH_BOX_H
 #include "least_most.h"
