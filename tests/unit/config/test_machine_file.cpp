@@ -22,8 +22,8 @@ TEST(MachineFileTest, TheDefaultInSiUnits) {
   EXPECT_DOUBLE_EQ(m.joint[3].acceleration_max, 4.64);
   EXPECT_DOUBLE_EQ(m.command_latency, 0.09);
   ASSERT_EQ(m.braking.reach.size(), 4u);
-  EXPECT_DOUBLE_EQ(m.braking.angle[0][3][7], 103.04 * kPi / 180.0);
-  EXPECT_DOUBLE_EQ(m.braking.time[0][3][7], 4.099);
+  EXPECT_DOUBLE_EQ(m.braking.angle[0][3][7], 102.87 * kPi / 180.0);
+  EXPECT_DOUBLE_EQ(m.braking.time[0][3][7], 4.098);
   ASSERT_EQ(m.part.size(), 4u);
   EXPECT_EQ(m.part[3].link, 3);
   EXPECT_DOUBLE_EQ(m.part[3].outline[3][0], 1.62);
