@@ -151,6 +151,7 @@ json flat_json(const RunResult& r) {
   out["slowed_spans"] = slowed.spans;
   out["kernel_faults"] = r.kernel_faults;
   for (const char* name : {"cycle_us_p50", "cycle_us_p99", "cycle_us_max"}) out[name] = r.kernel.contains(name) ? r.kernel[name] : json(nullptr);
+  out["tail_watched"] = r.kernel.contains("tail_watched") ? json(r.kernel["tail_watched"].get<int>() != 0) : json(nullptr);
   out["simulated_seconds"] = r.truth.value("simulated_seconds", 0.0);
   out["wall_seconds"] = r.wall_seconds;
   out["end_reason"] = r.truth.value("end_reason", "");
@@ -205,6 +206,7 @@ std::string summary_text(const RunResult& r) {
   row("kernel stops", stops_text(r));
   row("slowed by the kernel", slowed_text(slowed_time(r)));
   row("held by the app", holds_text(app_holds(r)));
+  if (r.kernel.contains("tail_watched") && r.kernel["tail_watched"] == 0) row("tail", "not watched by the kernel: the ground round it must be fenced");
   row("kernel faults", r.kernel_faults == 0 ? "none" : fmt::format("{} (first: {})", r.kernel_faults, r.first_fault));
   if (j["cycle_us_p50"].is_number())
     row("kernel cycle, CPU", fmt::format("median {} us, p99 {} us, maximum {} us", j["cycle_us_p50"].dump(), j["cycle_us_p99"].dump(), j["cycle_us_max"].dump()));

@@ -89,6 +89,16 @@ void compile_rules(const MachineFile& m, const SiteFile& site, berm_parameters& 
   }
 }
 
+void compile_tail(const TailFile& t, berm_parameters& p) {
+  p.tail_watched = t.watched ? 1 : 0;
+  p.tail_radius_mm = up(t.radius, kMilli);
+  p.tail_half_width_mm = up(t.half_width, kMilli);
+  p.tail_low_mm = down(t.underside, kMilli);
+  p.tail_high_mm = up(t.top, kMilli);
+  p.tail_clearance_mm = up(t.clearance, kMilli);
+  p.tail_fresh_us = down(t.fresh, kMicro);
+}
+
 void compile_overpass(const SiteFile& site, berm_parameters& p) {
   p.pass_over_mm = down(site.pass_over, kMilli);
   p.ground_zones = static_cast<std::int32_t>(site.ground_zone.size());
@@ -125,6 +135,7 @@ berm_parameters compile_parameters(const MachineFile& m, const SiteFile& site) {
   compile_sensors(m, p);
   compile_rules(m, site, p);
   compile_overpass(site, p);
+  compile_tail(m.tail, p);
   p.crc32 = parameters_crc(p);
   return p;
 }

@@ -103,6 +103,16 @@ void overpass(const berm_parameters& p, Listing& out) {
   }
 }
 
+void tail(const berm_parameters& p, Listing& out) {
+  out.row("tail_watched", p.tail_watched);
+  out.row("tail_radius_mm", p.tail_radius_mm);
+  out.row("tail_half_width_mm", p.tail_half_width_mm);
+  out.row("tail_low_mm", p.tail_low_mm);
+  out.row("tail_high_mm", p.tail_high_mm);
+  out.row("tail_clearance_mm", p.tail_clearance_mm);
+  out.row("tail_fresh_us", p.tail_fresh_us);
+}
+
 }  // namespace
 
 std::string describe(const berm_parameters& p) {
@@ -114,6 +124,7 @@ std::string describe(const berm_parameters& p) {
   bodies_and_sensors(p, out);
   rules(p, out);
   overpass(p, out);
+  tail(p, out);
   out.row("crc32", fmt::format("{:08x}", static_cast<std::uint32_t>(p.crc32)));
   return out.text();
 }

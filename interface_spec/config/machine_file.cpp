@@ -100,6 +100,24 @@ ScannerFile read_scanner(StrictTable table) {
   return scanner;
 }
 
+TailFile read_tail(StrictTable table, double own_body_radius, double kernel_fresh) {
+  TailFile tail{};
+  tail.watched = table.flag("watched");
+  tail.radius = table.number("radius", 0.5, 6.0);
+  // Else its own returns would stand in its way.
+  if (tail.radius > own_body_radius - kRoundingRoom) table.fail("radius", fmt::format("{} is above kinematics.own_body_radius, {}, less {}", tail.radius, own_body_radius, kRoundingRoom));
+  tail.half_width = table.number("half_width", 0.1, 6.0);
+  if (tail.half_width > tail.radius) table.fail("half_width", "above radius");
+  tail.underside = table.number("underside", 0.0, 9.9);
+  tail.top = table.number("top", 0.1, 10.0);
+  if (tail.top < tail.underside + kRoundingRoom) table.fail("top", "not above underside");
+  tail.clearance = table.number("clearance", 0.5, 3.0);
+  tail.fresh = table.number("fresh", 0.1, 120.0);
+  if (tail.fresh > kernel_fresh) table.fail("fresh", "above kernel.fresh");
+  table.finish();
+  return tail;
+}
+
 KernelFile read_kernel(StrictTable table) {
   KernelFile k{};
   k.cycle = table.number("cycle", 0.001, 0.1);
@@ -170,6 +188,7 @@ MachineFile load_machine_file(const std::string& path) {
   if (scanners.size() != m.scanner.size()) file.fail("scanner", "exactly two, left and right");
   for (std::size_t i = 0; i < scanners.size(); ++i) m.scanner[i] = read_scanner(std::move(scanners[i]));
   m.kernel = read_kernel(file.table("kernel"));
+  m.tail = read_tail(file.table("tail"), m.own_body_radius, m.kernel.fresh);
   if (m.kernel.dig_swing_limit > m.joint[0].velocity_max) file.fail("kernel.dig_swing_limit_deg_s", "above joint.swing.velocity_max_deg_s");
   file.finish();
   return m;

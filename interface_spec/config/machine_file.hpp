@@ -43,6 +43,14 @@ struct KernelFile {  // seconds, metres, radians
       base_tilt, base_tilt_hard, base_azimuth, base_frame_age;
 };
 
+struct TailFile {
+  bool watched;                               // a sensor sees the ground round it
+  double radius, half_width;                  // m, from the swing axis, about the swing plane
+  double underside, top;                      // m, above the ground
+  double clearance;                           // m, beyond tail and own body
+  double fresh;                               // s
+};
+
 struct MachineFile {
   std::string name;
   double boom_pin_x, boom_pin_z, boom, stick, bucket, own_body_radius;  // m
@@ -51,6 +59,7 @@ struct MachineFile {
   BrakingFile braking;
   std::vector<PartFile> part;
   std::array<ScannerFile, 2> scanner;     // left, right
+  TailFile tail;
   KernelFile kernel;
 };
 

@@ -89,6 +89,13 @@ typedef struct berm_parameters {
   int32_t base_tilt_hard_urad;                    /* farther than this in one frame: it has moved */
   int32_t base_azimuth_urad;                      /* the same for the azimuth of the tracks, for most of 300 ms */
   int32_t base_frame_age_us;                      /* no Roll_Pitch or Vehicle_Azimuth for longer: fault */
+  /* the upper body's tail: see safety_kernel/requirements/tail.md */
+  int32_t tail_watched;                           /* 1: a sensor sees the ground round the tail, the kernel checks it; 0: nobody does */
+  int32_t tail_radius_mm;                         /* from the swing axis to the tail's farthest point */
+  int32_t tail_half_width_mm;                     /* about the swing plane */
+  int32_t tail_low_mm, tail_high_mm;              /* underside and top above the ground */
+  int32_t tail_clearance_mm;                      /* how far beyond the tail, and beyond the own body, must be seen to be free */
+  int32_t tail_fresh_us;                          /* a cell round the tail observed longer ago is stale */
   int32_t crc32;                                  /* bit pattern of the CRC-32 */
 } berm_parameters;
 

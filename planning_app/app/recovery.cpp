@@ -51,7 +51,8 @@ bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
   called_ = true;
   nlohmann::ordered_json fields{{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}, {"stopped_s", o.time_s - since_s_}};
   if (o.latched) {
-    fields["advice"] = "mend the cause, then press reset";
+    fields["advice"] = o.stop_reason == BERM_STOP_TAIL ? "send away who stands behind the machine, look all round it, beside the tracks too, then press reset"
+                                                       : "mend the cause, then press reset";
   } else if (o.stop_reason == BERM_STOP_JOINT_RANGE) {
     fields["advice"] = "move the joint back into its range by hand";
   } else {

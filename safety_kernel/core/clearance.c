@@ -167,8 +167,7 @@ static int32_t sk_dig_verdict(const sk_height_map *m, const sk_slice *s, const s
   int32_t top_mm = sk_map_top(m, iy, ix);
   int32_t verdict = SK_BLOCKED_COLLISION;
   int32_t i;
-  (void)s;
-  if (!r->dig_allowed) { return SK_BLOCKED_COLLISION; }
+  if (!r->dig_allowed || s->link == 0) { return SK_BLOCKED_COLLISION; }
   /*@ loop invariant 0 <= i <= r->dig_zones;
     @ loop invariant \forall integer j; 0 <= j < i && sk_cell_in_zone(&r->dig_zone[j], iy, ix) ==>
     @   z_low_mm < r->dig_zone[j].floor_mm || !sk_diggable(m, r, j, iy, ix);
@@ -246,7 +245,7 @@ static int32_t sk_cell_verdict(const sk_height_map *m, const sk_slice *s, int32_
 {
   int32_t verdict;
   if (sk_is_own_body(r, iy, ix)) {
-    if (s->link == 1) { return SK_CLEAR; }
+    if (s->link <= 1) { return SK_CLEAR; }
     return SK_BLOCKED_UNKNOWN;
   }
   if (sk_is_separated(m, s, k, r, t, iy, ix)) { return SK_CLEAR; }

@@ -44,17 +44,18 @@ typedef struct sk_clearance_result { int32_t verdict; int32_t iy, ix; int32_t ce
   @ predicate sk_diggable{L}(sk_height_map *m, sk_clearance_rules *r, integer i, integer iy, integer ix) =
   @   sk_known{L}(m, r, iy, ix) && sk_top{L}(m, iy, ix) <= \at(r->dig_zone[i].ceiling_mm, L);
   @ predicate sk_dig_exempt{L}(sk_height_map *m, sk_slice *s, sk_clearance_rules *r, integer iy, integer ix) =
-  @   \at(r->dig_allowed, L) == true &&
+  @   \at(r->dig_allowed, L) == true && \at(s->link, L) != 0 &&
   @   \exists integer i; 0 <= i < \at(r->dig_zones, L) && sk_cell_in_zone{L}(&r->dig_zone[i], iy, ix) &&
   @     sk_slice_above{L}(s, \at(r->dig_zone[i].floor_mm, L)) && sk_diggable{L}(m, r, i, iy, ix);
-  @ predicate sk_below_floor{L}(sk_slice *s, sk_clearance_rules *r, integer iy, integer ix) = \at(r->dig_allowed, L) == true &&
+  @ predicate sk_below_floor{L}(sk_slice *s, sk_clearance_rules *r, integer iy, integer ix) =
+  @   \at(r->dig_allowed, L) == true && \at(s->link, L) != 0 &&
   @   \exists integer i; 0 <= i < \at(r->dig_zones, L) && sk_cell_in_zone{L}(&r->dig_zone[i], iy, ix) &&
   @     !sk_slice_above{L}(s, \at(r->dig_zone[i].floor_mm, L));
   @ predicate sk_separated{L}(sk_height_map *m, sk_slice *s, sk_clearance_rules *r, integer k, integer iy, integer ix) =
   @   0 <= k < \at(s->planes, L) && sk_plane_bounds{L}(s, k) && sk_column_below{L}(m, r, &s->plane[k], iy, ix);
   @ // a cell of the slice is clear, plane k being the one chosen for it
   @ predicate sk_cell_clear{L}(sk_height_map *m, sk_slice *s, sk_clearance_rules *r, integer k, integer iy, integer ix) =
-  @   (sk_own_body{L}(r, iy, ix) ==> \at(s->link, L) == 1) &&
+  @   (sk_own_body{L}(r, iy, ix) ==> \at(s->link, L) <= 1) &&
   @   (!sk_own_body{L}(r, iy, ix) ==> sk_separated{L}(m, s, r, k, iy, ix) || sk_dig_exempt{L}(m, s, r, iy, ix));
   @ // why it is not
   @ predicate sk_blocked_because{L}(sk_height_map *m, sk_slice *s, sk_clearance_rules *r, integer iy, integer ix, integer verdict) =
@@ -75,8 +76,8 @@ typedef struct sk_clearance_result { int32_t verdict; int32_t iy, ix; int32_t ce
  * a cell outside the map is BLOCKED_UNKNOWN.
  * Overpass rule: a cell whose effective height is above pass_mm of that cell is a column without a top too; it is BLOCKED_OVERPASS where the plane
  * chosen for it would separate it at its height, else BLOCKED_COLLISION.
- * Own body: a cell with all four corners within own_body_radius is clear for the boom and BLOCKED_UNKNOWN for stick and bucket, whatever it holds.
- * Dig-zone rule: a cell whose square lies wholly inside a dig zone needs no separation when dig_allowed, every vertex of the slice is at or above the
+ * Own body: a cell with all four corners within own_body_radius is clear for tail and boom and BLOCKED_UNKNOWN for stick and bucket, whatever it holds.
+ * Dig-zone rule, for the implements alone: a cell whose square lies wholly inside a dig zone needs no separation when dig_allowed, every vertex of the slice is at or above the
  * zone's floor, and the cell is observed, fresh (or dig_stale) and no higher than the zone's ceiling; not separated and below the floor it is
  * BLOCKED_FLOOR.
  * out->verdict is SK_CLEAR only if every plane that is used has every vertex strictly on its positive side and every cell of the rectangle passes;

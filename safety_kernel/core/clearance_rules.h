@@ -10,7 +10,7 @@ typedef struct sk_clearance_rules {
   int64_t now_us;
   int32_t fresh_us;
   int32_t margin_mm;
-  int32_t own_body_radius_mm;  /* cells wholly nearer the origin are the machine's own: nothing to check for the boom, blocked for stick and bucket */
+  int32_t own_body_radius_mm;  /* cells wholly nearer the origin are the machine's own: nothing to check for tail and boom, blocked for stick and bucket */
   bool dig_allowed;            /* swing speed bound is under the dig limit (decided by the caller from the reach box) */
   int32_t dig_zones;
   berm_dig_zone dig_zone[BERM_DIG_ZONES];

@@ -30,9 +30,9 @@ typedef struct sk_columns {
   @ // lower than the whole slice: the level plane just below its lowest vertex separates it
   @ predicate sk_level{L}(sk_height_map *m, sk_slice *s, sk_clearance_rules *r, integer iy, integer ix) = sk_passable{L}(m, r, iy, ix) &&
   @   \forall integer i; 0 <= i < \at(s->vertices, L) ==> \at(s->xyz_mm[2][i], L) > sk_column_top{L}(m, r, iy, ix);
-  @ // what a cell under a level slice must be: the own body's under the boom, or one that may be passed over, and lower than every vertex
+  @ // what a cell under a level slice must be: the own body's under tail or boom, or one that may be passed over, and lower than every vertex
   @ predicate sk_cell_level{L}(sk_height_map *m, sk_slice *s, sk_clearance_rules *r, integer iy, integer ix) =
-  @   (sk_own_body{L}(r, iy, ix) ==> \at(s->link, L) == 1) &&
+  @   (sk_own_body{L}(r, iy, ix) ==> \at(s->link, L) <= 1) &&
   @   (!sk_own_body{L}(r, iy, ix) ==> sk_level{L}(m, s, r, iy, ix));
   @*/
 
@@ -45,7 +45,7 @@ typedef struct sk_columns {
   @*/
 bool sk_columns_of(const sk_height_map *m, const sk_clearance_rules *rules, sk_columns *out);
 
-/* Whether the slice is clear by its own height alone: every cell under it is in the map and is the own body's under the boom, or may be passed over and is, with the
+/* Whether the slice is clear by its own height alone: every cell under it is in the map and is the own body's under tail or boom, or may be passed over and is, with the
  * margin, lower than every vertex. So a level plane separates the slice from all of them: with plane (0, 0, 1, lowest z - 1) chosen everywhere sk_clear_slice would say CLEAR. False says only that this
  * is not so simple. The columns must be those of this map and these rules. */
 /*@ requires \valid_read(m) && \valid_read(c) && \valid_read(s) && \valid_read(rules);

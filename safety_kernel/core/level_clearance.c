@@ -5,10 +5,10 @@
   @   iy_low <= iy < iy_high && ix_low <= ix < ix_high ==> sk_cell_level{L}(m, s, r, iy, ix);
   @ predicate sk_level_asked{L}(sk_height_map *m, sk_columns *c, sk_slice *s, sk_clearance_rules *r, sk_footprint f) =
   @   sk_counts_fit{L}(s) && sk_rules_fit{L}(r) && sk_range_in_map(f.cells) && sk_is_lowest{L}(s, 2, f.z_low_mm) &&
-  @   f.z_low_mm <= SK_COORD_MAX_MM && sk_columns_right{L}(c, m, r) && (\at(s->link, L) == 1 || \at(r->own_body_radius_mm, L) == 0);
+  @   f.z_low_mm <= SK_COORD_MAX_MM && sk_columns_right{L}(c, m, r) && (\at(s->link, L) <= 1 || \at(r->own_body_radius_mm, L) == 0);
   @*/
 
-/* A cell that is not lower than the slice passes only as the own body's, under the boom. */
+/* A cell that is not lower than the slice passes only as the own body's, under tail or boom. */
 /*@ requires \valid_read(m) && \valid_read(c) && \valid_read(s) && \valid_read(r) && sk_level_asked(m, c, s, r, f) && sk_in_map(iy, ix);
   @ assigns \nothing;
   @ ensures \result == true ==> sk_cell_level(m, s, r, iy, ix);
@@ -20,7 +20,7 @@ static bool sk_cell_is_level(const sk_height_map *m, const sk_columns *c, const 
   /*@ assert sk_column_right(c, m, r, iy, ix); */
   /*@ assert nobody: r->own_body_radius_mm == 0 ==> !sk_own_body(r, iy, ix); */
   if (c->top_mm[iy][ix] < f.z_low_mm) { return true; }
-  return s->link == 1 && sk_is_own_body(r, iy, ix);
+  return s->link <= 1 && sk_is_own_body(r, iy, ix);
 }
 
 /* The cells of one row. */
@@ -134,7 +134,7 @@ bool sk_clear_level(const sk_height_map *m, const sk_columns *c, const sk_slice 
   int32_t first, last, by;
   f.z_low_mm = 0;
   if (!sk_rules_ok(rules) || !sk_slice_footprint(s, &f)) { return false; }
-  if (s->link != 1 && rules->own_body_radius_mm != 0) { return false; } /* the own body's cells are to be looked for */
+  if (s->link > 1 && rules->own_body_radius_mm != 0) { return false; } /* the own body's cells are to be looked for */
   first = f.cells.iy_low / SK_BLOCK_CELLS;
   last = f.cells.iy_high / SK_BLOCK_CELLS;
   /*@ loop invariant first <= by <= last + 1;

@@ -2,8 +2,10 @@
 #include "parameter_braking.h"
 #include "parameter_overpass.h"
 #include "parameter_parts.h"
+#include "parameter_tail.h"
 #include "parameter_range.h"
 #include "parameter_rectangle.h"
+#include "parameter_tail.h"
 
 /*@ requires \valid_read(v + (0 .. SK_JOINTS - 1));
   @ assigns \nothing;
@@ -306,5 +308,6 @@ int32_t sk_parameters_check(const berm_parameters *p)
   if (rule == SK_RULE_NONE) { rule = check_times(p); }
   if (rule == SK_RULE_NONE) { rule = check_base(p); }
   if (rule == SK_RULE_NONE) { rule = sk_check_overpass(p); }
+  if (rule == SK_RULE_NONE) { rule = sk_check_tail(p); }
   return rule;
 }

@@ -78,6 +78,12 @@ SK_BEGIN
   @ ensures why_truck_zone_count: \result == SK_RULE_TRUCK_ZONE_COUNT ==> !sk_rule_truck_zone_count(p);
   @ ensures why_truck_zone_bounds: \result == SK_RULE_TRUCK_ZONE_BOUNDS ==> !sk_rule_truck_zone_bounds(p);
   @ ensures why_truck_zone_ceiling: \result == SK_RULE_TRUCK_ZONE_CEILING ==> !sk_rule_truck_zone_ceiling(p);
+  @ ensures why_tail_watched: \result == SK_RULE_TAIL_WATCHED ==> !sk_rule_tail_watched(p);
+  @ ensures why_tail_radius: \result == SK_RULE_TAIL_RADIUS ==> !sk_rule_tail_radius(p);
+  @ ensures why_tail_width: \result == SK_RULE_TAIL_WIDTH ==> !sk_rule_tail_width(p);
+  @ ensures why_tail_heights: \result == SK_RULE_TAIL_HEIGHTS ==> !sk_rule_tail_heights(p);
+  @ ensures why_tail_clearance: \result == SK_RULE_TAIL_CLEARANCE ==> !sk_rule_tail_clearance(p);
+  @ ensures why_tail_fresh: \result == SK_RULE_TAIL_FRESH ==> !sk_rule_tail_fresh(p);
   @*/
 int32_t sk_parameters_check(const berm_parameters *p);
 

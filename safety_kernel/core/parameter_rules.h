@@ -29,7 +29,9 @@ enum {
   SK_RULE_BASE_TILT = 58, SK_RULE_BASE_TILT_HARD = 59, SK_RULE_BASE_AZIMUTH = 60, SK_RULE_BASE_FRAME_AGE = 61,
   SK_RULE_PASS_OVER = 62, SK_RULE_GROUND_ZONE_COUNT = 63, SK_RULE_GROUND_ZONE_BOUNDS = 64, SK_RULE_GROUND_ZONE_LIMIT = 65,
   SK_RULE_TRUCK_ZONE_COUNT = 66, SK_RULE_TRUCK_ZONE_BOUNDS = 67, SK_RULE_TRUCK_ZONE_CEILING = 68,
-  SK_RULES = 69
+  SK_RULE_TAIL_WATCHED = 69, SK_RULE_TAIL_RADIUS = 70, SK_RULE_TAIL_WIDTH = 71, SK_RULE_TAIL_HEIGHTS = 72, SK_RULE_TAIL_CLEARANCE = 73,
+  SK_RULE_TAIL_FRESH = 74,
+  SK_RULES = 75
 };
 
 /*@ predicate sk_within(integer v, integer low, integer high) = low <= v <= high;
@@ -194,9 +196,21 @@ enum {
   @   sk_rule_pass_over(p) && sk_rule_ground_zone_count(p) && sk_rule_ground_zone_bounds(p) && sk_rule_ground_zone_limit(p) &&
   @   sk_rule_truck_zone_count(p) && sk_rule_truck_zone_bounds(p) && sk_rule_truck_zone_ceiling(p);
   @
+  @ // the upper body's tail: no larger than the own body, or its own returns would block it; and what is to be free reaches beyond the cells of the own
+  @ // body's rim, of which no sensor tells
+  @ predicate sk_rule_tail_watched(berm_parameters *p) = sk_within(p->tail_watched, 0, 1);
+  @ predicate sk_rule_tail_radius(berm_parameters *p) = sk_within(p->tail_radius_mm, 500, p->own_body_radius_mm);
+  @ predicate sk_rule_tail_width(berm_parameters *p) = sk_within(p->tail_half_width_mm, 100, p->tail_radius_mm);
+  @ predicate sk_rule_tail_heights(berm_parameters *p) = 0 <= p->tail_low_mm < p->tail_high_mm <= 10000;
+  @ predicate sk_rule_tail_clearance(berm_parameters *p) = sk_within(p->tail_clearance_mm, 500, 3000);
+  @ predicate sk_rule_tail_fresh(berm_parameters *p) = sk_within(p->tail_fresh_us, 1, p->fresh_us);
+  @ predicate sk_tail_ok(berm_parameters *p) =
+  @   sk_rule_tail_watched(p) && sk_rule_tail_radius(p) && sk_rule_tail_width(p) && sk_rule_tail_heights(p) && sk_rule_tail_clearance(p) &&
+  @   sk_rule_tail_fresh(p);
+  @
   @ predicate sk_parameters_ok(berm_parameters *p) =
   @   sk_head_ok(p) && sk_kinematics_ok(p) && sk_joints_ok(p) && sk_braking_ok(p) && sk_parts_ok(p) && sk_sensors_ok(p) && sk_map_rules_ok(p) &&
-  @   sk_times_ok(p) && sk_base_ok(p) && sk_overpass_ok(p);
+  @   sk_times_ok(p) && sk_base_ok(p) && sk_overpass_ok(p) && sk_tail_ok(p);
   @*/
 
 SK_END

@@ -12,7 +12,7 @@ typedef struct sk_extent { int32_t x_low, x_high, y_low, y_high, z_low, z_high; 
   @*/
 static bool sk_counts_ok(const sk_slice *s)
 {
-  return s->link >= 1 && s->link <= 3 && s->vertices >= 1 && s->vertices <= SK_SLICE_VERTICES && s->planes >= 1 && s->planes <= SK_SLICE_PLANES;
+  return s->link >= 0 && s->link <= 3 && s->vertices >= 1 && s->vertices <= SK_SLICE_VERTICES && s->planes >= 1 && s->planes <= SK_SLICE_PLANES;
 }
 
 /* Of a slice with all the vertices there can be, as those of the sweep are: a number of rounds known beforehand goes in lanes. */

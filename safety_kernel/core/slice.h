@@ -12,7 +12,7 @@ SK_BEGIN
 typedef struct sk_plane { int32_t nx, ny, nz; int64_t d; } sk_plane;
 
 typedef struct sk_slice {
-  int32_t link;                              /* joint index of the link: 1 boom, 2 stick, 3 bucket */
+  int32_t link;                              /* joint index of the link: 0 upper body (its tail), 1 boom, 2 stick, 3 bucket */
   int32_t vertices;                          /* 1..SK_SLICE_VERTICES */
   int32_t xyz_mm[3][SK_SLICE_VERTICES];      /* vertices in the base frame, [axis][vertex]; their convex hull covers the slice */
   int32_t planes;                            /* 1..SK_SLICE_PLANES */
@@ -27,7 +27,7 @@ typedef struct sk_rectangle { int32_t ix_low, ix_high, iy_low, iy_high; } sk_rec
 typedef struct sk_footprint { sk_rectangle cells; int32_t z_low_mm; } sk_footprint;
 
 /*@ predicate sk_counts_fit{L}(sk_slice *s) =
-  @   1 <= \at(s->link, L) <= 3 && 1 <= \at(s->vertices, L) <= SK_SLICE_VERTICES && 1 <= \at(s->planes, L) <= SK_SLICE_PLANES;
+  @   0 <= \at(s->link, L) <= 3 && 1 <= \at(s->vertices, L) <= SK_SLICE_VERTICES && 1 <= \at(s->planes, L) <= SK_SLICE_PLANES;
   @ predicate sk_coordinate_fits(integer v) = -SK_COORD_MAX_MM <= v <= SK_COORD_MAX_MM;
   @ predicate sk_vertex_fits{L}(sk_slice *s, integer i) = sk_coordinate_fits(\at(s->xyz_mm[0][i], L)) &&
   @   sk_coordinate_fits(\at(s->xyz_mm[1][i], L)) && sk_coordinate_fits(\at(s->xyz_mm[2][i], L));

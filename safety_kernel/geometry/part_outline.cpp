@@ -78,7 +78,7 @@ double best_tilt(const berm_part& part) noexcept {
 ImplementShape::ImplementShape(const berm_parameters& parameters) noexcept
     : parts(parameters.parts >= 1 && parameters.parts <= BERM_PARTS ? parameters.parts : 0), pin_x_mm(static_cast<float>(parameters.boom_pin_x_mm)),
       pin_z_mm(static_cast<float>(parameters.boom_pin_z_mm)),
-      length_mm{static_cast<float>(parameters.boom_length_mm), static_cast<float>(parameters.stick_length_mm)}, part{} {
+      length_mm{static_cast<float>(parameters.boom_length_mm), static_cast<float>(parameters.stick_length_mm)}, part{}, tail(parameters) {
   for (int p = 0; p < parts; ++p) {
     const berm_part& from = parameters.part[p];
     Part& to = part[p];

@@ -5,6 +5,7 @@
 #include "config/parameter_block.h"
 #include "core/clearance.h"
 #include "core/reach_box.h"
+#include "geometry/tail_sweep.hpp"
 
 namespace berm::kernel {
 
@@ -44,6 +45,7 @@ public:
   int32_t parts = 0; // 0 where there are none or too many
   float pin_x_mm, pin_z_mm, length_mm[2];
   Part part[BERM_PARTS];
+  TailShape tail;
 };
 
 // The joints' absolute elevations over a box, as PartSweep has them (part_sweep.hpp), which is the exact statement that this one is held against.

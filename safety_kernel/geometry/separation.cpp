@@ -78,7 +78,7 @@ private:
   int from_candidates(const Column& column) noexcept {
     constexpr float unsure_mm = 4.0F; // rounding of vertices and normals
     if (!weighed_) weigh();
-    const int use = column.has_top ? candidates_.count : std::min(candidates_.count, upright_candidates);
+    const int use = column.has_top ? candidates_.count : std::min(candidates_.count, candidates_.upright);
     if (use == 0) return 0;
     alignas(16) float margin[plane_candidates];
     const Four x = four(static_cast<float>(column.x)), y = four(static_cast<float>(column.y)), z = four(column.has_top ? static_cast<float>(column.top) : 0.0F);
@@ -132,8 +132,8 @@ private:
 class Exceptions {
 public:
   Exceptions(const sk_slice& slice, int32_t z_low_mm, const sk_clearance_rules& rules) noexcept
-      : boom_(slice.link == 1), radius_squared_(static_cast<int64_t>(rules.own_body_radius_mm) * rules.own_body_radius_mm) {
-    const int32_t zones = rules.dig_allowed ? std::clamp(rules.dig_zones, 0, BERM_DIG_ZONES) : 0;
+      : over_body_(slice.link <= 1), radius_squared_(static_cast<int64_t>(rules.own_body_radius_mm) * rules.own_body_radius_mm) {
+    const int32_t zones = rules.dig_allowed && slice.link != 0 ? std::clamp(rules.dig_zones, 0, BERM_DIG_ZONES) : 0;
     for (int32_t i = 0; i < zones; ++i)
       if (z_low_mm >= rules.dig_zone[i].floor_mm) zone_[zones_++] = rules.dig_zone[i];
   }
@@ -143,7 +143,7 @@ public:
     return far_x * far_x + far_y * far_y <= radius_squared_;
   }
 
-  bool boom() const noexcept { return boom_; }
+  bool over_body() const noexcept { return over_body_; }
   bool any_zone() const noexcept { return zones_ > 0; }
 
   bool dig_zone(int32_t x, int32_t y, int32_t top) const noexcept {
@@ -153,7 +153,7 @@ public:
   }
 
 private:
-  bool boom_;
+  bool over_body_; // tail and boom
   int64_t radius_squared_;
   int zones_ = 0;
   berm_dig_zone zone_[BERM_DIG_ZONES];
@@ -226,7 +226,7 @@ bool choose_planes(const sk_height_map& map, const sk_columns& columns, const sk
       bool own = false;
       if (bodied) {
         own = exceptions.own_body(x, y);
-        if (own ? exceptions.boom() : top < z_low) continue;
+        if (own ? exceptions.over_body() : top < z_low) continue;
       }
       const bool current = top != SK_NO_TOP || sk_is_current(&map, &rules, iy, ix);  // one that is too high to be passed over has no top either
       if (exceptions.any_zone() && (current || (rules.dig_stale && map.seen_us[iy][ix] >= 0)) && exceptions.dig_zone(x, y, sk_map_top(&map, iy, ix))) continue;

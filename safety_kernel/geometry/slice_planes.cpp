@@ -6,7 +6,24 @@
 
 namespace berm::kernel {
 
+namespace {
+
+void tail_candidates_of(const SliceSet& set, int i, PlaneCandidates& out) noexcept {
+  static_assert(tail_normals % 4 == 0 && tail_normals <= plane_candidates);
+  const double c = set.cos_swing[i % set.intervals], s = set.sin_swing[i % set.intervals];
+  for (int k = 0; k < tail_normals; ++k) {
+    out.nx[k] = static_cast<int32_t>(-normal_scale * (c * set.tail_normal_x[k] - s * set.tail_normal_y[k]));
+    out.ny[k] = static_cast<int32_t>(-normal_scale * (s * set.tail_normal_x[k] + c * set.tail_normal_y[k]));
+    out.nz[k] = 0;
+    out.offset[k] = static_cast<float>(plane_offset(set.slice[i], out.nx[k], out.ny[k], 0));
+  }
+  out.count = out.upright = tail_normals;
+}
+
+} // namespace
+
 void plane_candidates_of(const SliceSet& set, int i, PlaneCandidates& out) noexcept {
+  if (set.slice[i].link == 0) return tail_candidates_of(set, i, out);
   constexpr float upright = 0.02F; // faces closer to upright than this add nothing to the near and far planes
   constexpr float scale = static_cast<float>(normal_scale);
   const PartOutline& outline = set.outline[i / set.intervals];
@@ -32,7 +49,7 @@ void plane_candidates_of(const SliceSet& set, int i, PlaneCandidates& out) noexc
   store4(out.offset, side_offset);
   const FourInt of_face_x = {0, side_x[0], side_x[1], 0}, of_face_y = {0, side_y[0], side_y[1], 0}; // the face itself, and with the left and the right side
   const Four of_face_offset = {0.0F, side_offset[0], side_offset[1], 0.0F};
-  int count = upright_candidates;
+  int count = out.upright = upright_candidates;
   for (int k = 0; k < sweep_directions; ++k) {
     if (outline.normal_z[k] > -upright || count + 3 > plane_candidates) continue;
     store4(out.nx + count, of_face_x + x[k]); // the fourth is overwritten, or beyond what is in use

@@ -12,9 +12,10 @@ inline constexpr int plane_candidates = 24; // in fours; those in use come first
 inline constexpr int upright_candidates = 4;
 
 // Normals towards the slice, in the base frame. First the upright faces (left side, right side, near, far); then for each edge of the outline that looks
-// downward its face, and the bevels between that face and the two sides.
+// downward its face, and the bevels between that face and the two sides. Of the tail: upright ones only, all round it.
 struct PlaneCandidates {
   int count = 0;
+  int upright = upright_candidates; // of the first: these have no slope
   // Readable beyond count, whatever stands there. Those of a face are written in fours, of which the last is one too many.
   int32_t nx[plane_candidates + 1], ny[plane_candidates + 1], nz[plane_candidates + 1];
   float offset[plane_candidates + 1]; // n . p of the slice is no less than about this (to a few mm)

@@ -97,6 +97,12 @@ bool build_slices(const ImplementShape& shape, const sk_reach_box& box, SliceSet
     for (int i = 0; i < swing.intervals; ++i, ++count)
       if (!place(outline, out.cos_swing[i], out.sin_swing[i], out.slice[count])) return false;
   }
+  if (shape.tail.watched) {
+    std::copy(shape.tail.normal_x, shape.tail.normal_x + tail_normals, out.tail_normal_x);
+    std::copy(shape.tail.normal_y, shape.tail.normal_y + tail_normals, out.tail_normal_y);
+    for (int i = 0; i < swing.intervals; ++i, ++count)
+      tail_slice(shape.tail, {out.cos_swing[i], out.sin_swing[i], out.cos_half, out.sin_half}, out.slice[count]);
+  }
   out.max_reach_mm = static_cast<int32_t>(std::sqrt(reach_squared) + reach_slack_mm) + 1;
   out.count = count;
   return true;

@@ -174,6 +174,10 @@ void Cycle::step_stop_logic(const CycleInputs& in) {
     stop_in.fault_reason = motion_fault_;
     stop_in.fault_category_0 = true;
   }
+  // Where the ground round the tail ends the own body begins, of which no sensor tells: who was seen there may have gone in, not away.
+  const bool met_tail = verdict_.permission == Permission::kHeld && verdict_.reason == BERM_STOP_TAIL;
+  if (met_tail) tail_met_ = verdict_;
+  if (met_tail && stop_in.latch_reason == BERM_STOP_NONE) stop_in.latch_reason = BERM_STOP_TAIL;
   hold_reason_ = judge_hold(in.now_us);
   stop_in.hold_reason = hold_reason_;
   stop_in.inputs_ready = inputs_ready(frames_, scans_.health(), parameters_, in.now_us);

@@ -95,6 +95,7 @@ class Cycle {
   void report_decision(const CycleInputs& in, berm_decision& decision) const;
   std::uint32_t panel_flags(std::int64_t now_us) const;
   std::uint8_t published_reason() const;
+  const MotionVerdict& shown_verdict() const;
 
   const berm_parameters& parameters_;
   const bool map_only_;
@@ -127,6 +128,7 @@ class Cycle {
   std::uint8_t hold_reason_ = BERM_STOP_NONE;
   MotionVerdict verdict_{};
   std::uint8_t motion_fault_ = BERM_STOP_NONE;
+  MotionVerdict tail_met_{};  // when the tail was last stopped: while that is latched its place is shown
   std::int32_t sent_urad_s_[4] = {};
   std::uint32_t map_points_ = 0;
 };

@@ -11,7 +11,8 @@ namespace berm::kernel {
 
 namespace {
 
-std::uint8_t reason_of(std::int32_t verdict) {
+std::uint8_t reason_of(std::int32_t verdict, std::int32_t link) {
+  if (link == BERM_SWING && (verdict == SK_BLOCKED_COLLISION || verdict == SK_BLOCKED_OVERPASS)) return BERM_STOP_TAIL;
   switch (verdict) {
     case SK_BLOCKED_COLLISION: return BERM_STOP_COLLISION_PREDICTED;
     case SK_BLOCKED_UNKNOWN: return BERM_STOP_UNKNOWN_GROUND;
@@ -29,7 +30,7 @@ std::int32_t cell_centre_mm(std::int32_t index) { return SK_MAP_ORIGIN_MM + inde
 }  // namespace
 
 MotionCheck::MotionCheck(const berm_parameters& parameters, const OwnCells& own_cells)
-    : parameters_(parameters), shape_(parameters), own_cells_(own_cells), rules_{}, columns_{}, choice_{} {
+    : parameters_(parameters), shape_(parameters), own_cells_(own_cells), rules_{}, columns_{}, tail_columns_{}, choice_{} {
   rules_.fresh_us = parameters.fresh_us;
   rules_.margin_mm = parameters.margin_mm;
   rules_.dig_zones = parameters.dig_zones;
@@ -84,12 +85,14 @@ void MotionCheck::note_cell(const sk_height_map& map, const sk_slice& slice, con
 
 std::uint8_t MotionCheck::clear_one(const sk_height_map& map, SliceSet& slices, std::int32_t index, sk_clearance_result& result, MotionVerdict& verdict) {
   const sk_slice& slice = slices.slice[index];
-  rules_.own_body_radius_mm = slice.link == BERM_BOOM ? own_and_rim_radius_mm(parameters_) : 0;  // the map has the columns
+  const bool tail = slice.link == BERM_SWING;
+  rules_.own_body_radius_mm = tail || slice.link == BERM_BOOM ? own_and_rim_radius_mm(parameters_) : 0;  // the map has the columns
+  rules_.fresh_us = tail ? parameters_.tail_fresh_us : parameters_.fresh_us;
   // The search may fail or be wrong: what it chose is only a claim, which the core checks.
-  result = clear_slice(map, columns_, rules_, slices, index, choice_);
+  result = clear_slice(map, tail ? tail_columns_ : columns_, rules_, slices, index, choice_);
   ++verdict.slices;
   verdict.cells += result.cells;
-  return result.verdict == SK_CLEAR ? static_cast<std::uint8_t>(BERM_STOP_NONE) : reason_of(result.verdict);
+  return result.verdict == SK_CLEAR ? static_cast<std::uint8_t>(BERM_STOP_NONE) : reason_of(result.verdict, slice.link);
 }
 
 std::uint8_t MotionCheck::clear(const MotionQuery& query, const sk_height_map& map, const sk_reach_box& box, SliceSet& slices, bool creeping,
@@ -167,9 +170,9 @@ std::int64_t MotionCheck::room_ahead(const MotionQuery& query, const sk_height_m
   ahead.low_urad[BERM_SWING] = static_cast<std::int32_t>(from);
   ahead.high_urad[BERM_SWING] = static_cast<std::int32_t>(to);
   if (!build_slices(shape_, ahead, other_slices_)) return std::llabs(certified - angle);
-  const std::int32_t intervals = other_slices_.count / parameters_.parts;
+  const std::int32_t intervals = other_slices_.intervals, bodies = other_slices_.count / intervals;
   for (std::int32_t near = 0; near < intervals; ++near) {
-    for (std::int32_t part = 0; part < parameters_.parts; ++part) {
+    for (std::int32_t part = 0; part < bodies; ++part) {
       const std::int32_t interval = up ? near : intervals - 1 - near;
       sk_clearance_result result;
       if (clear_one(map, other_slices_, part * intervals + interval, result, verdict) == BERM_STOP_NONE) continue;
@@ -200,11 +203,19 @@ bool MotionCheck::limit_overpass(bool truck_admitted) {
   return limited_;
 }
 
+bool MotionCheck::make_columns(const sk_height_map& map) {
+  rules_.fresh_us = parameters_.fresh_us;
+  if (!sk_columns_of(&map, &rules_, &columns_)) return false;
+  if (!shape_.tail.watched) return true;
+  rules_.fresh_us = parameters_.tail_fresh_us;
+  return sk_columns_of(&map, &rules_, &tail_columns_);
+}
+
 void MotionCheck::check(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
   verdict = MotionVerdict{};
   request_slices_.count = 0;
   rules_.now_us = query.now_us;
-  if (!limit_overpass(query.truck_admitted) || !sk_columns_of(&map, &rules_, &columns_)) {
+  if (!limit_overpass(query.truck_admitted) || !make_columns(map)) {
     verdict.permission = Permission::kHeld;
     verdict.reason = BERM_STOP_INTERNAL;
     return;

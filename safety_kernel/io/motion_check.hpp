@@ -69,6 +69,7 @@ class MotionCheck {
   std::int64_t room_ahead(const MotionQuery& query, const sk_height_map& map, std::int64_t wanted_urad, MotionVerdict& verdict);
   void govern_swing(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
   bool limit_overpass(bool truck_admitted);
+  bool make_columns(const sk_height_map& map);
   void note_cell(const sk_height_map& map, const sk_slice& slice, const sk_clearance_result& result, MotionVerdict& verdict) const;
 
   const berm_parameters& parameters_;
@@ -79,6 +80,7 @@ class MotionCheck {
   SliceSet request_slices_;
   SliceSet other_slices_;  // of the room ahead, or of a slower request
   sk_columns columns_;
+  sk_columns tail_columns_;  // by the tail's own freshness; made only where it is watched
   sk_choice choice_;
 };
 

@@ -76,6 +76,12 @@ constexpr const char* kText[] = {
     "truck_zones: 0 to 4",
     "truck_zone: low below high, within +-15000 mm",
     "truck_zone ceiling_mm: within +-20000",
+    "tail_watched: 0 or 1",
+    "tail_radius_mm: within 500..own_body_radius_mm",
+    "tail_half_width_mm: within 100..tail_radius_mm",
+    "tail_low_mm below tail_high_mm, within 0..10000",
+    "tail_clearance_mm: within 500..3000",
+    "tail_fresh_us: within 1..fresh_us",
 };
 static_assert(sizeof kText / sizeof kText[0] == SK_RULES, "one text a rule");
 

@@ -4,6 +4,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -42,6 +43,9 @@ bool Shell::open(std::string& error) {
   }
   if (!receiver_.open(error) || !peers_.open(options_.socket, policy, state_, request_, error)) return false;
   if (!options_.lockstep && !options_.map_only) ask_for_realtime();
+  if (!options_.map_only && parameters_.tail_watched == 0)
+    std::fprintf(stderr, "berm_kernel: note: nobody watches the ground round the tail (tail.watched = false): fence it to %d mm from the swing axis\n",
+                 std::max(parameters_.tail_radius_mm, parameters_.own_body_radius_mm) + parameters_.tail_clearance_mm);
   say_ready();
   return true;
 }
@@ -125,6 +129,7 @@ std::string Shell::report() const {
   add("vlp16_points", c.vlp16_points);
   add("terrain_rounds", cycle_->registration().rounds());
   add("terrain_rounds_confirmed", cycle_->registration().rounds_confirmed());
+  add("tail_watched", parameters_.tail_watched != 0 ? 1 : 0);
   add("journal_records", journal_.offered());
   add("journal_lost", journal_.lost());
   return json + "}";

@@ -105,6 +105,13 @@ const std::vector<BadEdit>& bad_machine_edits() {
       {"hold above the contract's", "request_hold = 0.05", "request_hold = 0.06", "kernel.request_hold", "outside 0.01 .. 0.05"},
       {"silence above the contract's", "request_silent = 0.5", "request_silent = 0.6", "kernel.request_silent", "outside 0.05 .. 0.5"},
       {"generation above freshness", "generation = 1.0", "generation = 30.0", "kernel.generation", "above fresh"},
+      {"no tail", "[tail] ", "[nose] ", "tail", "is missing"},
+      {"watched as text", "watched = false", "watched = \"no\"", "tail.watched", "true or false"},
+      {"tail beyond the own body", "radius = 2.9 ", "radius = 3.0 ", "tail.radius", "above kinematics.own_body_radius"},
+      {"tail wider than long", "half_width = 1.40", "half_width = 2.95", "tail.half_width", "above radius"},
+      {"tail upside down", "underside = 1.00", "underside = 3.00", "tail.top", "not above underside"},
+      {"clearance within the own body's rim", "clearance = 0.60", "clearance = 0.40", "tail.clearance", "outside 0.5 .. 3"},
+      {"tail fresher for longer than the map", "fresh = 1.0 ", "fresh = 21.0 ", "tail.fresh", "above kernel.fresh"},
       {"digging faster than the swing", "velocity_max_deg_s = 50.0", "velocity_max_deg_s = 5.0", "kernel.dig_swing_limit_deg_s", "above"},
   };
   return edits;

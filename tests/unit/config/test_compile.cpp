@@ -102,6 +102,16 @@ void expect_rules_safe(const KernelFile& k, const berm_parameters& p) {
   expect_down(k.base_frame_age * 1e6, p.base_frame_age_us, "base_frame_age");
 }
 
+void expect_tail_safe(const TailFile& t, const berm_parameters& p) {
+  EXPECT_EQ(p.tail_watched, t.watched ? 1 : 0);
+  expect_up(t.radius * 1e3, p.tail_radius_mm, "tail radius");
+  expect_up(t.half_width * 1e3, p.tail_half_width_mm, "tail half_width");
+  expect_down(t.underside * 1e3, p.tail_low_mm, "tail underside");
+  expect_up(t.top * 1e3, p.tail_high_mm, "tail top");
+  expect_up(t.clearance * 1e3, p.tail_clearance_mm, "tail clearance");
+  expect_down(t.fresh * 1e6, p.tail_fresh_us, "tail fresh");
+}
+
 void expect_places_safe(const MachineFile& m, const SiteFile& site, const berm_parameters& p) {
   expect_down(m.own_body_radius * 1e3, p.own_body_radius_mm, "own_body_radius");
   for (std::size_t i = 0; i < m.part.size(); ++i) {
@@ -161,6 +171,8 @@ void disturb(MachineFile& m, SiteFile& site, std::mt19937_64& random) {
         k.request_hold, k.request_silent, k.state_frame_age, k.machine_state_age, k.operator_age, k.standstill_speed, k.standstill,
         k.base_tilt, k.base_tilt_hard, k.base_azimuth, k.base_frame_age);
   for (DigZoneFile& zone : site.dig_zone) shake(zone.x_low, zone.x_high, zone.y_low, zone.y_high, zone.floor, zone.ceiling);
+  shake(m.tail.radius, m.tail.half_width, m.tail.underside, m.tail.top, m.tail.clearance, m.tail.fresh);
+  m.tail.watched = random() % 2 == 0;
   shake(site.pass_over);
   for (GroundZoneFile& zone : site.ground_zone) shake(zone.x_low, zone.x_high, zone.y_low, zone.y_high, zone.pass_over);
   for (TruckZoneFile& zone : site.truck_zone) shake(zone.x_low, zone.x_high, zone.y_low, zone.y_high, zone.ceiling);
@@ -177,6 +189,7 @@ TEST(Compile, EveryFieldIsRoundedToTheSafeSide) {
     expect_joints_safe(d.machine, p);
     expect_rules_safe(d.machine.kernel, p);
     expect_places_safe(d.machine, d.site, p);
+    expect_tail_safe(d.machine.tail, p);
     ASSERT_FALSE(testing::Test::HasFailure()) << "seed " << kSeed << " draw " << i;
   }
 }

@@ -67,6 +67,13 @@ std::vector<Limit> limits(const berm_parameters& ok) {
       limit(SK_RULE_PASS_OVER, -20000, 20000, FIELD(pass_over_mm)),
       limit(SK_RULE_GROUND_ZONE_COUNT, 0, BERM_GROUND_ZONES, FIELD(ground_zones)),
       limit(SK_RULE_TRUCK_ZONE_COUNT, 0, BERM_TRUCK_ZONES, FIELD(truck_zones)),
+      limit(SK_RULE_TAIL_WATCHED, 0, 1, FIELD(tail_watched)),
+      limit(SK_RULE_TAIL_RADIUS, 500, ok.own_body_radius_mm, FIELD(tail_radius_mm)),
+      limit(SK_RULE_TAIL_WIDTH, 100, ok.tail_radius_mm, FIELD(tail_half_width_mm)),
+      limit(SK_RULE_TAIL_HEIGHTS, 0, ok.tail_high_mm - 1, FIELD(tail_low_mm)),
+      limit(SK_RULE_TAIL_HEIGHTS, ok.tail_low_mm + 1, 10000, FIELD(tail_high_mm)),
+      limit(SK_RULE_TAIL_CLEARANCE, 500, 3000, FIELD(tail_clearance_mm)),
+      limit(SK_RULE_TAIL_FRESH, 1, ok.fresh_us, FIELD(tail_fresh_us)),
   };
   for (int j = 0; j < 4; ++j) {
     const std::int32_t bound = j == 0 ? 6283186 : 3141593;
@@ -107,6 +114,7 @@ TEST(ParameterCheck, AcceptsTheDemonstrationMachine) {
 // verifies: SK-PC-16, SK-PC-17, SK-PC-18, SK-PC-19, SK-PC-28, SK-PC-35, SK-PC-36, SK-PC-37, SK-PC-38, SK-PC-39, SK-PC-40, SK-PC-41, SK-PC-42
 // verifies: SK-PC-43, SK-PC-44, SK-PC-45, SK-PC-46, SK-PC-49, SK-PC-50, SK-PC-51, SK-PC-52, SK-PC-53, SK-PC-54, SK-PC-55, SK-PC-56, SK-PC-57
 // verifies: SK-PC-58, SK-PC-59, SK-PC-60, SK-PC-61, SK-PC-62, SK-PC-63, SK-PC-66
+// verifies: SK-PC-69, SK-PC-70, SK-PC-71, SK-PC-72, SK-PC-73, SK-PC-74
 // verifies: SK-PC-101
 TEST(ParameterCheck, EachFieldBeyondEachLimit) {
   const berm_parameters ok = valid_parameters();

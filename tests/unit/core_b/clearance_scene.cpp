@@ -16,7 +16,7 @@ constexpr std::int64_t kFarAway = std::int64_t{1} << 60;  // stands for the dept
 
 // 0 nothing, 1 in a zone but too low, 2 exempt.
 int dig_rule(const sk_height_map& map, const sk_slice& slice, const sk_clearance_rules& rules, int iy, int ix) {
-  if (!rules.dig_allowed) return 0;
+  if (!rules.dig_allowed || slice.link == 0) return 0;
   int found = 0;
   for (int z = 0; z < rules.dig_zones; ++z) {
     const berm_dig_zone& zone = rules.dig_zone[z];
@@ -53,7 +53,7 @@ bool over(const sk_height_map& map, const sk_slice& slice, const sk_clearance_ru
 }
 
 std::int32_t judge_cell(const sk_height_map& map, const sk_slice& slice, int plane, const sk_clearance_rules& rules, int iy, int ix) {
-  if (own_body(rules, iy, ix)) return slice.link == 1 ? SK_CLEAR : SK_BLOCKED_UNKNOWN;
+  if (own_body(rules, iy, ix)) return slice.link <= 1 ? SK_CLEAR : SK_BLOCKED_UNKNOWN;
   if (separates(map, slice, rules, plane, iy, ix)) return SK_CLEAR;
   const int dig = dig_rule(map, slice, rules, iy, ix);
   if (dig != 0) return dig == 2 ? SK_CLEAR : SK_BLOCKED_FLOOR;
@@ -65,7 +65,7 @@ std::int32_t judge_cell(const sk_height_map& map, const sk_slice& slice, int pla
 bool within(std::int64_t v, std::int64_t low, std::int64_t high) { return low <= v && v <= high; }
 
 bool well_formed(const sk_slice& slice, const sk_clearance_rules& rules) {
-  if (!within(slice.link, 1, 3) || !within(slice.vertices, 1, 24) || !within(slice.planes, 1, 24)) return false;
+  if (!within(slice.link, 0, 3) || !within(slice.vertices, 1, 24) || !within(slice.planes, 1, 24)) return false;
   for (int i = 0; i < slice.vertices; ++i)
     for (const auto& axis : slice.xyz_mm)
       if (!within(axis[i], -32000, 32000)) return false;

@@ -182,11 +182,12 @@ TEST_F(Clearance, AChoiceBeyondThePlanesIsNone) {
 }
 
 // verifies: SK-CL-7
-TEST_F(Clearance, OwnBodyIsTheBoomsAlone) {
+TEST_F(Clearance, OwnBodyIsTheTailsAndTheBoomsAlone) {
   rules.own_body_radius_mm = 849;  // the far corner of cell (53, 53) is at 848.5 mm
   level(*map, 9000);
   map->seen_us[53][53] = -1;
   const Block over_it{310, 590, 310, 590, 1000, 1500};
+  expect(check(block_slice(0, over_it)), SK_CLEAR, -1, -1, 1);
   expect(check(block_slice(1, over_it)), SK_CLEAR, -1, -1, 1);
   expect(check(block_slice(2, over_it)), SK_BLOCKED_UNKNOWN, 53, 53, 1);
   level(*map, -9000);
@@ -202,6 +203,17 @@ TEST_F(Clearance, NoDiggingAtTheOwnBody) {
   rules.own_body_radius_mm = 849;
   zone({0, 0, 900, 900, -500, 9000});
   expect(check(block_slice(3, {310, 590, 310, 590, 1000, 1500})), SK_BLOCKED_UNKNOWN, 53, 53, 1);
+}
+
+// verifies: SK-CL-8, SK-CL-9
+TEST_F(Clearance, TheTailDigsNowhere) {
+  level(*map, 2000);
+  zone({300, 300, 900, 600, 1000, 2000});
+  expect(check(block_slice(1, kBlock)), SK_CLEAR, -1, -1, 2);
+  expect(check(block_slice(0, kBlock)), SK_BLOCKED_COLLISION, 53, 53, 1);
+  rules.dig_zone[0].floor_mm = 1200;
+  expect(check(block_slice(1, kBlock)), SK_BLOCKED_FLOOR, 53, 53, 1);
+  expect(check(block_slice(0, kBlock)), SK_BLOCKED_COLLISION, 53, 53, 1);
 }
 
 // verifies: SK-CL-8, SK-CL-9

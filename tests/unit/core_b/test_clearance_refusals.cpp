@@ -59,8 +59,8 @@ class ClearanceRefusals : public testing::Test {
 
 // verifies: SK-CL-3, SK-CL-11
 TEST_F(ClearanceRefusals, Counts) {
-  for (const std::int32_t link : {kMin32, -1, 0, 4, kMax32}) expect_invalid([&](sk_slice& s) { s.link = link; }, false);
-  for (const std::int32_t link : {1, 2, 3}) expect_valid([&](sk_slice& s) { s.link = link; });
+  for (const std::int32_t link : {kMin32, -1, 4, kMax32}) expect_invalid([&](sk_slice& s) { s.link = link; }, false);
+  for (const std::int32_t link : {0, 1, 2, 3}) expect_valid([&](sk_slice& s) { s.link = link; });
   for (const std::int32_t count : {kMin32, -1, 0, 25, kMax32}) {
     expect_invalid([&](sk_slice& s) { s.vertices = count; }, false);
     expect_invalid([&](sk_slice& s) { s.planes = count; }, false);
