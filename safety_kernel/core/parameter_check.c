@@ -2,7 +2,6 @@
 #include "parameter_braking.h"
 #include "parameter_overpass.h"
 #include "parameter_parts.h"
-#include "parameter_tail.h"
 #include "parameter_range.h"
 #include "parameter_rectangle.h"
 #include "parameter_tail.h"
