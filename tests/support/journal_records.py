@@ -1,7 +1,7 @@
 """Reading a run's journal (MCAP, as interface_spec/journal/JOURNAL.md has it) in system tests. Standard library only."""
 import struct
 
-CYCLE_HEAD, STATE = 128, 264  # bytes before the decision in a cycle's record
+CYCLE_HEAD, STATE, DECISION = 128, 272, 176  # bytes of a cycle's record before its frames: berm_journal_cycle, berm_state, berm_decision
 RUN = 2                       # BERM_STATE_RUN
 
 

@@ -9,11 +9,11 @@ import tempfile
 import zlib
 
 from berm_command import ROOT, load, main, one_clear_line, run
-from journal_records import cycles_in, records
+from journal_records import CYCLE_HEAD, DECISION, STATE, cycles_in, records
 
 SEED = 20240611  # of the damage below
 scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-journal-"))
-HEAD, FRAME = 568, 16  # cycle record: 128 + state 264 + decision 176
+HEAD, FRAME = CYCLE_HEAD + STATE + DECISION, 16
 seen = {}
 
 
