@@ -106,7 +106,7 @@ def main():
         outcomes = {unit: wp_session.Outcome(unit) for unit in every}
 
         def one(unit):
-            out = theorem_session.prove_file(unit, env, a.timeout) if unit in theorems else wp_session.prove_file(wp_session.CORE, unit, env, a.timeout, folder)
+            out = theorem_session.prove_file(unit, env, a.timeout, versions) if unit in theorems else wp_session.prove_file(wp_session.CORE, unit, env, a.timeout, folder)
             print(f"{unit:<20} {out.goals if out.goals is not None else '-':>5} goals {out.proved if out.proved is not None else '-':>5} proved {out.seconds:7.1f} s", flush=True)
             return unit, out
 

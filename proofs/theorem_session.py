@@ -4,7 +4,7 @@ import re
 import subprocess
 import time
 
-from wp_session import ROOT, Outcome, versions
+from wp_session import ROOT, Outcome
 
 FOLDER = ROOT / "proofs" / "theorems"
 PROVERS = {"z3": "Z3", "cvc4": "CVC4"}  # Why3's name, and the report's
@@ -14,7 +14,7 @@ RESULT = re.compile(r"^Prover result is: (.*)$", re.M)
 def assumptions(text):
     """What would be believed without proof: premises belong into the statements. Of Why3's library, the integers alone."""
     code = re.sub(r"\(\*.*?\*\)", "", text, flags=re.S)
-    bad = [f"'{word}' is an assumption, not a proof" for word in re.findall(r"\b(axiom|assume|admit|val)\b", code)]
+    bad = [f"'{word}' is an assumption, not a proof" for word in re.findall(r"\b(axiom|assume|admit|val|any)\b", code)]
     return bad + [f"uses {name}" for name in re.findall(r"\buse\s+(?:import\s+)?(\S+)", code) if name != "int.Int"]
 
 
@@ -28,12 +28,12 @@ def results(path, env, prover, timeout_s):
     return goals, found
 
 
-def prove_file(unit, env, timeout_s):
-    """Each goal by the first prover; what that leaves, by the next."""
+def prove_file(unit, env, timeout_s, tools):
+    """Each goal by the first prover; what that leaves, by the next. tools: the provers' versions."""
     out = Outcome(unit)
     path = FOLDER / f"{unit}.mlw"
     begin = time.monotonic()
-    proved, tools = [], versions()
+    proved = []
     out.errors += [f"{path.name}: {bad}" for bad in assumptions(path.read_text())]
     try:
         for prover, reported in PROVERS.items():

@@ -75,20 +75,28 @@ bool measured(const Row& row) {
   return std::any_of(row.begin(), row.end(), [](const TableEntry& e) { return e.runs > 0; });
 }
 
+// Largest bound of the stops from halfway below a column, with the allowance; 0 without one.
+double needed_between(const config::MachineFile& m, const std::vector<BenchRecord>& runs, std::size_t joint, std::size_t row, std::size_t column, const Bounds& bounds,
+                      double allowance) {
+  double needed = 0.0;
+  for (const BenchRecord& run : runs) {
+    for (const StopRecord& stop : run.stops) {
+      const StopPlan& plan = stop.plan;
+      if (plan.joint != joint || !plan.between || plan.column != column || (joint == swing && plan.row != row)) continue;
+      const double after = bounds.earliest_obeyed[joint][static_cast<std::size_t>(plan.manner)];
+      needed = std::max(needed, (1.0 + allowance) * stop_bound(m, stop, after, plan.speed).angle);
+    }
+  }
+  return needed;
+}
+
 // From the slowest column up: to raise one raises the chord above it too.
-void raise_to_chords(const config::MachineFile& m, const std::vector<BenchRecord>& runs, std::size_t joint, const Bounds& bounds, double allowance, std::vector<Row>& rows) {
+void raise_to_chords(const config::MachineFile& m, const std::vector<BenchRecord>& runs, std::size_t joint, const Bounds& bounds, double allowance,
+                     std::vector<Row>& rows) {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     for (std::size_t k = 1; k < kColumns; ++k) {
       TableEntry& upper = rows[r][k];
-      const double chord = 0.5 * (rows[r][k - 1].angle + upper.angle);
-      double needed = 0.0;
-      for (const BenchRecord& run : runs) {
-        for (const StopRecord& stop : run.stops) {
-          if (stop.plan.joint != joint || !stop.plan.between || stop.plan.column != k || (joint == swing && stop.plan.row != r)) continue;
-          const double after = bounds.earliest_obeyed[joint][static_cast<std::size_t>(stop.plan.manner)];
-          needed = std::max(needed, (1.0 + allowance) * stop_bound(m, stop, after, stop.plan.speed).angle);
-        }
-      }
+      const double chord = 0.5 * (rows[r][k - 1].angle + upper.angle), needed = needed_between(m, runs, joint, r, k, bounds, allowance);
       if (chord > 0.0) upper.between_share = needed / chord;
       if (needed > chord) upper.angle = rounded_up((upper.angle + 2.0 * (needed - chord)) * kDegree, kAngleGrid_deg) / kDegree;
     }

@@ -105,7 +105,8 @@ TailFile read_tail(StrictTable table, double own_body_radius, double kernel_fres
   tail.watched = table.flag("watched");
   tail.radius = table.number("radius", 0.5, 6.0);
   // Else its own returns would stand in its way.
-  if (tail.radius > own_body_radius - kRoundingRoom) table.fail("radius", fmt::format("{} is above kinematics.own_body_radius, {}, less {}", tail.radius, own_body_radius, kRoundingRoom));
+  if (tail.radius > own_body_radius - kRoundingRoom)
+    table.fail("radius", fmt::format("{} is above kinematics.own_body_radius, {}, less {}", tail.radius, own_body_radius, kRoundingRoom));
   tail.half_width = table.number("half_width", 0.1, 6.0);
   if (tail.half_width > tail.radius) table.fail("half_width", "above radius");
   tail.underside = table.number("underside", 0.0, 9.9);

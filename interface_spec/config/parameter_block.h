@@ -94,7 +94,7 @@ typedef struct berm_parameters {
   int32_t tail_radius_mm;                         /* from the swing axis to the tail's farthest point */
   int32_t tail_half_width_mm;                     /* about the swing plane */
   int32_t tail_low_mm, tail_high_mm;              /* underside and top above the ground */
-  int32_t tail_clearance_mm;                      /* how far beyond the tail, and beyond the own body, must be seen to be free */
+  int32_t tail_clearance_mm;                      /* how far beyond the tail's sides, and behind beyond the own body, must be seen to be free */
   int32_t tail_fresh_us;                          /* a cell round the tail observed longer ago is stale */
   int32_t crc32;                                  /* bit pattern of the CRC-32 */
 } berm_parameters;

@@ -37,7 +37,8 @@ Observation observe(const berm_state& state) {
   o.kernel_state = state.kernel_state;
   o.stop_reason = state.stop_reason;
   o.latched = state.kernel_state == BERM_STATE_FAULT || (state.kernel_state == BERM_STATE_STOPPED && state.stop_category != category_held);
-  o.blocked_bearing = std::atan2(static_cast<double>(state.blocked_y_mm), static_cast<double>(state.blocked_x_mm));
+  const double behind = state.blocked_link == BERM_SWING ? -1.0 : 1.0;  // the upper body's tail meets it: the arm points the other way
+  o.blocked_bearing = std::atan2(behind * state.blocked_y_mm, behind * state.blocked_x_mm);
   o.blocked_x = state.blocked_x_mm * 1e-3;
   o.blocked_y = state.blocked_y_mm * 1e-3;
   o.blocked_height = state.blocked_height_mm * 1e-3;

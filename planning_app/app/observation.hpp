@@ -23,7 +23,7 @@ struct Observation {
   Joints commanded{};           // what the kernel told the machine in this cycle
   // Speeds permitted now, low <= 0 <= high: where a request was cut what of it went out, else the joint's largest; nothing unless running.
   Joints permitted_low{}, permitted_high{};
-  double blocked_bearing = 0.0; // of the blocking cell, for the ground's stop reasons
+  double blocked_bearing = 0.0; // at which the arm points when the blocking link is over the blocking cell, for the ground's stop reasons
   double blocked_x = 0.0, blocked_y = 0.0, blocked_height = 0.0;
   bool truck_parked = false;
 

@@ -77,9 +77,9 @@ typedef struct sk_clearance_result { int32_t verdict; int32_t iy, ix; int32_t ce
  * Overpass rule: a cell whose effective height is above pass_mm of that cell is a column without a top too; it is BLOCKED_OVERPASS where the plane
  * chosen for it would separate it at its height, else BLOCKED_COLLISION.
  * Own body: a cell with all four corners within own_body_radius is clear for tail and boom and BLOCKED_UNKNOWN for stick and bucket, whatever it holds.
- * Dig-zone rule, for the implements alone: a cell whose square lies wholly inside a dig zone needs no separation when dig_allowed, every vertex of the slice is at or above the
- * zone's floor, and the cell is observed, fresh (or dig_stale) and no higher than the zone's ceiling; not separated and below the floor it is
- * BLOCKED_FLOOR.
+ * Dig-zone rule, for the implements alone: a cell whose square lies wholly inside a dig zone needs no separation when dig_allowed, every vertex of
+ * the slice is at or above the zone's floor, and the cell is observed, fresh (or dig_stale) and no higher than the zone's ceiling; not separated and
+ * below the floor it is BLOCKED_FLOOR.
  * out->verdict is SK_CLEAR only if every plane that is used has every vertex strictly on its positive side and every cell of the rectangle passes;
  * then, and where no cell is to blame, iy = ix = -1; else they name the first blocked cell, row by row. On anything malformed (counts, ranges,
  * link) the verdict is SK_BLOCKED_INVALID. */

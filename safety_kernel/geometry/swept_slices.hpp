@@ -25,8 +25,8 @@ struct SliceSet {
 };
 
 // Every point of every part (with its width) lies, at every joint position in the box, in the convex hull of the integer vertices of some
-// slice; and every point of the grown tail (tail_sweep.hpp), where it is watched. Slices stand part by part, from the swing's low end to its high end. Each has the level plane below it (planes == 1); the planes that the map
-// asks for are added by the search (separation.hpp).
+// slice; and every point of the grown tail (tail_sweep.hpp), where it is watched. Slices stand part by part, from the swing's low end to its high end.
+// Each has the level plane below it (planes == 1); the planes that the map asks for are added by the search (separation.hpp).
 // False, with count 0, where parameters or box are malformed or a vertex would leave +-SK_COORD_MAX_MM; the caller must then block.
 bool build_slices(const ImplementShape& shape, const sk_reach_box& box, SliceSet& out) noexcept;
 // The same for a machine that is asked about once.

@@ -12,7 +12,7 @@ constexpr double slack_mm = 2.0; // 0.71 for rounding to the grid, 0.01 for the 
 
 TailShape::TailShape(const berm_parameters& parameters) noexcept
     : watched(parameters.tail_watched != 0), low_mm(parameters.tail_low_mm), high_mm(parameters.tail_high_mm) {
-  const double radius = std::max(parameters.tail_radius_mm, parameters.own_body_radius_mm) + parameters.tail_clearance_mm + slack_mm;
+  const double radius = parameters.own_body_radius_mm + parameters.tail_clearance_mm + slack_mm; // the tail is no longer than the own body (SK-PC-70)
   // A tail as wide as it is long has no corner to cut off: the sides are tangents then.
   const double side = std::min<double>(parameters.tail_half_width_mm + parameters.tail_clearance_mm + slack_mm, radius);
   // Lines: the sides, the back, and between them one on either side that touches the circle two thirds of the way to where the side cuts it.

@@ -4,7 +4,6 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -45,7 +44,7 @@ bool Shell::open(std::string& error) {
   if (!options_.lockstep && !options_.map_only) ask_for_realtime();
   if (!options_.map_only && parameters_.tail_watched == 0)
     std::fprintf(stderr, "berm_kernel: note: nobody watches the ground round the tail (tail.watched = false): fence it to %d mm from the swing axis\n",
-                 std::max(parameters_.tail_radius_mm, parameters_.own_body_radius_mm) + parameters_.tail_clearance_mm);
+                 parameters_.own_body_radius_mm + parameters_.tail_clearance_mm);
   say_ready();
   return true;
 }

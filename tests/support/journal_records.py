@@ -1,8 +1,21 @@
 """Reading a run's journal (MCAP, as interface_spec/journal/JOURNAL.md has it) in system tests. Standard library only."""
+import pathlib
+import re
 import struct
 
-CYCLE_HEAD, STATE, DECISION = 128, 272, 176  # bytes of a cycle's record before its frames: berm_journal_cycle, berm_state, berm_decision
-RUN = 2                       # BERM_STATE_RUN
+SPEC = pathlib.Path(__file__).resolve().parents[2] / "interface_spec"
+
+
+def stated(header, text):
+    """A size that a header asserts, so that this reader needs no figure of its own."""
+    return int(re.search(text + r"(\d+)", (SPEC / header).read_text()).group(1))
+
+
+# Bytes of a cycle's record before its frames.
+CYCLE_HEAD = stated("journal/journal_record.h", r"sizeof\(berm_journal_cycle\) == ")
+STATE = stated("contract/berm_contract.h", r"sizeof\(berm_state\) == ")
+DECISION = stated("contract/berm_contract.h", r"sizeof\(berm_decision\) == ")
+RUN = 2  # BERM_STATE_RUN
 
 
 def records(data):

@@ -47,6 +47,16 @@ TEST(Request, ObservationIsInRadians) {
   EXPECT_TRUE(o.running());
 }
 
+TEST(Request, ACellThatTheTailMeetsLiesBehindTheArm) {
+  berm_state state{};
+  state.blocked_x_mm = -3000;
+  state.blocked_y_mm = -3000;
+  state.blocked_link = BERM_STICK;
+  EXPECT_NEAR(observe(state).blocked_bearing, radians(-135.0), 1e-12);
+  state.blocked_link = BERM_SWING;
+  EXPECT_NEAR(observe(state).blocked_bearing, radians(45.0), 1e-12);
+}
+
 TEST(Request, ObservationKnowsWhatWaitsForTheOperator) {
   berm_state state{};
   const auto latched = [&state](std::uint8_t kernel_state, std::uint8_t category) {

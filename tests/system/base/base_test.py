@@ -51,7 +51,7 @@ def stops_and_goes_on(scenario, seed, found_within_s, moves_from_s=5.0, reset_s=
     if places_hold:
         assert status == 0, f"{who}: the truck was not loaded after the reset"
     else:  # what is dumped half a metre beside the mark may miss the bed
-        assert "truck 1 is full" in text and result["payload_kg"][0] >= 0.85 * result["target_kg"], f"{who}: no truck was filled after the reset"
+        assert "truck 1 is full" in text and result["payload_kg"][0] >= 0.90 * result["target_kg"], f"{who}: no truck was filled after the reset"
     shutil.rmtree(out)
 
 

@@ -15,6 +15,12 @@ CycleRig::CycleRig(const berm_parameters& block)
   in->app_connections = 1;
 }
 
+void CycleRig::face_a_swing_to_the_left() {
+  machine.angle_rad[0] = 0.4;
+  machine.pan_low_rad = -0.3;
+  machine.pan_high_rad = 2.2;
+}
+
 void CycleRig::step() {
   gather();
   cycle->step(*in, *out);

@@ -17,6 +17,8 @@ class CycleRig {
   std::int32_t wanted_urad_s[4] = {};
   std::vector<berm_can_frame> extra_frames;  // arrive after the machine's, once
 
+  // Swung a little to the left, the scanners ahead of a swing that goes on that way.
+  void face_a_swing_to_the_left();
   void step();
   // The same in three: what comes in, the kernel's cycle (cycle->step(*in, *out)), and the machine that obeys.
   void gather();

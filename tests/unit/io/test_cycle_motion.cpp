@@ -32,9 +32,7 @@ TEST(CycleMotion, UnknownGroundIsBlocked) {
 // verifies: SK-CY-20
 TEST(CycleMotion, AMachineAtFullSwingStopsBeforeTheWall) {
   CycleRig rig;
-  rig.machine.angle_rad[0] = 0.4;
-  rig.machine.pan_low_rad = -0.3;
-  rig.machine.pan_high_rad = 2.2;  // ahead of the swing to the left
+  rig.face_a_swing_to_the_left();
   rig.machine.wall = {6.6, 5.0};   // swing reaches it at about 90 degrees with the tip
   ASSERT_TRUE(rig.reach_state(BERM_STATE_RUN, 1500));
   rig.steps(1000);  // both sides swept

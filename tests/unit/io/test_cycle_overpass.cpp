@@ -18,9 +18,7 @@ class CycleOverpass : public testing::Test {
  protected:
   void begin() {
     rig = std::make_unique<CycleRig>(parameters);
-    rig->machine.angle_rad[0] = 0.4;
-    rig->machine.pan_low_rad = -0.3;
-    rig->machine.pan_high_rad = 2.2;
+    rig->face_a_swing_to_the_left();
     rig->machine.wall = {kWallY, 1.5};
     rig->machine.spotter_present = spotter;
     ASSERT_TRUE(rig->reach_state(BERM_STATE_RUN, 1500)) << "reason " << int(rig->state().stop_reason) << " at " << rig->state().blocked_x_mm << ", " << rig->state().blocked_y_mm << " height " << rig->state().blocked_height_mm;
