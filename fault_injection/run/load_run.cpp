@@ -109,7 +109,9 @@ class LoadRun {
     auto ticks = FilePair::packets();   // app to plant, simulation only
     const std::string port = std::to_string(scan_port_);
 
-    std::vector<std::string> kernel_options{"--can", can_, "--scan-port", port};
+    std::vector<std::string> kernel_options{"--can", can_, "--scan-port", port}, lidar_options;
+    for (std::size_t i = 0; i < lidar_count(machine_); ++i) lidar_options.insert(lidar_options.end(), {"--lidar-port", std::to_string(free_udp_port())});
+    kernel_options.insert(kernel_options.end(), lidar_options.begin(), lidar_options.end());
     if (!options_.realtime) kernel_options.push_back("--lockstep");
     kernel_options.insert(kernel_options.end(), {"--journal-uid", std::to_string(uids_.journal)});
     start_kernel(kernel_, folder_, uids_, parameters, kernel_options, {{lifeline.second(), kKernelDescriptor}});
@@ -134,6 +136,7 @@ class LoadRun {
     plant.program = program_folder() + "/berm_plant";
     plant.arguments = {"--scenario", scenario, "--seed", std::to_string(options_.seed), "--trucks", std::to_string(options_.trucks), "--can", can_,
                        "--scan-port", port, "--out", out_, mode, "--tick-fd", std::to_string(kTickDescriptor), "--kernel-fd", std::to_string(kKernelDescriptor)};
+    plant.arguments.insert(plant.arguments.end(), lidar_options.begin(), lidar_options.end());
     plant.descriptors = {{ticks.first(), kTickDescriptor}, {lifeline.first(), kKernelDescriptor}};
     plant_.start(plant);
     result_.pids[0] = plant_.pid();

@@ -46,6 +46,11 @@ ScenarioNames scenario_names(const std::string& path) {
   return {name("machine"), name("site")};
 }
 
+std::size_t lidar_count(const std::string& machine) {
+  const auto file = parse_file(machine);
+  return file.is_table() && file.contains("lidar") && toml::find(file, "lidar").is_array() ? toml::find(file, "lidar").as_array().size() : 0;
+}
+
 void describe_site(const std::string& machine, const std::string& site, SitePictureInput& picture) {
   const auto m = toml::find(parse_file(machine), "kinematics");
   picture.arm = {number(m, "boom_pin_x"), number(m, "boom_pin_z"), number(m, "boom"), number(m, "stick"), number(m, "bucket")};

@@ -55,6 +55,11 @@ void compile_sensors(const MachineFile& m, berm_parameters& p) {
     p.scanner[i] = {near(s.position[0], kMilli), near(s.position[1], kMilli), near(s.position[2], kMilli),
                     up(s.pan_low, kMicro),       down(s.pan_high, kMicro),    down(s.pan_rate_max, kMicro)};
   }
+  p.lidars = static_cast<std::int32_t>(m.lidar.size());
+  for (std::size_t i = 0; i < m.lidar.size(); ++i) {
+    const auto& l = m.lidar[i];
+    p.lidar[i] = {near(l.position[0], kMilli), near(l.position[1], kMilli), near(l.position[2], kMilli), near(l.roll, kMicro), near(l.pitch, kMicro), near(l.yaw, kMicro)};
+  }
   const auto& k = m.kernel;
   p.scanner_silent_us = down(k.scanner_silent, kMicro);
   p.spurious_range_mm = up(k.spurious_range, kMilli);        // fewer returns dropped

@@ -100,6 +100,17 @@ ScannerFile read_scanner(StrictTable table) {
   return scanner;
 }
 
+LidarFile read_lidar(StrictTable table) {
+  LidarFile lidar{};
+  lidar.position = table.array<3>("position", -5.0, 8.0);
+  if (lidar.position[0] > 5.0 || lidar.position[1] > 5.0 || lidar.position[2] < 0.0) table.fail("position", "x and y are within -5 .. 5, z within 0 .. 8");
+  lidar.roll = table.degrees("roll_deg", -180.0, 180.0);
+  lidar.pitch = table.degrees("pitch_deg", -180.0, 180.0);
+  lidar.yaw = table.degrees("yaw_deg", -180.0, 180.0);
+  table.finish();
+  return lidar;
+}
+
 TailFile read_tail(StrictTable table, double own_body_radius, double kernel_fresh) {
   TailFile tail{};
   tail.watched = table.flag("watched");
@@ -189,6 +200,8 @@ MachineFile load_machine_file(const std::string& path) {
   if (scanners.size() != m.scanner.size()) file.fail("scanner", "exactly two, left and right");
   for (std::size_t i = 0; i < scanners.size(); ++i) m.scanner[i] = read_scanner(std::move(scanners[i]));
   m.kernel = read_kernel(file.table("kernel"));
+  for (auto& lidar : file.tables("lidar")) m.lidar.push_back(read_lidar(std::move(lidar)));
+  if (m.lidar.size() > BERM_LIDARS) file.fail("lidar", fmt::format("{} lidars, up to {} are taken", m.lidar.size(), BERM_LIDARS));
   m.tail = read_tail(file.table("tail"), m.own_body_radius, m.kernel.fresh);
   if (m.kernel.dig_swing_limit > m.joint[0].velocity_max) file.fail("kernel.dig_swing_limit_deg_s", "above joint.swing.velocity_max_deg_s");
   file.finish();

@@ -37,6 +37,11 @@ struct ScannerFile {
   double pan_rate_max;                        // rad/s
 };
 
+struct LidarFile {                            // VLP-16 on the upper body
+  std::array<double, 3> position;             // m, upper body's frame
+  double roll, pitch, yaw;                    // rad: turned by yaw, then pitch (front down), then roll (left up)
+};
+
 struct KernelFile {  // seconds, metres, radians
   double cycle, margin, fresh, generation, dig_swing_limit, scanner_silent, spurious_range, range_min, range_max, self_margin, request_age, request_hold,
       request_silent, state_frame_age, machine_state_age, operator_age, standstill_speed, standstill,
@@ -59,6 +64,7 @@ struct MachineFile {
   BrakingFile braking;
   std::vector<PartFile> part;
   std::array<ScannerFile, 2> scanner;     // left, right
+  std::vector<LidarFile> lidar;
   TailFile tail;
   KernelFile kernel;
 };

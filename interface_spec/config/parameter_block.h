@@ -24,6 +24,7 @@ extern "C" {
 #define BERM_GROUND_ZONES 4
 #define BERM_TRUCK_ZONES 4
 #define BERM_SCANNER_MOUNTS 2
+#define BERM_LIDARS 2           /* VLP-16 on the upper body */
 
 typedef struct berm_part {
   int32_t link;                                   /* 1 boom, 2 stick, 3 bucket */
@@ -37,6 +38,11 @@ typedef struct berm_scanner_mount {               /* head in the upper body's fr
   int32_t pan_low_urad, pan_high_urad;            /* pan limits */
   int32_t pan_rate_max_urad_s;
 } berm_scanner_mount;
+
+typedef struct berm_lidar_mount {                 /* sensor's frame in the upper body's: turned by yaw, then pitch (front down), then roll (left up) */
+  int32_t x_mm, y_mm, z_mm;
+  int32_t roll_urad, pitch_urad, yaw_urad;
+} berm_lidar_mount;
 
 typedef struct berm_dig_zone { int32_t x_low_mm, y_low_mm, x_high_mm, y_high_mm, floor_mm, ceiling_mm; } berm_dig_zone; /* base frame */
 typedef struct berm_ground_zone { int32_t x_low_mm, y_low_mm, x_high_mm, y_high_mm, pass_over_mm; } berm_ground_zone; /* lower ground; base frame */
@@ -96,6 +102,8 @@ typedef struct berm_parameters {
   int32_t tail_low_mm, tail_high_mm;              /* underside and top above the ground */
   int32_t tail_clearance_mm;                      /* how far beyond the tail's sides, and behind beyond the own body, must be seen to be free */
   int32_t tail_fresh_us;                          /* a cell round the tail observed longer ago is stale */
+  int32_t lidars;
+  berm_lidar_mount lidar[BERM_LIDARS];
   int32_t crc32;                                  /* bit pattern of the CRC-32 */
 } berm_parameters;
 

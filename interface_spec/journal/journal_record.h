@@ -55,7 +55,8 @@ typedef struct berm_journal_tail {
 #define BERM_JOURNAL_APP_CONNECTED 2u
 
 /* One cycle: its inputs and what came out. Behind it: frames_in + frames_out times berm_journal_frame, then scan_packets times
- * berm_journal_scan with its ranges, then vlp16_packets times the packet's 1206 bytes; each scan and packet filled up to 8 bytes with zeros. */
+ * berm_journal_scan with its ranges, then vlp16_packets times the packet's 1206 bytes, then
+ * lidar_packets times the packet's 1206 bytes and one byte with the lidar's number; each scan and packet filled up to 8 bytes with zeros. */
 typedef struct berm_journal_cycle {
   uint32_t magic;             /* BERM_JOURNAL_RECORD_MAGIC */
   uint32_t bytes;             /* of the whole record */
@@ -69,6 +70,8 @@ typedef struct berm_journal_cycle {
   uint16_t frames_out;
   uint16_t scan_packets;
   uint16_t vlp16_packets;
+  uint16_t lidar_packets;     /* of the lidars on the upper body */
+  uint16_t reserved[3];
   uint64_t map_row_hash;      /* of row cycle % 104 of the height map after the cycle: JOURNAL.md */
   uint8_t request[64];        /* the private copy */
   berm_state state;           /* cycle_cpu_us is zero here */
@@ -103,7 +106,7 @@ typedef struct berm_journal_scan {
 BERM_STATIC_ASSERT(sizeof(berm_journal_start) == 24 + 32 + (sizeof(berm_parameters) + 7) / 8 * 8, "start layout");
 BERM_STATIC_ASSERT(sizeof(berm_journal_ring) == 48 + sizeof(berm_journal_start), "ring header layout");
 BERM_STATIC_ASSERT(sizeof(berm_journal_tail) == 64, "tail layout");
-BERM_STATIC_ASSERT(sizeof(berm_journal_cycle) == 128 + sizeof(berm_state) + sizeof(berm_decision), "cycle record layout");
+BERM_STATIC_ASSERT(sizeof(berm_journal_cycle) == 136 + sizeof(berm_state) + sizeof(berm_decision), "cycle record layout");
 BERM_STATIC_ASSERT(sizeof(berm_journal_frame) == 16 && sizeof(berm_journal_scan) == 40, "parts of a record");
 BERM_STATIC_ASSERT(sizeof(berm_journal_cycle) % 8 == 0, "records keep to 8 bytes");
 

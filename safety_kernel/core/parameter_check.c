@@ -1,5 +1,6 @@
 #include "parameter_check.h"
 #include "parameter_braking.h"
+#include "parameter_lidar.h"
 #include "parameter_overpass.h"
 #include "parameter_parts.h"
 #include "parameter_range.h"
@@ -308,5 +309,6 @@ int32_t sk_parameters_check(const berm_parameters *p)
   if (rule == SK_RULE_NONE) { rule = check_base(p); }
   if (rule == SK_RULE_NONE) { rule = sk_check_overpass(p); }
   if (rule == SK_RULE_NONE) { rule = sk_check_tail(p); }
+  if (rule == SK_RULE_NONE) { rule = sk_check_lidars(p); }
   return rule;
 }

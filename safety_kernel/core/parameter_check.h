@@ -84,6 +84,9 @@ SK_BEGIN
   @ ensures why_tail_heights: \result == SK_RULE_TAIL_HEIGHTS ==> !sk_rule_tail_heights(p);
   @ ensures why_tail_clearance: \result == SK_RULE_TAIL_CLEARANCE ==> !sk_rule_tail_clearance(p);
   @ ensures why_tail_fresh: \result == SK_RULE_TAIL_FRESH ==> !sk_rule_tail_fresh(p);
+  @ ensures why_lidar_count: \result == SK_RULE_LIDAR_COUNT ==> !sk_rule_lidar_count(p);
+  @ ensures why_lidar_position: \result == SK_RULE_LIDAR_POSITION ==> !sk_rule_lidar_position(p);
+  @ ensures why_lidar_angles: \result == SK_RULE_LIDAR_ANGLES ==> !sk_rule_lidar_angles(p);
   @*/
 int32_t sk_parameters_check(const berm_parameters *p);
 

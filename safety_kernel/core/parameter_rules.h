@@ -31,7 +31,8 @@ enum {
   SK_RULE_TRUCK_ZONE_COUNT = 66, SK_RULE_TRUCK_ZONE_BOUNDS = 67, SK_RULE_TRUCK_ZONE_CEILING = 68,
   SK_RULE_TAIL_WATCHED = 69, SK_RULE_TAIL_RADIUS = 70, SK_RULE_TAIL_WIDTH = 71, SK_RULE_TAIL_HEIGHTS = 72, SK_RULE_TAIL_CLEARANCE = 73,
   SK_RULE_TAIL_FRESH = 74,
-  SK_RULES = 75
+  SK_RULE_LIDAR_COUNT = 75, SK_RULE_LIDAR_POSITION = 76, SK_RULE_LIDAR_ANGLES = 77,
+  SK_RULES = 78
 };
 
 /*@ predicate sk_within(integer v, integer low, integer high) = low <= v <= high;
@@ -208,9 +209,18 @@ enum {
   @   sk_rule_tail_watched(p) && sk_rule_tail_radius(p) && sk_rule_tail_width(p) && sk_rule_tail_heights(p) && sk_rule_tail_clearance(p) &&
   @   sk_rule_tail_fresh(p);
   @
+  @ // lidars on the upper body
+  @ predicate sk_lidar_position_ok(berm_lidar_mount *m) = sk_within(m->x_mm, -5000, 5000) && sk_within(m->y_mm, -5000, 5000) && sk_within(m->z_mm, 0, 8000);
+  @ predicate sk_lidar_angles_ok(berm_lidar_mount *m) =
+  @   sk_within(m->roll_urad, -3141593, 3141593) && sk_within(m->pitch_urad, -3141593, 3141593) && sk_within(m->yaw_urad, -3141593, 3141593);
+  @ predicate sk_rule_lidar_count(berm_parameters *p) = sk_within(p->lidars, 0, BERM_LIDARS);
+  @ predicate sk_rule_lidar_position(berm_parameters *p) = \forall integer i; 0 <= i < p->lidars ==> sk_lidar_position_ok(&p->lidar[i]);
+  @ predicate sk_rule_lidar_angles(berm_parameters *p) = \forall integer i; 0 <= i < p->lidars ==> sk_lidar_angles_ok(&p->lidar[i]);
+  @ predicate sk_lidars_ok(berm_parameters *p) = sk_rule_lidar_count(p) && sk_rule_lidar_position(p) && sk_rule_lidar_angles(p);
+  @
   @ predicate sk_parameters_ok(berm_parameters *p) =
   @   sk_head_ok(p) && sk_kinematics_ok(p) && sk_joints_ok(p) && sk_braking_ok(p) && sk_parts_ok(p) && sk_sensors_ok(p) && sk_map_rules_ok(p) &&
-  @   sk_times_ok(p) && sk_base_ok(p) && sk_overpass_ok(p) && sk_tail_ok(p);
+  @   sk_times_ok(p) && sk_base_ok(p) && sk_overpass_ok(p) && sk_tail_ok(p) && sk_lidars_ok(p);
   @*/
 
 SK_END

@@ -57,6 +57,10 @@ bool SelfFilter::near_outline(const Part& part, const Eigen::Vector2d& in_link) 
 
 bool SelfFilter::is_own(const Eigen::Vector3d& point, const ImplementPose& pose) const noexcept {
   if (point.z() < body_height_m && point.x() * point.x() + point.y() * point.y() < body_radius_ * body_radius_ && std::isfinite(point.z())) return true;
+  return is_implement(point, pose);
+}
+
+bool SelfFilter::is_implement(const Eigen::Vector3d& point, const ImplementPose& pose) const noexcept {
   for (int i = 0; i < parts_; ++i) {
     const Part& part = part_[i];
     if (std::fabs(point.y()) > part.half_width) continue;

@@ -20,6 +20,8 @@ public:
   // point: upper body's frame, m. True within the own body's cylinder or within the margin of an implement part (outline in the swing
   // plane, and half width to the sides). False for a point with a coordinate that is not finite.
   bool is_own(const Eigen::Vector3d& point, const ImplementPose& pose) const noexcept;
+  // The second alone: within the margin of an implement part.
+  bool is_implement(const Eigen::Vector3d& point, const ImplementPose& pose) const noexcept;
   bool is_own(const Eigen::Vector3d& point, const JointAngles& angles) const noexcept { return is_own(point, pose(angles)); }
 
 private:

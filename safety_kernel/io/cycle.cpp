@@ -10,6 +10,7 @@ Cycle::Cycle(const berm_parameters& parameters, bool map_only)
       map_only_(map_only),
       frames_(parameters),
       scans_(parameters),
+      lidars_(parameters),
       self_(parameters),
       commands_(parameters.command_latency_us + parameters.state_latency_us + parameters.cycle_us),
       own_cells_(parameters),
@@ -18,6 +19,14 @@ Cycle::Cycle(const berm_parameters& parameters, bool map_only)
       registration_(parameters) {
   sk_map_clear(&map_);
   sk_stop_init(&stop_);
+}
+
+bool CycleInputs::take_lidar(int number, const std::uint8_t* bytes, std::size_t size) {
+  if (lidar_count >= kLidarPackets || size != kVlp16PacketBytes) return false;
+  LidarPacket& to = lidar[lidar_count++];
+  to.lidar = static_cast<std::uint8_t>(number);
+  std::copy(bytes, bytes + kVlp16PacketBytes, to.bytes);
+  return true;
 }
 
 bool CycleInputs::take_vlp16(const Vlp16Mount& mount, const std::uint8_t* bytes, std::size_t size, Vlp16Packet& scratch) {
@@ -39,6 +48,7 @@ void Cycle::step(const CycleInputs& in, CycleOutputs& out) {
   take_scans(in, out.blocks);
   map_points_ += scans_.points() - points_before;
   take_points(in);
+  take_lidars(in);
   if (!map_only_) {
     register_terrain(out.blocks, in.now_us);
     // Nothing is kept while the base has moved, for it may still be moving, nor while the operator has the map learned anew.
@@ -82,6 +92,14 @@ void Cycle::take_points(const CycleInputs& in) {
     }
     if (sk_raster_segment(&map_, &f.left, &f.right, in.now_us, parameters_.generation_us) > 0) ++map_points_;
   }
+}
+
+void Cycle::take_lidars(const CycleInputs& in) {
+  if (map_only_ || joints_.size() == 0) return;
+  const std::uint32_t before = lidars_.points();
+  for (int i = 0; i < in.lidar_count; ++i)
+    if (!lidars_.take(in.lidar[i].lidar, in.lidar[i].bytes, kVlp16PacketBytes, joints_, in.now_us, map_, scans_.shadow())) ++lidars_rejected_;
+  map_points_ += lidars_.points() - before;
 }
 
 void Cycle::learn_base(std::int64_t now_us) {
@@ -169,7 +187,7 @@ void Cycle::step_stop_logic(const CycleInputs& in) {
   const bool panel_fresh = frames_.operator_fresh(in.now_us);
   sk_stop_input stop_in{};
   stop_in.now_us = in.now_us;
-  supervise(frames_, scans_.health(), app_, in.clock_fault, parameters_, stop_in);
+  supervise(frames_, {scans_.health(), lidars_}, app_, in.clock_fault, parameters_, stop_in);
   if (motion_fault_ != BERM_STOP_NONE) {  // before any other fault: it alone removes power at once
     stop_in.fault_reason = motion_fault_;
     stop_in.fault_category_0 = true;
@@ -180,7 +198,7 @@ void Cycle::step_stop_logic(const CycleInputs& in) {
   if (met_tail && stop_in.latch_reason == BERM_STOP_NONE) stop_in.latch_reason = BERM_STOP_TAIL;
   hold_reason_ = judge_hold(in.now_us);
   stop_in.hold_reason = hold_reason_;
-  stop_in.inputs_ready = inputs_ready(frames_, scans_.health(), parameters_, in.now_us);
+  stop_in.inputs_ready = inputs_ready(frames_, {scans_.health(), lidars_}, parameters_, in.now_us);
   stop_in.standstill = standstill_;
   stop_in.operator_run = panel_fresh && panel.run && app_.heard;
   stop_in.operator_reset = panel_fresh && panel.reset;

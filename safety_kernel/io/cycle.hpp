@@ -17,6 +17,7 @@
 #include "io/command_history.hpp"
 #include "io/frame_intake.hpp"
 #include "io/frame_output.hpp"
+#include "io/lidar_intake.hpp"
 #include "io/motion_check.hpp"
 #include "io/motion_watch.hpp"
 #include "io/own_cells.hpp"
@@ -32,6 +33,7 @@ struct CycleInputs {
   static constexpr int kFrames = 512;
   static constexpr int kPackets = 64;
   static constexpr int kVlp16Packets = 512;
+  static constexpr int kLidarPackets = 64;
   static constexpr int kFootprints = kVlp16Packets * kVlp16MaxPoints;
 
   std::uint64_t cycle = 0;
@@ -46,13 +48,20 @@ struct CycleInputs {
   int footprint_count = 0;
   Vlp16Footprint footprint[kFootprints];  // last returns of a VLP-16, base frame
   sk_point lidar_head{};                  // its place, set with them
+  int lidar_count = 0;
+  struct LidarPacket {
+    std::uint8_t lidar;
+    std::uint8_t bytes[kVlp16PacketBytes];
+  } lidar[kLidarPackets];                 // of the lidars on the upper body, as received
   bool app_connected = false;
   std::uint32_t app_connections = 0;     // since start
   std::uint8_t request[SK_REQUEST_BYTES] = {};  // private copy
   std::uint32_t cycle_cpu_us = 0;        // of the cycle before, for observers only
   std::uint32_t journal_lost = 0;        // before this cycle, for observers only
 
-  void clear() { frame_count = packet_count = vlp16_count = footprint_count = 0; }
+  void clear() { frame_count = packet_count = vlp16_count = footprint_count = lidar_count = 0; }
+  // Takes a packet of a lidar on the upper body. False and nothing changed when there is no room or it has another size.
+  bool take_lidar(int number, const std::uint8_t* bytes, std::size_t size);
   // Takes a lidar packet and makes its footprints (scratch holds its returns). False and nothing changed when there is no room or it is no packet.
   bool take_vlp16(const Vlp16Mount& mount, const std::uint8_t* bytes, std::size_t size, Vlp16Packet& scratch);
 };
@@ -76,11 +85,13 @@ class Cycle {
   const TerrainRegistration& registration() const { return registration_; }
   std::uint64_t frames_rejected() const { return frames_.rejected(); }
   std::uint64_t scans_rejected() const { return scans_rejected_; }
+  std::uint64_t lidars_rejected() const { return lidars_rejected_; }
 
  private:
   void take_frames(const CycleInputs& in);
   void take_scans(const CycleInputs& in, ScanBlocks& blocks);
   void take_points(const CycleInputs& in);
+  void take_lidars(const CycleInputs& in);
   void learn_base(std::int64_t now_us);
   void register_terrain(const ScanBlocks& blocks, std::int64_t now_us);
   void begin_map();
@@ -102,6 +113,7 @@ class Cycle {
   FrameIntake frames_;
   FrameOutput output_;
   ScanIntake scans_;
+  LidarIntake lidars_;
   SelfFilter self_;
   JointHistory joints_;
   CommandHistory commands_;
@@ -117,7 +129,7 @@ class Cycle {
   sk_stop_output permit_{};
   AppPulse app_;
   std::uint32_t app_connections_ = 0;
-  std::uint64_t scans_rejected_ = 0;
+  std::uint64_t scans_rejected_ = 0, lidars_rejected_ = 0;
   std::uint32_t stop_count_[BERM_STOP_REASONS] = {};
 
   // of the newest cycle

@@ -19,7 +19,7 @@ constexpr std::size_t kVlp16Room = up8(BERM_JOURNAL_VLP16_BYTES);
 // The largest record a cycle can make must fit several times, or a burst would always be lost.
 constexpr std::size_t kScanMax = sizeof(berm_journal_scan) + BERM_SCAN_PACKET_SAMPLES * BERM_SCAN_ECHOES * 2;
 constexpr std::size_t kRecordMax = sizeof(berm_journal_cycle) + (CycleInputs::kFrames + FrameList::kCapacity) * sizeof(berm_journal_frame) +
-                                   CycleInputs::kPackets * kScanMax + CycleInputs::kVlp16Packets * kVlp16Room;
+                                   CycleInputs::kPackets * kScanMax + (CycleInputs::kVlp16Packets + CycleInputs::kLidarPackets) * kVlp16Room;
 static_assert(kRecordMax * 8 < BERM_JOURNAL_RING_BYTES, "the ring holds eight of the largest records");
 
 std::size_t range_bytes(const berm_scan_packet& packet) { return static_cast<std::size_t>(packet.count) * packet.echoes_per_sample * 2U; }
@@ -27,7 +27,7 @@ std::size_t range_bytes(const berm_scan_packet& packet) { return static_cast<std
 std::size_t record_bytes(const CycleInputs& in, const CycleOutputs& out) {
   std::size_t bytes = sizeof(berm_journal_cycle) + static_cast<std::size_t>(in.frame_count + out.frames.count) * sizeof(berm_journal_frame);
   for (int i = 0; i < in.packet_count; ++i) bytes += sizeof(berm_journal_scan) + up8(range_bytes(in.packet[i]));
-  return bytes + static_cast<std::size_t>(in.vlp16_count) * kVlp16Room;
+  return bytes + static_cast<std::size_t>(in.vlp16_count + in.lidar_count) * kVlp16Room;
 }
 
 constexpr std::uint64_t kHashStart = 14695981039346656037ULL, kHashPrime = 1099511628211ULL;
@@ -139,6 +139,7 @@ void Journal::put_cycle(const CycleInputs& in, const CycleOutputs& out, const sk
   record.frames_out = static_cast<std::uint16_t>(out.frames.count);
   record.scan_packets = static_cast<std::uint16_t>(in.packet_count);
   record.vlp16_packets = static_cast<std::uint16_t>(in.vlp16_count);
+  record.lidar_packets = static_cast<std::uint16_t>(in.lidar_count);
   record.map_row_hash = map_row_hash(map, map_row_of(in.cycle));
   std::copy(in.request, in.request + sizeof in.request, record.request);
   record.state = out.state;
@@ -159,6 +160,11 @@ void Journal::offer(const CycleInputs& in, const CycleOutputs& out, const sk_hei
     for (int i = 0; i < in.vlp16_count; ++i) {
       put(in.vlp16[i], kVlp16PacketBytes);
       fill(kVlp16PacketBytes);
+    }
+    for (int i = 0; i < in.lidar_count; ++i) {
+      put(in.lidar[i].bytes, kVlp16PacketBytes);
+      put(&in.lidar[i].lidar, 1);
+      fill(kVlp16PacketBytes + 1);
     }
     head_ = cursor_;
   } else {

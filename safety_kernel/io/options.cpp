@@ -57,6 +57,12 @@ bool take_value(const std::string& name, const char* value, Options& options, bo
     (name == "--scan-port" ? options.scan_port : options.vlp16_port) = static_cast<std::uint16_t>(number);
     return true;
   }
+  if (name == "--lidar-port") {
+    limit = "must be a port from 1 to 65535, given at most twice";
+    if (options.lidar_ports >= BERM_LIDARS || !parse_integer(value, 1, 65535, number)) return false;
+    options.lidar_port[options.lidar_ports++] = static_cast<std::uint16_t>(number);
+    return true;
+  }
   limit = "must be a uid from 0 to 4294967294";
   if (name == "--app-uid" || name == "--recorder-uid" || name == "--journal-uid") {
     if (!parse_integer(value, 0, 4294967294L, number)) return false;
@@ -138,6 +144,7 @@ const char* options_help() {
          "  --socket PATH          Unix socket on which app and recorders are given the shared memory\n"
          "  --vlp16-port PORT      UDP port on 127.0.0.1 for native packets of a Velodyne VLP-16\n"
          "  --vlp16-mount X,Y,Z,A  its place in the base frame, metres, and its yaw in degrees (0,0,1.8,0)\n"
+         "  --lidar-port PORT      UDP port on 127.0.0.1 of a lidar on the upper body; once for each that the parameter block has\n"
          "  --app-uid N            uid the app must have (default: the kernel's own)\n"
          "  --recorder-uid N       uid recorders must have (default: the kernel's own)\n"
          "  --journal-uid N        keeps a journal for a writer (berm_journal) of this uid (default: keeps none)\n"

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "config/parameter_block.h"
 #include "io/vlp16.hpp"
 
 namespace berm::kernel {
@@ -18,6 +19,8 @@ struct Options {
   std::uint16_t scan_port = 0;
   std::uint16_t vlp16_port = 0;  // 0: no VLP-16
   Vlp16Mount vlp16_mount;
+  std::uint16_t lidar_port[BERM_LIDARS] = {};  // of the lidars on the upper body, in the parameter block's order
+  int lidar_ports = 0;
   uid_t app_uid = 0;       // own uid unless given
   uid_t recorder_uid = 0;  // own uid unless given
   std::optional<uid_t> journal_uid;  // none: no journal is kept

@@ -82,6 +82,9 @@ constexpr const char* kText[] = {
     "tail_low_mm below tail_high_mm, within 0..10000",
     "tail_clearance_mm: within 500..3000",
     "tail_fresh_us: within 1..fresh_us",
+    "lidars: 0 to 2",
+    "lidar position: x and y within +-5000 mm, z within 0..8000 mm",
+    "lidar roll_urad, pitch_urad, yaw_urad: within +-pi",
 };
 static_assert(sizeof kText / sizeof kText[0] == SK_RULES, "one text a rule");
 

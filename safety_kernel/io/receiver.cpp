@@ -16,6 +16,8 @@ bool Receiver::open(std::string& error) {
   if (!options_.map_only) error = can_.open(options_.can);
   if (!error.empty()) return false;
   if (options_.scan_port != 0 && !options_.map_only && !scan_.open(options_.scan_port, error)) return false;
+  for (int i = 0; i < options_.lidar_ports && !options_.map_only; ++i)
+    if (!lidar_[i].open(options_.lidar_port[i], error)) return false;
   return options_.vlp16_port == 0 || vlp16_.open(options_.vlp16_port, error);
 }
 
@@ -57,12 +59,26 @@ bool Receiver::take_vlp16(CycleInputs& in) {
   return true;
 }
 
+bool Receiver::take_lidar(CycleInputs& in) {
+  bool any = false;
+  for (int i = 0; i < options_.lidar_ports; ++i) {
+    std::uint8_t bytes[kVlp16PacketBytes];
+    const ssize_t n = lidar_[i].is_open() ? lidar_[i].receive(bytes, sizeof bytes) : -1;
+    if (n < 0) continue;
+    any = true;
+    ++datagrams_;
+    ++(in.take_lidar(i, bytes, static_cast<std::size_t>(n)) ? counters_.lidar_packets : counters_.lidar_rejected);
+  }
+  return any;
+}
+
 void Receiver::gather(CycleInputs& in) {
   berm_can_frame frame{};
   if (!options_.map_only)
     for (int i = 0; i < CycleInputs::kFrames && can_.receive(frame); ++i) add_frame(frame, in);
   for (int i = 0; i < kDatagramsPerCycle && take_scan(in); ++i) continue;
   for (int i = 0; i < CycleInputs::kVlp16Packets && take_vlp16(in); ++i) continue;
+  for (int i = 0; i < CycleInputs::kLidarPackets && take_lidar(in); ++i) continue;
 }
 
 bool Receiver::gather_lockstep(CycleInputs& in, const volatile int& stop, PeerServer& peers) {
@@ -90,7 +106,7 @@ void Receiver::await_scans(std::uint32_t announced, CycleInputs& in) {
   const std::int64_t until_us = monotonic_us() + kScanWaitMs * 1000;
   const auto missing = [&] { return static_cast<std::int32_t>(announced - datagrams_); };
   while (missing() > 0) {
-    if (take_scan(in) || take_vlp16(in)) continue;
+    if (take_scan(in) || take_vlp16(in) || take_lidar(in)) continue;
     const std::int64_t left_us = until_us - monotonic_us();
     if (left_us <= 0) {
       // Lost on the way: not waited for again.
@@ -98,8 +114,9 @@ void Receiver::await_scans(std::uint32_t announced, CycleInputs& in) {
       datagrams_ = announced;
       return;
     }
-    pollfd wait[2] = {{scan_.fd(), POLLIN, 0}, {vlp16_.fd(), POLLIN, 0}};
-    poll(wait, 2, static_cast<int>(std::min<std::int64_t>(left_us / 1000 + 1, kScanWaitMs)));
+    pollfd wait[2 + BERM_LIDARS] = {{scan_.fd(), POLLIN, 0}, {vlp16_.fd(), POLLIN, 0}};
+    for (int i = 0; i < BERM_LIDARS; ++i) wait[2 + i] = {lidar_[i].fd(), POLLIN, 0};
+    poll(wait, 2 + BERM_LIDARS, static_cast<int>(std::min<std::int64_t>(left_us / 1000 + 1, kScanWaitMs)));
   }
 }
 

@@ -20,6 +20,8 @@ struct ReceiverCounters {
   std::uint64_t vlp16_packets = 0;
   std::uint64_t vlp16_rejected = 0;
   std::uint64_t vlp16_points = 0;
+  std::uint64_t lidar_packets = 0;    // of the lidars on the upper body
+  std::uint64_t lidar_rejected = 0;   // of another size, or too many in one cycle
 };
 
 class Receiver {
@@ -45,12 +47,14 @@ class Receiver {
   void add_frame(const berm_can_frame& frame, CycleInputs& in);
   bool take_scan(CycleInputs& in);
   bool take_vlp16(CycleInputs& in);
+  bool take_lidar(CycleInputs& in);
   void await_scans(std::uint32_t announced, CycleInputs& in);
 
   const Options& options_;
   can::Transport can_;
   UdpReceiver scan_;
   UdpReceiver vlp16_;
+  UdpReceiver lidar_[BERM_LIDARS];
   Vlp16Packet vlp16_packet_{};
   ReceiverCounters counters_;
   std::uint32_t datagrams_ = 0;      // of all scan ports since start, and those given up

@@ -40,6 +40,10 @@ bool Shell::open(std::string& error) {
     if (!journal_.create(parameters_, options_.map_only, options_.vlp16_mount, error)) return false;
     peers_.serve_journal(journal_.ring(), journal_.tail());
   }
+  if (!options_.map_only && options_.lidar_ports != parameters_.lidars) {
+    error = "--lidar-port: given " + std::to_string(options_.lidar_ports) + " times, the parameter block has " + std::to_string(parameters_.lidars) + " lidars";
+    return false;
+  }
   if (!receiver_.open(error) || !peers_.open(options_.socket, policy, state_, request_, error)) return false;
   if (!options_.lockstep && !options_.map_only) ask_for_realtime();
   if (!options_.map_only && parameters_.tail_watched == 0)
@@ -128,6 +132,8 @@ std::string Shell::report() const {
   add("vlp16_points", c.vlp16_points);
   add("terrain_rounds", cycle_->registration().rounds());
   add("terrain_rounds_confirmed", cycle_->registration().rounds_confirmed());
+  add("lidar_packets", c.lidar_packets);
+  add("lidar_rejected", c.lidar_rejected + cycle_->lidars_rejected());
   add("tail_watched", parameters_.tail_watched != 0 ? 1 : 0);
   add("journal_records", journal_.offered());
   add("journal_lost", journal_.lost());

@@ -22,13 +22,13 @@ std::int64_t time_to_stand_us(const std::int32_t (&velocity_urad_s)[4], const be
   return delay_us + brake_us;
 }
 
-std::uint8_t fault_of(const FrameIntake& frames, const ScanHealth& scans, bool clock_fault, const berm_parameters& p, std::int64_t now_us) {
+std::uint8_t fault_of(const FrameIntake& frames, const RangeSensors& sensors, bool clock_fault, const berm_parameters& p, std::int64_t now_us) {
   if (clock_fault) return BERM_STOP_CLOCK;
   if (!frames.state_heard()) return BERM_STOP_NONE;  // still in INIT
   if (!frames.joints_fresh(now_us) || !frames.machine_fresh(now_us)) return BERM_STOP_STATE_FRAME;
   if (frames.base().learned && !sk_base_fresh(&frames.base(), &p, now_us)) return BERM_STOP_STATE_FRAME;
   if (!machine_healthy(frames.picture())) return BERM_STOP_MACHINE_FAULT;
-  if (scans.silent(now_us, p.scanner_silent_us)) return BERM_STOP_SCANNER_SILENT;
+  if (sensors.silent(now_us, p.scanner_silent_us)) return BERM_STOP_SCANNER_SILENT;
   return BERM_STOP_NONE;
 }
 
@@ -57,13 +57,13 @@ bool StandstillWatch::check(const std::int32_t (&velocity_urad_s)[4], bool fresh
   return now_us - moved_us_ >= parameters.standstill_us;
 }
 
-bool inputs_ready(const FrameIntake& frames, const ScanHealth& scans, const berm_parameters& parameters, std::int64_t now_us) {
+bool inputs_ready(const FrameIntake& frames, const RangeSensors& sensors, const berm_parameters& parameters, std::int64_t now_us) {
   return frames.state_heard() && frames.base().learned && frames.joints_fresh(now_us) && frames.machine_fresh(now_us) && frames.operator_heard() && frames.operator_fresh(now_us) &&
-         scans.both_heard() && !scans.silent(now_us, parameters.scanner_silent_us);
+         sensors.all_heard() && !sensors.silent(now_us, parameters.scanner_silent_us);
 }
 
-void supervise(const FrameIntake& frames, const ScanHealth& scans, const AppPulse& app, bool clock_fault, const berm_parameters& parameters, sk_stop_input& in) {
-  in.fault_reason = fault_of(frames, scans, clock_fault, parameters, in.now_us);
+void supervise(const FrameIntake& frames, const RangeSensors& sensors, const AppPulse& app, bool clock_fault, const berm_parameters& parameters, sk_stop_input& in) {
+  in.fault_reason = fault_of(frames, sensors, clock_fault, parameters, in.now_us);
   in.fault_category_0 = false;  // with valves that centre and brakes that hold, braking under control is the shorter way to standstill
   in.latch_reason = latch_of(frames, app, parameters, in.now_us);
   in.latch_category_0 = in.latch_reason == BERM_STOP_EMERGENCY;

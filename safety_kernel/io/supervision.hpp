@@ -6,6 +6,7 @@
 #include "config/parameter_block.h"
 #include "core/stop_logic.h"
 #include "io/frame_intake.hpp"
+#include "io/lidar_intake.hpp"
 #include "io/scan_health.hpp"
 
 namespace berm::kernel {
@@ -30,10 +31,18 @@ class StandstillWatch {
   std::int64_t stands_us_ = -1;  // at the latest, from the last fresh frames
 };
 
+// The panning scanners, and the lidars on the upper body.
+struct RangeSensors {
+  const ScanHealth& scans;
+  const LidarIntake& lidars;
+  bool all_heard() const { return scans.both_heard() && lidars.all_heard(); }
+  bool silent(std::int64_t now_us, std::int32_t limit_us) const { return scans.silent(now_us, limit_us) || lidars.silent(now_us, limit_us); }
+};
+
 // Everything the motion needs was heard and is alive.
-bool inputs_ready(const FrameIntake& frames, const ScanHealth& scans, const berm_parameters& parameters, std::int64_t now_us);
+bool inputs_ready(const FrameIntake& frames, const RangeSensors& sensors, const berm_parameters& parameters, std::int64_t now_us);
 
 // Fills fault_reason, fault_category_0, latch_reason, latch_category_0.
-void supervise(const FrameIntake& frames, const ScanHealth& scans, const AppPulse& app, bool clock_fault, const berm_parameters& parameters, sk_stop_input& in);
+void supervise(const FrameIntake& frames, const RangeSensors& sensors, const AppPulse& app, bool clock_fault, const berm_parameters& parameters, sk_stop_input& in);
 
 }  // namespace berm::kernel

@@ -93,6 +93,8 @@ Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packe
   return Vlp16Result::kOk;
 }
 
+Vlp16Elevation vlp16_elevation(std::uint8_t channel) { return {kChannelCosine[channel % kVlp16Channels], kChannelSine[channel % kVlp16Channels]}; }
+
 sk_point vlp16_head(const Vlp16Mount& mount) { return {rounded(mount.x_m * 1e3), rounded(mount.y_m * 1e3), rounded(mount.z_m * 1e3)}; }
 
 Vlp16Footprint vlp16_project(const Vlp16Mount& mount, const Vlp16Return& point) {

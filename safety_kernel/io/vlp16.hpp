@@ -13,6 +13,7 @@ namespace berm::kernel {
 constexpr std::size_t kVlp16PacketBytes = 1206;
 constexpr int kVlp16Channels = 16;
 constexpr int kVlp16MaxPoints = 12 * 2 * kVlp16Channels;  // of one packet, single return
+constexpr std::uint32_t kVlp16FiringMdeg = 200;           // a firing's share of the turn at 10 Hz
 constexpr std::int32_t kVlp16RangeMinMm = 400;            // nearer returns are the sensor's own housing and mount
 
 enum class Vlp16Result { kOk, kSize, kMode, kProduct, kFlag, kAzimuth };
@@ -38,6 +39,12 @@ struct Vlp16Mount {
 
 // All last returns of at least kVlp16RangeMinMm, in firing order. On any result but kOk packet is unchanged.
 Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packet& packet);
+
+// Cosine and sine of a channel's elevation in the sensor's frame.
+struct Vlp16Elevation {
+  double cosine, sine;
+};
+Vlp16Elevation vlp16_elevation(std::uint8_t channel);
 
 // Where a return may have come from: from edge to edge of the beam, in base-frame millimetres.
 struct Vlp16Footprint {

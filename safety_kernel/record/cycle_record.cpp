@@ -56,9 +56,14 @@ bool take_lidar(ByteReader& from, const kernel::Vlp16Mount& mount, CycleInputs& 
   return bytes != nullptr && in.take_vlp16(mount, bytes, kernel::kVlp16PacketBytes, scratch);
 }
 
+bool take_upper_lidar(ByteReader& from, CycleInputs& in) {
+  const std::uint8_t* bytes = from.raw(up8(kernel::kVlp16PacketBytes + 1));
+  return bytes != nullptr && bytes[kernel::kVlp16PacketBytes] < BERM_LIDARS && in.take_lidar(bytes[kernel::kVlp16PacketBytes], bytes, kernel::kVlp16PacketBytes);
+}
+
 bool fits(const berm_journal_cycle& head, std::size_t size) {
   return head.magic == BERM_JOURNAL_RECORD_MAGIC && head.bytes == size && head.frames_in <= CycleInputs::kFrames &&
-         head.frames_out <= kernel::FrameList::kCapacity && head.scan_packets <= CycleInputs::kPackets && head.vlp16_packets <= CycleInputs::kVlp16Packets &&
+         head.frames_out <= kernel::FrameList::kCapacity && head.scan_packets <= CycleInputs::kPackets && head.vlp16_packets <= CycleInputs::kVlp16Packets && head.lidar_packets <= CycleInputs::kLidarPackets &&
          head.now_us >= 0 && head.now_us <= kTimeMaxUs;
 }
 
@@ -94,6 +99,8 @@ bool decode_cycle(const std::uint8_t* bytes, std::size_t size, const kernel::Vlp
   error = "a lidar packet of cycle " + std::to_string(head.cycle) + " is damaged";
   for (int i = 0; i < head.vlp16_packets; ++i)
     if (!take_lidar(from, mount, in)) return false;
+  for (int i = 0; i < head.lidar_packets; ++i)
+    if (!take_upper_lidar(from, in)) return false;
   error = "the record of cycle " + std::to_string(head.cycle) + " has another length than its parts";
   if (from.left() != 0) return false;
   error.clear();

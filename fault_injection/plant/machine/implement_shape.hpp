@@ -29,6 +29,11 @@ struct ScannerMount {
   double pan_rate_max = 0.0, pan_acceleration = 0.0;
 };
 
+struct LidarMount {                    // VLP-16: sensor's frame in the upper body's, turned by yaw, then pitch (front down), then roll (left up)
+  std::array<double, 3> position{};
+  double roll = 0.0, pitch = 0.0, yaw = 0.0;
+};
+
 struct ImplementShape {
   double boom_pin_x = 0.0, boom_pin_z = 0.0;           // upper body's frame
   double boom = 0.0, stick = 0.0, bucket = 0.0;        // pin to pin, pin to tip
@@ -39,6 +44,7 @@ struct ImplementShape {
   std::vector<AxisBox> upper_body;                     // upper body's frame; turn with the swing
   std::vector<AxisBox> tracks;                         // base frame
   std::array<ScannerMount, 2> scanner;                 // left, right
+  std::vector<LidarMount> lidar;                       // two at most
 };
 
 }  // namespace berm::plant

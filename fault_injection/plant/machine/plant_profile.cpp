@@ -72,6 +72,16 @@ ScannerMount read_scanner(StrictTable t) {
   return mount;
 }
 
+LidarMount read_lidar(StrictTable t) {
+  LidarMount mount;
+  mount.position = t.array<3>("position", -10.0, 10.0);
+  mount.roll = t.degrees("roll_deg", -180.0, 180.0);
+  mount.pitch = t.degrees("pitch_deg", -180.0, 180.0);
+  mount.yaw = t.degrees("yaw_deg", -180.0, 180.0);
+  t.finish();
+  return mount;
+}
+
 ImplementShape read_shape(StrictTable& file) {
   ImplementShape shape;
   StrictTable k = file.table("kinematics");
@@ -97,6 +107,8 @@ ImplementShape read_shape(StrictTable& file) {
   std::vector<StrictTable> scanners = file.tables("scanner");
   if (scanners.size() != shape.scanner.size()) file.fail("scanner", fmt::format("must be given {} times", shape.scanner.size()));
   for (std::size_t i = 0; i < scanners.size(); ++i) shape.scanner[i] = read_scanner(scanners[i]);
+  for (StrictTable& t : file.tables("lidar")) shape.lidar.push_back(read_lidar(t));
+  if (shape.lidar.size() > 2) file.fail("lidar", "is given more than twice");
   return shape;
 }
 

@@ -11,6 +11,7 @@
 
 #include "plant/machine/kinematics.hpp"
 #include "plant/machine/strict_table.hpp"
+#include "plant/world/spinning_lidar.hpp"
 
 namespace berm::plant {
 
@@ -61,7 +62,11 @@ PlantRun::PlantRun(const Scenario& scenario, const PlantProfile& profile, const 
       world_(scenario.world, profile_.shape, options.seed, options.trucks), dynamics_(profile.dynamics, profile.shape, options.seed, scenario.start),
       controller_(profile), base_(scenario.base_motions), frames_(profile, options.seed), servo_{PanServo(profile.shape.scanner[0]), PanServo(profile.shape.scanner[1])},
       peers_(opened(bus_, options.can_address), options.kernel_fd, options.tick_fd, [this](const berm_can_frame& frame) { controller_.receive(frame, now_); }),
-      trace_(made_folder(options.out) + "/trace.csv", world_.movers()), kernel_seen_(peers_.kernel()), app_seen_(peers_.app()) {}
+      trace_(made_folder(options.out) + "/trace.csv", world_.movers()), kernel_seen_(peers_.kernel()), app_seen_(peers_.app()) {
+  if (options.lidar_port.size() != profile.shape.lidar.size())
+    throw ConfigError(fmt::format("--lidar-port: given {} times, {} has {} lidars", options.lidar_port.size(), scenario.machine_file, profile.shape.lidar.size()));
+  for (const std::uint16_t port : options.lidar_port) lidars_.push_back(std::make_unique<ScanSender>(port));
+}
 
 void PlantRun::break_machine() {
   constexpr double kRounding = 1e-6;  // times are multiples of the cycle in floating point
@@ -93,9 +98,18 @@ void PlantRun::advance(double t) {
   std::vector<berm_scan_packet> packets;
   world_.scan(t, kCycle, before, dynamics_.state(), pan_before, pan_, packets);
   scans_.send(packets, epoch_us_);
+  std::vector<LidarPacket> lidar_packets;
+  world_.scan_lidars(t, kCycle, before, dynamics_.state(), lidar_packets);
+  for (const LidarPacket& packet : lidar_packets) lidars_[packet.lidar]->send_bytes(packet.bytes.data(), packet.bytes.size());
   const auto& speed = dynamics_.state().velocity;
   const bool still = std::all_of(speed.begin(), speed.end(), [](double v) { return std::abs(v) < kStandstillSpeed; });
   standing_cycles_ = still ? standing_cycles_ + 1 : 0;
+}
+
+std::uint32_t PlantRun::datagrams() const {
+  std::uint32_t sent = scans_.sent();
+  for (const auto& lidar : lidars_) sent += lidar->sent();
+  return sent;
 }
 
 void PlantRun::send(double t) {
@@ -114,7 +128,7 @@ void PlantRun::send(double t) {
   panel_stop_ = stop;
   std::vector<berm_can_frame> out = frames_.frames(cycle_, snapshot);
   if (!options_.realtime) {
-    const berm_sim_clock clock{static_cast<std::uint32_t>(cycle_), scans_.sent()};
+    const berm_sim_clock clock{static_cast<std::uint32_t>(cycle_), datagrams()};
     out.push_back(berm_encode_sim_clock(&clock));
   }
   for (const berm_can_frame& frame : out) bus_.send(frame);
@@ -223,7 +237,7 @@ void PlantRun::write_end(double t, const std::string& reason) {
   end.time_s = t;
   end.target_kg = scenario_.world.trucks.front().target_kg;
   end.refused_frames = controller_.refused_frames();
-  end.scan_packets = scans_.sent();
+  end.scan_packets = datagrams();
   end.truth = world_.truth();
   trace_.finish();
   world_.write_terrain(options_.out + "/terrain_end.csv");

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "can/can_transport.hpp"
 #include "plant/machine/joint_dynamics.hpp"
@@ -25,6 +27,7 @@ struct RunOptions {
   int trucks = 1;
   std::string can_address;
   std::uint16_t scan_port = 0;
+  std::vector<std::uint16_t> lidar_port;  // one for each lidar of the profile
   std::string out;          // folder, made when missing
   bool realtime = false;
   int tick_fd = -1, kernel_fd = -1;
@@ -44,6 +47,7 @@ class PlantRun {
   void advance(double t);
   void break_machine();
   void send(double t);
+  std::uint32_t datagrams() const;  // to all sensor ports
   void keep_step();
   void observe(double t);
   void observe_trucks(double t);
@@ -58,6 +62,7 @@ class PlantRun {
   RunOptions options_;
   can::Transport bus_;
   ScanSender scans_;
+  std::vector<std::unique_ptr<ScanSender>> lidars_;
   World world_;
   JointDynamics dynamics_;
   MachineController controller_;

@@ -34,10 +34,14 @@ void ScanSender::send(std::vector<berm_scan_packet>& packets, std::uint64_t epoc
     packet.time_us += epoch_us;
     const std::size_t n = berm_scan_encode(&packet, bytes.data());
     if (n == 0) throw std::runtime_error("the world made a scan packet with a field out of range");
-    // nobody may be listening (a kernel that died): the error of the datagram before is reported here and is no fault of this one
-    if (::send(fd_, bytes.data(), n, MSG_NOSIGNAL) < 0 && errno == ECONNREFUSED) ::send(fd_, bytes.data(), n, MSG_NOSIGNAL);
-    ++sent_;
+    send_bytes(bytes.data(), n);
   }
+}
+
+void ScanSender::send_bytes(const std::uint8_t* bytes, std::size_t size) {
+  // nobody may be listening (a kernel that died): the error of the datagram before is reported here and is no fault of this one
+  if (::send(fd_, bytes, size, MSG_NOSIGNAL) < 0 && errno == ECONNREFUSED) ::send(fd_, bytes, size, MSG_NOSIGNAL);
+  ++sent_;
 }
 
 }  // namespace berm::plant

@@ -19,6 +19,8 @@ class ScanSender {
   // Throws std::runtime_error when a packet is not valid. A datagram that cannot be delivered is lost, as on a real network, but counted.
   // epoch_us is added to the stamps: the time of the receiver's clock when the packets' time was zero.
   void send(std::vector<berm_scan_packet>& packets, std::uint64_t epoch_us);
+  // As it is.
+  void send_bytes(const std::uint8_t* bytes, std::size_t size);
   std::uint32_t sent() const { return sent_; }
 
  private:

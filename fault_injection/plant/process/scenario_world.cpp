@@ -151,6 +151,16 @@ ScannerConfig read_scanner(StrictTable t) {
   return scanner;
 }
 
+LidarFault read_lidar_fault(StrictTable t) {
+  LidarFault fault;
+  fault.lidar = static_cast<std::size_t>(t.integer("lidar", 1, 2) - 1);
+  fault.silent = t.choice("kind", {"blocked", "silent"}) == "silent";
+  fault.at_s = t.number("at_s", 0.0, 36000.0);
+  fault.for_s = t.number("for_s", 0.05, 36000.0);
+  t.finish();
+  return fault;
+}
+
 }  // namespace
 
 WorldConfig read_world(StrictTable& file) {
@@ -168,6 +178,7 @@ WorldConfig read_world(StrictTable& file) {
   for (StrictTable& t : file.tables("dig_zone")) world.dig_zones.push_back(read_dig_zone(t));
   if (world.dig_zones.empty()) file.fail("dig_zone", "is missing");
   world.scanner = read_scanner(file.table("scanner"));
+  for (StrictTable& t : file.tables("lidar_fault")) world.lidar_faults.push_back(read_lidar_fault(t));
   return world;
 }
 

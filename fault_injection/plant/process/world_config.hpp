@@ -85,6 +85,12 @@ struct ScannerConfig {
   double window_percent = 100.0;
 };
 
+struct LidarFault {                       // of a lidar on the upper body, for a time
+  std::size_t lidar = 0;
+  bool silent = false;                    // sends nothing; else something lies on its window, and nothing comes back
+  double at_s = 0.0, for_s = 0.0;
+};
+
 struct WorldConfig {
   double ballast_kg = 0.0;                // a test weight fixed in the bucket: weighs and takes room as soil would, and never falls out
   TerrainConfig terrain;
@@ -94,6 +100,7 @@ struct WorldConfig {
   std::vector<BoxConfig> boxes;
   std::vector<DigZoneConfig> dig_zones{DigZoneConfig{}};
   ScannerConfig scanner;
+  std::vector<LidarFault> lidar_faults;
 };
 
 }  // namespace berm::plant

@@ -18,6 +18,7 @@
 #include "plant/world/scanner.hpp"
 #include "plant/world/scene.hpp"
 #include "plant/world/soil_cut.hpp"
+#include "plant/world/spinning_lidar.hpp"
 #include "plant/world/terrain.hpp"
 #include "plant/world/truck.hpp"
 
@@ -28,7 +29,7 @@ namespace {
 constexpr int ground_budget = 2000, bed_budget = 1000;
 
 // Streams of their own for each use, so that a change to one leaves the others as they were.
-enum Stream : uint64_t { stream_terrain = 1, stream_trucks = 2, stream_left = 3, stream_right = 4 };
+enum Stream : uint64_t { stream_terrain = 1, stream_trucks = 2, stream_left = 3, stream_right = 4, stream_lidars = 5 };
 uint64_t seed_of(uint64_t seed, Stream stream) {
   uint64_t x = seed * 0x9E3779B97F4A7C15u + stream * 0xD1B54A32D192ED03u;  // splitmix64's finaliser
   x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -55,6 +56,7 @@ struct World::State {
       : config(c), shape(s), terrain(c.terrain, c.soil, seed_of(seed, stream_terrain)), truck(make_trucks(c, terrain, seed_of(seed, stream_trucks), trucks)),
         movers(c.movers), load(s, c.soil, c.ballast_kg), cut(s, c.soil), landing(terrain, truck, config.dig_zones), oracle(s),
         scanner{Scanner(c.scanner, s.scanner[0], 0, seed_of(seed, stream_left)), Scanner(c.scanner, s.scanner[1], 1, seed_of(seed, stream_right))} {
+    for (size_t i = 0; i < s.lidar.size(); ++i) lidar.emplace_back(c.scanner, s.lidar[i], static_cast<uint8_t>(i), seed_of(seed, stream_lidars) + i);
     if (!truck.empty()) truck[0].call(0);
     move_trucks(0);
     movers.step(0, 0, 0, terrain);
@@ -88,6 +90,7 @@ struct World::State {
   SoilBook book;
   oracle::Oracle oracle;
   std::array<Scanner, 2> scanner;
+  std::vector<SpinningLidar> lidar;
   Scene scene;
   BasePose base;
   size_t current = 0;
@@ -121,6 +124,19 @@ void World::scan(double t, double dt, const JointState& before, const JointState
   const BaseFrame base(w.base);
   for (size_t i = 0; i < w.scanner.size(); ++i) {
     w.scanner[i].step(t, dt, {before.angle[0], pan_before.angle[i]}, {now.angle[0], pan_now.angle[i]}, w.scene, out, base);
+  }
+}
+
+void World::scan_lidars(double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out) {
+  State& w = *state_;
+  const BaseFrame base(w.base);
+  for (size_t i = 0; i < w.lidar.size(); ++i) {
+    bool blocked = false, silent = false;
+    for (const LidarFault& f : w.config.lidar_faults) {
+      if (f.lidar != i || t < f.at_s || t >= f.at_s + f.for_s) continue;
+      (f.silent ? silent : blocked) = true;
+    }
+    if (!silent) w.lidar[i].step(t, dt, before.angle[0], now.angle[0], blocked, w.scene, base, out);
   }
 }
 

@@ -21,6 +21,8 @@ struct BasePose;        // world/base_pose.hpp
 
 struct DigForces { std::array<double, 4> resist_speed_factor{1.0, 1.0, 1.0, 1.0}; };  // 0..1: what the soil leaves of each joint's speed
 
+struct LidarPacket;     // world/spinning_lidar.hpp
+
 struct Truth {
   double payload_kg = 0.0;
   std::vector<double> truck_load_kg;      // one for each truck of the run
@@ -52,6 +54,8 @@ class World {
   // Samples of both scanners in (t - dt, t], appended as packets. 12 kHz, 400 a turn; at most 120 a packet; packets do not span scanlines.
   void scan(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
             std::vector<berm_scan_packet>& out);
+  // Firings of the lidars on the upper body in (t - dt, t], after scan() of the same step: it has gathered what there is to see.
+  void scan_lidars(double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out);
   OracleVerdict judge(double t, const JointState& joints);  // independent oracle
   double payload_kg() const;
   Truth truth() const;

@@ -1,6 +1,9 @@
 // Compiling to integers: every field goes to the safe side, and stays within one step of what was meant.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
+#include <iterator>
 #include <random>
 
 #include "config/compile_parameters.hpp"
@@ -192,6 +195,20 @@ TEST(Compile, EveryFieldIsRoundedToTheSafeSide) {
     expect_tail_safe(d.machine.tail, p);
     ASSERT_FALSE(testing::Test::HasFailure()) << "seed " << kSeed << " draw " << i;
   }
+}
+
+// So that a table measured anew reaches both files. verifies: IF-CF-17
+TEST(Compile, TheMachineWithLidarsIsTheSameButForThemAndTheTail) {
+  const Default d;
+  const berm_parameters plain = compile_parameters(d.machine, d.site);
+  berm_parameters rear = compile_parameters(load_machine_file(BERM_CONFIG_FILES "/machines/zx200_rear.toml"), d.site);
+  ASSERT_EQ(rear.lidars, 2);
+  EXPECT_EQ(rear.tail_watched, 1);
+  rear.tail_watched = plain.tail_watched;
+  rear.lidars = plain.lidars;
+  std::copy(std::begin(plain.lidar), std::end(plain.lidar), rear.lidar);
+  rear.crc32 = plain.crc32;
+  EXPECT_EQ(std::memcmp(&rear, &plain, sizeof plain), 0);
 }
 
 }  // namespace

@@ -31,6 +31,19 @@ TEST(MachineFileTest, TheDefaultInSiUnits) {
   EXPECT_DOUBLE_EQ(m.kernel.request_hold, 0.05);
 }
 
+// verifies: IF-CF-5, IF-CF-17
+TEST(MachineFileTest, TheOneWithLidarsWatchesItsTail) {
+  EXPECT_FALSE(load_machine_file(machine_path()).tail.watched);
+  EXPECT_TRUE(load_machine_file(machine_path()).lidar.empty());
+  const MachineFile m = load_machine_file(BERM_CONFIG_FILES "/machines/zx200_rear.toml");
+  EXPECT_TRUE(m.tail.watched);
+  EXPECT_DOUBLE_EQ(m.tail.radius, 2.9);
+  ASSERT_EQ(m.lidar.size(), 2u);
+  EXPECT_DOUBLE_EQ(m.lidar[1].position[1], -1.40);
+  EXPECT_DOUBLE_EQ(m.lidar[0].pitch, 80.0 * kPi / 180.0);
+  EXPECT_DOUBLE_EQ(m.lidar[1].yaw, -145.0 * kPi / 180.0);
+}
+
 // verifies: IF-CF-1, IF-CF-2, IF-CF-6, IF-CF-7
 TEST(MachineFileTest, EachBadInputGivesOneLineWithFileFieldAndLimit) {
   const Scratch scratch;

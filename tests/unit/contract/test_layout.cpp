@@ -37,7 +37,7 @@ TEST(Layout, NoHiddenPadding) {
     end = whole ? 0 : entry[i].offset + entry[i].size;
     structures += whole ? 1 : 0;
   }
-  EXPECT_EQ(structures, 14u);
+  EXPECT_EQ(structures, 15u);
 }
 
 // verifies: IF-CT-2

@@ -74,6 +74,7 @@ std::vector<Limit> limits(const berm_parameters& ok) {
       limit(SK_RULE_TAIL_HEIGHTS, ok.tail_low_mm + 1, 10000, FIELD(tail_high_mm)),
       limit(SK_RULE_TAIL_CLEARANCE, 500, 3000, FIELD(tail_clearance_mm)),
       limit(SK_RULE_TAIL_FRESH, 1, ok.fresh_us, FIELD(tail_fresh_us)),
+      limit(SK_RULE_LIDAR_COUNT, 0, BERM_LIDARS, FIELD(lidars)),
   };
   for (int j = 0; j < 4; ++j) {
     const std::int32_t bound = j == 0 ? 6283186 : 3141593;
@@ -114,7 +115,7 @@ TEST(ParameterCheck, AcceptsTheDemonstrationMachine) {
 // verifies: SK-PC-16, SK-PC-17, SK-PC-18, SK-PC-19, SK-PC-28, SK-PC-35, SK-PC-36, SK-PC-37, SK-PC-38, SK-PC-39, SK-PC-40, SK-PC-41, SK-PC-42
 // verifies: SK-PC-43, SK-PC-44, SK-PC-45, SK-PC-46, SK-PC-49, SK-PC-50, SK-PC-51, SK-PC-52, SK-PC-53, SK-PC-54, SK-PC-55, SK-PC-56, SK-PC-57
 // verifies: SK-PC-58, SK-PC-59, SK-PC-60, SK-PC-61, SK-PC-62, SK-PC-63, SK-PC-66
-// verifies: SK-PC-69, SK-PC-70, SK-PC-71, SK-PC-72, SK-PC-73, SK-PC-74
+// verifies: SK-PC-69, SK-PC-70, SK-PC-71, SK-PC-72, SK-PC-73, SK-PC-74, SK-PC-75
 // verifies: SK-PC-101
 TEST(ParameterCheck, EachFieldBeyondEachLimit) {
   const berm_parameters ok = valid_parameters();
@@ -145,6 +146,31 @@ TEST(ParameterCheck, TotalReach) {
   EXPECT_EQ(sk_parameters_check(&p), SK_RULE_NONE);
   p.boom_length_mm += 1;
   EXPECT_EQ(sk_parameters_check(&p), SK_RULE_TOTAL_REACH);
+}
+
+// verifies: SK-PC-76, SK-PC-77
+TEST(ParameterCheck, EachLidarBeyondEachLimit) {
+  const berm_parameters ok = valid_parameters();
+  const struct {
+    std::int32_t berm_lidar_mount::*member;
+    std::int32_t low, high, rule;
+  } fields[] = {{&berm_lidar_mount::x_mm, -5000, 5000, SK_RULE_LIDAR_POSITION},           {&berm_lidar_mount::y_mm, -5000, 5000, SK_RULE_LIDAR_POSITION},
+                {&berm_lidar_mount::z_mm, 0, 8000, SK_RULE_LIDAR_POSITION},               {&berm_lidar_mount::roll_urad, -3141593, 3141593, SK_RULE_LIDAR_ANGLES},
+                {&berm_lidar_mount::pitch_urad, -3141593, 3141593, SK_RULE_LIDAR_ANGLES}, {&berm_lidar_mount::yaw_urad, -3141593, 3141593, SK_RULE_LIDAR_ANGLES}};
+  for (int i = 0; i < BERM_LIDARS; ++i)
+    for (const auto& f : fields) {
+      const auto with = [&](std::int32_t v, std::int32_t lidars) {
+        berm_parameters p = ok;
+        p.lidars = lidars;
+        p.lidar[i].*f.member = v;
+        return sk_parameters_check(&p);
+      };
+      for (const std::int32_t v : {f.low - 1, f.high + 1, std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max()}) {
+        EXPECT_EQ(with(v, BERM_LIDARS), f.rule) << "lidar " << i << ": " << v;
+        EXPECT_EQ(with(v, i), SK_RULE_NONE) << "one that is not counted is not looked at";
+      }
+      for (const std::int32_t v : {f.low, f.high}) EXPECT_EQ(with(v, BERM_LIDARS), SK_RULE_NONE) << "lidar " << i << ": " << v;
+    }
 }
 
 // Two rules broken in different places: the one that stands first is returned.

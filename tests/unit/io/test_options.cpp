@@ -25,11 +25,13 @@ Parsed parse(std::vector<const char*> arguments) {
 // verifies: SK-CY-91
 TEST(KernelOptions, TakesWhatTheLauncherGives) {
   const Parsed p = parse({"--parameters", "p", "--can", "udp:239.255.66.1:4000", "--scan-port", "5000", "--socket", "s", "--lockstep", "--app-uid", "64601",
-                          "--recorder-uid", "0", "--ready-fd", "10", "--vlp16-port", "2368", "--vlp16-mount", "1,-2.5,1.8,90"});
+                          "--recorder-uid", "0", "--ready-fd", "10", "--vlp16-port", "2368", "--vlp16-mount", "1,-2.5,1.8,90", "--lidar-port", "2370", "--lidar-port", "2371"});
   ASSERT_EQ(p.result, OptionsResult::kRun) << p.error;
   EXPECT_TRUE(p.options.lockstep);
   EXPECT_EQ(p.options.scan_port, 5000);
   EXPECT_EQ(p.options.app_uid, 64601U);
+  ASSERT_EQ(p.options.lidar_ports, 2);
+  EXPECT_EQ(p.options.lidar_port[1], 2371);
   EXPECT_EQ(p.options.recorder_uid, 0U);
   EXPECT_EQ(p.options.ready_fd, 10);
   EXPECT_DOUBLE_EQ(p.options.vlp16_mount.y_m, -2.5);
@@ -51,6 +53,8 @@ TEST(KernelOptions, BadOnesAreNamed) {
       {{"--scan-port", "65536"}, "--scan-port"},
       {{"--scan-port", "12x"}, "--scan-port"},
       {{"--scan-port"}, "--scan-port"},
+      {{"--lidar-port", "0"}, "--lidar-port"},
+      {{"--lidar-port", "1", "--lidar-port", "2", "--lidar-port", "3"}, "--lidar-port"},
       {{"--app-uid", "-1"}, "--app-uid"},
       {{"--ready-fd", "5000"}, "--ready-fd"},
       {{"--vlp16-mount", "1,2,3"}, "--vlp16-mount"},

@@ -56,6 +56,7 @@ TEST(PlantProfile, EveryKindOfMistakeIsNamed) {
   EXPECT_EQ(refusal(replaced(good, "range_deg = [-180.0, 180.0]", "range_deg = [180.0, -180.0]")), "joint.swing.range_deg: low must be below high");
   EXPECT_EQ(refusal(replaced(good, "[-0.20, -0.25], [0.40, -0.25]", "[0.40, -0.25], [-0.20, -0.25]")),
             "part[0].outline: must be strictly convex and counter-clockwise (x towards z)");
+  EXPECT_EQ(refusal(good + "\n[[lidar]]\nposition = [0.0, 0.0, 3.0]\nroll_deg = 0.0\npitch_deg = 200.0\nyaw_deg = 0.0\n"), "lidar[0].pitch_deg: 200 is outside -180 .. 180");
   EXPECT_EQ(refusal("schema = = 1"), "line 1: not valid TOML");
 }
 

@@ -42,7 +42,7 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(Scenario, ShippedScenariosLoadAndStartWithTheBucketOneMetreUp) {
-  for (const char* name : {"bench.toml", "person.toml", "two_trucks.toml", "base_tilts.toml", "base_slips.toml", "base_shifts.toml", "identify.toml", "identify_empty.toml"}) {
+  for (const char* name : {"bench.toml", "person.toml", "two_trucks.toml", "base_tilts.toml", "base_slips.toml", "base_shifts.toml", "identify.toml", "identify_empty.toml", "person_behind.toml", "lidar_blocked.toml"}) {
     const Scenario s = load_scenario(std::string(BERM_SCENARIOS) + "/" + name, BERM_PLANT_PROFILES);
     EXPECT_EQ(s.name + ".toml", name);
     EXPECT_GE(bucket_underside(load_plant_profile(s.machine_file).shape, s.start), 1.0) << name;
@@ -103,6 +103,8 @@ TEST(Scenario, EveryKindOfMistakeIsNamed) {
   EXPECT_EQ(refusal(replaced(good, "centre = [-0.70, 6.75]", "centre = [-0.70]")), "truck[0].centre: must be an array of 2 numbers");
   EXPECT_EQ(refusal(replaced(good, "cell = 0.1", "cell = 0.02\ncells = 1")), "terrain.cells: is not a known key");
   EXPECT_EQ(refusal(replaced(good, "samples_per_revolution = 400", "samples_per_revolution = 400.5")), "scanner.samples_per_revolution: must be a whole number");
+  EXPECT_EQ(refusal(good + "\n[[lidar_fault]]\nlidar = 3\nkind = \"blocked\"\nat_s = 1\nfor_s = 1\n"), "lidar_fault[0].lidar: 3 is outside 1 .. 2");
+  EXPECT_EQ(refusal(good + "\n[[lidar_fault]]\nlidar = 1\nkind = \"wet\"\nat_s = 1\nfor_s = 1\n"), "lidar_fault[0].kind: 'wet' is not one of blocked, silent");
   EXPECT_EQ(refusal(good + "\n[[panel]]\naction = \"jump\"\nat_s = 1\nfor_s = 1\n"), "panel[0].action: 'jump' is not one of stop, reset, relearn, emergency, pause");
   EXPECT_EQ(refusal(good + "\n[[person]]\nname = \"Anna B\"\n"), "person[0].name: may hold a-z, 0-9 and _ only: it becomes a column's name");
   EXPECT_EQ(refusal(good + "\n[[person]]\nname = \"truck_1\"\n"), "person[0].name: 'truck_1' is taken");

@@ -148,6 +148,11 @@ TEST_F(Ring, EveryInputComesBack) {
       for (int e = 0; e < echoes; ++e) p.range[i][e] = static_cast<std::uint16_t>(100 + 10 * i + e);
     in->packet[in->packet_count++] = p;
   }
+  for (int i = 0; i < 3; ++i) {
+    std::uint8_t bytes[kernel::kVlp16PacketBytes];
+    for (std::size_t k = 0; k < sizeof bytes; ++k) bytes[k] = static_cast<std::uint8_t>(7 * k + static_cast<std::size_t>(i));
+    ASSERT_TRUE(in->take_lidar(i % 2, bytes, sizeof bytes));
+  }
   RingReader reader(*ring, *tail);
   ASSERT_EQ(reader.next(record), RingReader::Result::kRecord);
   journal.offer(*in, *out, *map, true);
@@ -160,6 +165,8 @@ TEST_F(Ring, EveryInputComesBack) {
   EXPECT_EQ(std::memcmp(back->request, in->request, sizeof in->request), 0);
   ASSERT_EQ(back->packet_count, 2);
   for (int i = 0; i < 2; ++i) EXPECT_EQ(std::memcmp(&back->packet[i], &in->packet[i], sizeof in->packet[i]), 0) << i;
+  ASSERT_EQ(back->lidar_count, 3);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(std::memcmp(&back->lidar[i], &in->lidar[i], sizeof in->lidar[i]), 0) << i;
 }
 
 // verifies: SK-JO-12
@@ -169,7 +176,7 @@ TEST_F(Ring, ARecordCutAnywhereOrWithWildFieldsIsRefused) {
   ASSERT_EQ(reader.next(record), RingReader::Result::kRecord);
   for (std::size_t size = 0; size < record.size(); ++size) ASSERT_FALSE(decode_cycle(record.data(), size, {}, *back, recorded, error)) << size;
   for (const std::size_t at : {offsetof(berm_journal_cycle, frames_in), offsetof(berm_journal_cycle, frames_out), offsetof(berm_journal_cycle, scan_packets),
-                               offsetof(berm_journal_cycle, vlp16_packets)}) {
+                               offsetof(berm_journal_cycle, vlp16_packets), offsetof(berm_journal_cycle, lidar_packets)}) {
     auto wild = record;
     wild[at + 1] = 0xFF;
     EXPECT_FALSE(decode_cycle(wild.data(), wild.size(), {}, *back, recorded, error)) << at;

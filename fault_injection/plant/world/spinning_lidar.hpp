@@ -1,0 +1,41 @@
+// A VLP-16 on the upper body: which lasers fire in a step, where they look, what comes back, and the sensor's native packets (single return).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "plant/machine/implement_shape.hpp"
+#include "plant/process/world_config.hpp"
+#include "plant/world/base_pose.hpp"
+#include "plant/world/random.hpp"
+#include "plant/world/scene.hpp"
+
+namespace berm::plant {
+
+constexpr std::size_t lidar_packet_bytes = 1206;
+struct LidarPacket {
+  std::uint8_t lidar;
+  std::array<std::uint8_t, lidar_packet_bytes> bytes;
+};
+
+class SpinningLidar {
+ public:
+  SpinningLidar(const ScannerConfig& noise, const LidarMount& mount, std::uint8_t number, std::uint64_t seed);
+  // The firings in (t - dt, t], appended as packets when twelve blocks of two firings are full. blocked: something lies on the window, and nothing comes back.
+  void step(double t, double dt, double swing_before, double swing_now, bool blocked, const Scene& scene, const BaseFrame& stand, std::vector<LidarPacket>& out);
+
+ private:
+  void fire(std::int64_t firing, double swing, bool blocked, const Scene& scene, const BaseFrame& stand, std::uint8_t* records);
+  [[nodiscard]] Vec3 turned(const Vec3& v) const;
+
+  ScannerConfig noise_;
+  LidarMount mount_;
+  std::uint8_t number_;
+  Random random_;
+  Vec3 x_, y_, z_;             // the sensor's axes in the upper body
+  std::int64_t next_ = 0;      // number of the next firing
+  LidarPacket packet_{};
+};
+
+}  // namespace berm::plant

@@ -1,0 +1,57 @@
+// Packets of the lidars on the upper body (VLP-16, the parameter block's `lidar`) into the height map, and whether each is alive.
+//
+// They are for the ground near the machine, round the tail: farther returns are left to the panning scanners, and of the firings every eighth is taken.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "config/parameter_block.h"
+#include "core/height_map.h"
+#include "geometry/joint_history.hpp"
+#include "geometry/self_filter.hpp"
+#include "io/own_shadow.hpp"
+#include "io/vlp16.hpp"
+
+namespace berm::kernel {
+
+class LidarIntake {
+ public:
+  static constexpr std::uint32_t kTakenMdeg = 1600;   // of the turn one firing is taken, and stands for all of it
+  static constexpr double kFarthestM = 8.0;           // from the swing axis
+  static constexpr std::uint32_t kAheadMaxUs = 1000000;
+
+  explicit LidarIntake(const berm_parameters& parameters);
+
+  // One packet of a lidar, its joint angles being those of now. False when it was refused: no packet of a VLP-16, of no lidar there is, or not later than the one
+  // before it, by the sensor's own clock, by at most a second.
+  bool take(int lidar, const std::uint8_t* bytes, std::size_t size, const JointHistory& joints, std::int64_t now_us, sk_height_map& map, OwnShadow& shadow);
+
+  bool all_heard() const;
+  // No usable packet of some lidar for longer than the limit, once all were heard.
+  bool silent(std::int64_t now_us, std::int32_t limit_us) const;
+  std::uint32_t points() const { return points_; }  // into the map since start, wrapping
+
+ private:
+  struct Mount {
+    Eigen::Vector3d place;    // upper body's frame, m
+    Eigen::Matrix3d turn;     // from the sensor's frame
+    std::int64_t heard_us = -1;
+    std::uint32_t clock_us = 0;  // the sensor's, of the newest packet
+  };
+  struct Swung {
+    ImplementPose pose;
+    double cosine, sine;  // of the swing
+  };
+  bool accept(Mount& mount, const std::uint8_t* bytes, std::int64_t now_us) const;
+  void insert(const Mount& mount, const Vlp16Return& hit, const Swung& swung, std::int64_t now_us, sk_height_map& map, OwnShadow& shadow);
+
+  const berm_parameters& parameters_;
+  SelfFilter self_;
+  int lidars_ = 0;
+  Mount mount_[BERM_LIDARS];
+  Vlp16Packet packet_{};
+  std::uint32_t points_ = 0;
+};
+
+}  // namespace berm::kernel

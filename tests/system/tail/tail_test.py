@@ -1,0 +1,87 @@
+"""Somebody walks up to the upper body's tail during loading, and the machine stands before the tail is within reach of him; and a lidar whose window is
+covered, or that falls silent, holds the machine. Judged by the plant's oracle and its trace.
+
+verifies: SK-TS-1, SK-TS-5, SK-TS-6, SK-LI-2, SK-LI-3"""
+import csv
+import math
+import pathlib
+import shutil
+import tempfile
+
+from berm_command import ROOT, load, main, run
+
+STILL_RAD_S = 0.009
+RESET_S = 75.0
+TAIL_RADIUS = 2.907  # m: of the plant's upper body, [-2.60, 1.30]
+PERSON_RADIUS = 0.25
+SCENARIOS = ROOT / "fault_injection" / "scenarios"
+JOINTS = ("swing", "boom", "stick", "bucket")
+
+
+def rows(trace):
+    with open(trace, newline="") as file:
+        yield from csv.DictReader(file)
+
+
+def speed(row):
+    return max(abs(float(row[f"{joint}_rad_s"])) for joint in JOINTS)
+
+
+def person_behind():
+    for seed in (1, 2):
+        status, result, out, text = load("--scenario", "person_behind", "--seed", seed)
+        assert result is not None, text[-500:]
+        assert result["contacts"] == 0, f"seed {seed}: {result['contacts']} contacts"
+        assert result["tail_watched"] is True
+        assert result["kernel_stops"].get("tail", 0) >= 1, f"seed {seed}: kernel stops {result['kernel_stops']}"
+        stood = moved_again = None
+        nearest = 1e9
+        for row in rows(out / "trace.csv"):
+            t = float(row["time_s"])
+            gap = math.hypot(float(row["person_x_m"]), float(row["person_y_m"])) - PERSON_RADIUS - TAIL_RADIUS
+            nearest = min(nearest, gap)
+            if stood is None and t > 30.0 and speed(row) < STILL_RAD_S and gap < 0.6:
+                stood = t
+            if stood is not None and t < RESET_S:
+                assert speed(row) < STILL_RAD_S, f"seed {seed}: moves at {t:.2f} s, before the reset"
+            if gap < 0.35:  # as near as he comes, and he stays there
+                assert speed(row) < STILL_RAD_S, f"seed {seed}: moves at {t:.2f} s with the person {gap:.2f} m from the tail's circle"
+            if t > RESET_S and moved_again is None and speed(row) > 0.1:
+                moved_again = t
+        assert stood is not None and moved_again is not None, f"seed {seed}: stood at {stood}, moved again at {moved_again}"
+        assert result["closest_approach_m"] > 0.3, f"seed {seed}: closest approach {result['closest_approach_m']}"
+        assert status == 0, f"seed {seed}: the truck was not loaded after the reset"
+        print(f"seed {seed}: stood at {stood:.2f} s, person within {nearest:.2f} m of the tail's circle, closest approach {result['closest_approach_m']:.2f} m, moves again at {moved_again:.2f} s")
+        replayed = run("berm_replay", out / "journal.mcap")
+        assert replayed.returncode == 0, replayed.stdout[-500:]
+        shutil.rmtree(out)
+
+
+def held_while(scenario, reasons, from_s, until_s, within_s):
+    status, result, out, text = load("--scenario", scenario, "--seed", 1)
+    assert result is not None, text[-500:]
+    assert result["contacts"] == 0
+    assert any(result["kernel_stops"].get(reason, 0) >= 1 for reason in reasons), f"kernel stops {result['kernel_stops']}"
+    late = [float(row["time_s"]) for row in rows(out / "trace.csv") if from_s + within_s < float(row["time_s"]) < until_s and speed(row) > STILL_RAD_S]
+    assert not late, f"moves at {late[:3]} s while the lidar sees nothing"
+    shutil.rmtree(out)
+    return status, result
+
+
+def blocked_lidar():
+    # tail.fresh is 1 s, and the swing needs up to 3 s to stand
+    status, _ = held_while("lidar_blocked", ("stale_ground", "unknown_ground"), 30.0, 50.0, 4.5)
+    assert status == 0, "the truck was not loaded when the lidar saw again"
+
+
+def silent_lidar():
+    text = (SCENARIOS / "lidar_blocked.toml").read_text()
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
+    scenario = folder / "lidar_silent.toml"
+    scenario.write_text(text.replace('kind = "blocked"', 'kind = "silent"').replace("max_time_s = 1800.0", "max_time_s = 45.0"))
+    _, result = held_while(scenario, ("scanner_silent",), 30.0, 45.0, 3.5)
+    assert result["kernel_faults"] >= 1, result
+    shutil.rmtree(folder)
+
+
+main([person_behind, blocked_lidar, silent_lidar])
