@@ -15,7 +15,7 @@ from pathlib import Path
 import wp_session
 
 LIST = Path(__file__).resolve().parent / "mutants" / "mutants.json"
-FIELDS = {"id", "file", "function", "old", "new", "what"}
+FIELDS = {"id", "file", "function", "old", "new", "what"}  # and "unit", a C file that includes `file`, where that is a header
 AT_A_TIME = 2
 
 
@@ -34,8 +34,9 @@ def load(only):
     mutants = json.loads(LIST.read_text())["mutants"]
     ids = [m["id"] for m in mutants]
     for m in mutants:
-        if set(m) != FIELDS:
-            raise SystemExit(f"run_mutants: {LIST.name}: {m.get('id')}: needs exactly {', '.join(sorted(FIELDS))}")
+        if set(m) - {"unit"} != FIELDS or ("unit" in m) != m["file"].endswith(".h"):
+            raise SystemExit(f"run_mutants: {LIST.name}: {m.get('id')}: needs exactly {', '.join(sorted(FIELDS))}, and unit for a header")
+        m.setdefault("unit", m["file"])
     if len(set(ids)) != len(ids):
         raise SystemExit(f"run_mutants: {LIST.name}: an id stands twice")
     for name in only or []:
@@ -51,28 +52,28 @@ def copy_of_core(folder, name):
     return core
 
 
-def prove_function(core, file, function, env, timeout_s):
-    return wp_session.prove(core, Path(file).stem, env, timeout_s, core.parent, ["-wp-fct", function])
+def prove_function(core, unit, function, env, timeout_s):
+    return wp_session.prove(core, Path(unit).stem, env, timeout_s, core.parent, ["-wp-fct", function])
 
 
 def run_control(pair, env, timeout_s, folder):
-    file, function = pair
-    out = prove_function(copy_of_core(folder, f"control-{Path(file).stem}-{function}"), file, function, env, timeout_s)
+    unit, function = pair
+    out = prove_function(copy_of_core(folder, f"control-{Path(unit).stem}-{function}"), unit, function, env, timeout_s)
     sound = not out.errors and out.goals and out.goals == out.proved
     return pair, None if sound else f"the unchanged function is not proved ({out.proved} of {out.goals}) {' '.join(out.errors)}".strip()
 
 
 def run_mutant(m, controls, env, timeout_s, folder):
     """Outcome and the unproved goals."""
-    if controls[(m["file"], m["function"])]:
-        return "NOT RUN", [controls[(m["file"], m["function"])]]
+    if controls[(m["unit"], m["function"])]:
+        return "NOT RUN", [controls[(m["unit"], m["function"])]]
     core = copy_of_core(folder, f"mutant-{m['id']}")
     path = core / m["file"]
     text = path.read_text() if path.exists() else ""
     if text.count(m["old"]) != 1 or m["old"] == m["new"]:
         return "NOT RUN", [f"the text to change stands {text.count(m['old'])} times in {m['file']}"]
     path.write_text(text.replace(m["old"], m["new"]))
-    out = prove_function(core, m["file"], m["function"], env, timeout_s)
+    out = prove_function(core, m["unit"], m["function"], env, timeout_s)
     if out.goals is None or out.errors:
         return "NOT RUN", out.errors
     return ("killed" if out.proved < out.goals else "SURVIVED"), out.unproved
@@ -88,7 +89,7 @@ def main():
     results = []
     with wp_session.work_folder() as folder, ThreadPoolExecutor(AT_A_TIME) as pool:
         env = wp_session.environment(folder)
-        pairs = sorted({(m["file"], m["function"]) for m in mutants})
+        pairs = sorted({(m["unit"], m["function"]) for m in mutants})
         controls = dict(pool.map(lambda pair: run_control(pair, env, a.timeout, folder), pairs))
         print(f"control: {sum(c is None for c in controls.values())} of {len(pairs)} unchanged functions proved", flush=True)
         for m, (outcome, goals) in zip(mutants, pool.map(lambda x: run_mutant(x, controls, env, a.timeout, folder), mutants)):

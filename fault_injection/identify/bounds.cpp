@@ -76,8 +76,8 @@ bool measured(const Row& row) {
 }
 
 // Largest bound of the stops from halfway below a column, with the allowance; 0 without one.
-double needed_between(const config::MachineFile& m, const std::vector<BenchRecord>& runs, std::size_t joint, std::size_t row, std::size_t column, const Bounds& bounds,
-                      double allowance) {
+double needed_between(const config::MachineFile& m, const std::vector<BenchRecord>& runs, std::size_t joint, std::size_t row, std::size_t column,
+                      const Bounds& bounds, double allowance) {
   double needed = 0.0;
   for (const BenchRecord& run : runs) {
     for (const StopRecord& stop : run.stops) {

@@ -2,6 +2,7 @@
 // people and vehicles. The plant reads and checks the whole scenario.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,9 @@ struct ScenarioNames { std::string machine, site; };
 
 // Throws std::runtime_error with one line when the file is missing, is no TOML, or names no machine or site.
 ScenarioNames scenario_names(const std::string& path);
-// Fills the arm, dig zones, truck bed and bearings.
 // How many lidars on the upper body a machine file has: [[lidar]].
 std::size_t lidar_count(const std::string& machine);
-
+// Fills the arm, dig zones, truck bed and bearings.
 void describe_site(const std::string& machine, const std::string& site, SitePictureInput& picture);
 // From the columns NAME_x_m and NAME_y_m of trace.csv; only what moved.
 std::vector<MoverPath> mover_paths(const std::string& trace);

@@ -68,7 +68,7 @@ void run_all(const Bench& bench, const Options& options, const SwingLimits& limi
 
 void tell_one(const TrialResult& r) {
   const auto motion = [](const char* name, const Motion& m) {
-    fmt::print("  {:<8} {}{}{}, {:.2f} s, {:.2f} m from the obstacle, {:.2f} m above ground\n", name, m.contact ? "CONTACT" : m.arrived ? "arrived" : "did not arrive", m.governed ? ", slowed" : "",
+    fmt::print("  {:<8} {}{}{}, {:.2f} s, {:.2f} m from the obstacle, {:.2f} m above ground\n", name, m.contact ? "CONTACT: " + m.touched : m.arrived ? "arrived" : "did not arrive", m.governed ? ", slowed" : "",
                m.stopped ? fmt::format(", stopped (reason {})", m.stop_reason) : "", m.seconds, m.closest_m, m.ground_gap_m);
   };
   fmt::print("run {}: {}\n", r.trial.run, describe(r.trial));
@@ -104,7 +104,9 @@ int run(int argc, char** argv) {
   }
   if (options.jobs == 0) options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const Bench bench = make_bench(options.machine);
-  const SwingLimits limits{bench.machine.joint[0].velocity_max, loaded_kg, bench.machine.own_body_radius};
+  // Where nobody watches the ground round the tail it must be fenced, as the kernel says when it starts: the sweep keeps to that.
+  const double fence = bench.machine.tail.watched ? 0.0 : bench.machine.own_body_radius + bench.machine.tail.clearance;
+  const SwingLimits limits{bench.machine.joint[0].velocity_max, loaded_kg, bench.machine.own_body_radius, fence};
   if (options.only >= 0) {
     const TrialResult result = run_trial(bench, draw_trial(options.seed, options.only, bench.profile.shape, limits), options.trace);
     tell_one(result);
@@ -112,6 +114,7 @@ int run(int argc, char** argv) {
   }
   Sweep sweep;
   sweep.seed = options.seed;
+  sweep.machine = options.machine;
   run_all(bench, options, limits, sweep);
   const auto result = flat_json(sweep);
   fmt::print("{}", summary_text(sweep));

@@ -48,7 +48,9 @@ Totals totals_of(const std::vector<TrialResult>& results) {
   return t;
 }
 
-std::string command(const Trial& trial) { return fmt::format("./berm validate --seed {} --only {}", trial.seed, trial.run); }
+std::string command(const Sweep& sweep, const Trial& trial) {
+  return fmt::format("./berm validate --machine {} --seed {} --only {}", sweep.machine, trial.seed, trial.run);
+}
 
 std::vector<TrialResult> of_place(const Sweep& sweep, Place place) {
   std::vector<TrialResult> some;
@@ -64,8 +66,8 @@ ordered_json flat_json(const Sweep& sweep) {
   ordered_json failures = ordered_json::array();
   for (const auto& r : sweep.results)
     if (r.outcome != Outcome::right)
-      failures.push_back({{"run", r.trial.run}, {"kind", r.outcome == Outcome::miss ? "miss" : "needless stop"}, {"why", r.why}, {"scenario", describe(r.trial)}, {"command", command(r.trial)}});
-  return {{"seed", sweep.seed}, {"runs", sweep.results.size()}, {"misses", t.misses}, {"needless_stops", t.needless}, {"needless_past_hidden_space", t.hidden}, {"governed_runs", t.governed},
+      failures.push_back({{"run", r.trial.run}, {"kind", r.outcome == Outcome::miss ? "miss" : "needless stop"}, {"why", r.why}, {"scenario", describe(r.trial)}, {"command", command(sweep, r.trial)}});
+  return {{"machine", sweep.machine}, {"seed", sweep.seed}, {"runs", sweep.results.size()}, {"misses", t.misses}, {"needless_stops", t.needless}, {"needless_past_hidden_space", t.hidden}, {"governed_runs", t.governed},
           {"time_lost_s_p95", t.time_lost_p95}, {"closest_approach_m", t.closest_m}, {"stopped_runs", t.stopped}, {"nominal_contacts", t.nominal_hits},
           {"wall_seconds", sweep.wall_seconds}, {"failures", failures}};
 }
@@ -73,8 +75,8 @@ ordered_json flat_json(const Sweep& sweep) {
 std::string summary_text(const Sweep& sweep) {
   const Totals t = totals_of(sweep.results);
   const auto n = static_cast<double>(std::max<std::size_t>(sweep.results.size(), 1));
-  std::string text = fmt::format("\nValidation sweep (seed {}; a simulation, judged by the oracle)\n", sweep.seed);
-  const auto row = [&text](const std::string& name, const std::string& value) { text += fmt::format("  {:<26}{}\n", name, value); };
+  std::string text = fmt::format("\nValidation sweep ({}, seed {}; a simulation, judged by the oracle)\n", sweep.machine, sweep.seed);
+  const auto row = [&text](const std::string& name, const std::string& value) { text += fmt::format("  {:<30}{}\n", name, value); };
   row("runs", fmt::format("{}", sweep.results.size()));
   row("misses (contact)", fmt::format("{}", t.misses));
   row("needless stops", fmt::format("{} ({:.2f} %)", t.needless, 100.0 * t.needless / n));
@@ -93,7 +95,7 @@ std::string summary_text(const Sweep& sweep) {
   int listed = 0;
   for (const auto& r : sweep.results) {
     if (r.outcome == Outcome::right) continue;
-    text += fmt::format("{} run {}: {}\n    {}\n    {}\n", r.outcome == Outcome::miss ? "MISS" : "needless stop", r.trial.run, r.why, describe(r.trial), command(r.trial));
+    text += fmt::format("{} run {}: {}\n    {}\n    {}\n", r.outcome == Outcome::miss ? "MISS" : "needless stop", r.trial.run, r.why, describe(r.trial), command(sweep, r.trial));
     if (++listed == 20) {
       text += "  ... the rest is in --json FILE\n";
       break;

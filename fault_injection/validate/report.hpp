@@ -11,6 +11,7 @@ namespace berm::validate {
 
 struct Sweep {
   std::uint64_t seed = 1;
+  std::string machine;  // as it was asked for
   std::vector<TrialResult> results;
   double wall_seconds = 0.0;
 };

@@ -20,18 +20,18 @@ class Kernel final : public Supervisor {
     in_->app_connections = 1;
   }
 
-  const std::vector<berm_can_frame>& step(std::uint64_t cycle, const std::vector<berm_can_frame>& frames, const std::vector<berm_scan_packet>& packets,
-                                          const berm_request* request) override {
+  const std::vector<berm_can_frame>& step(std::uint64_t cycle, const Arrived& arrived, const berm_request* request) override {
     in_->clear();
     in_->cycle = cycle;
     in_->now_us = static_cast<std::int64_t>(cycle) * cycle_us;
-    for (const auto& frame : frames)
+    for (const auto& frame : arrived.frames)
       if (in_->frame_count < kernel::CycleInputs::kFrames) in_->frame[in_->frame_count++] = frame;
-    for (const auto& packet : packets) {
+    for (const auto& packet : arrived.scans) {
       std::uint8_t bytes[BERM_SCAN_PACKET_MAX_BYTES];
       const std::size_t n = berm_scan_encode(&packet, bytes);
       if (in_->packet_count < kernel::CycleInputs::kPackets && berm_scan_decode(bytes, n, &in_->packet[in_->packet_count]) == BERM_SCAN_OK) ++in_->packet_count;
     }
+    for (const auto& packet : arrived.lidars) in_->take_lidar(packet.lidar, packet.bytes.data(), packet.bytes.size());
     if (request != nullptr) std::memcpy(in_->request, request, sizeof *request);
     cycle_->step(*in_, *out_);
     sent_.assign(out_->frames.frame, out_->frames.frame + out_->frames.count);
@@ -50,18 +50,17 @@ class Kernel final : public Supervisor {
 
 class Obedient final : public Supervisor {
  public:
-  const std::vector<berm_can_frame>& step(std::uint64_t cycle, const std::vector<berm_can_frame>& frames, const std::vector<berm_scan_packet>& packets,
-                                          const berm_request* request) override {
+  const std::vector<berm_can_frame>& step(std::uint64_t cycle, const Arrived& arrived, const berm_request* request) override {
     state_.cycle = cycle;
     state_.time_us = static_cast<std::int64_t>(cycle) * cycle_us;
     state_.kernel_state = BERM_STATE_RUN;
-    for (const auto& frame : frames) {
+    for (const auto& frame : arrived.frames) {
       berm_front_angle angle{};
       berm_front_velocity velocity{};
       if (berm_decode_front_angle(&frame, &angle)) std::copy(angle.angle_urad, angle.angle_urad + 4, state_.joint_angle_urad);
       if (berm_decode_front_velocity(&frame, &velocity)) std::copy(velocity.velocity_urad_s, velocity.velocity_urad_s + 4, state_.joint_velocity_urad_s);
     }
-    for (const auto& packet : packets) state_.pan_angle_urad[packet.scanner] = packet.pan_end_urad;
+    for (const auto& packet : arrived.scans) state_.pan_angle_urad[packet.scanner] = packet.pan_end_urad;
     berm_velocity_cmd command{};
     if (request != nullptr) std::copy(request->joint_velocity_urad_s, request->joint_velocity_urad_s + 4, command.velocity_urad_s);
     std::copy(command.velocity_urad_s, command.velocity_urad_s + 4, state_.commanded_urad_s);

@@ -8,9 +8,17 @@
 #include "can/berm_can.h"
 #include "config/parameter_block.h"
 #include "contract/berm_contract.h"
+#include "plant/world/spinning_lidar.hpp"
 #include "scan/scan_packet.h"
 
 namespace berm::validate {
+
+// What arrived in a cycle, as it stands on the bus and in the datagrams.
+struct Arrived {
+  std::vector<berm_can_frame> frames;
+  std::vector<berm_scan_packet> scans;
+  std::vector<plant::LidarPacket> lidars;
+};
 
 class Supervisor {
  public:
@@ -19,9 +27,8 @@ class Supervisor {
   Supervisor& operator=(const Supervisor&) = delete;
   virtual ~Supervisor() = default;
 
-  // One cycle of 10 ms: what arrived, as it stands on the bus and in the datagrams; frames to the machine.
-  virtual const std::vector<berm_can_frame>& step(std::uint64_t cycle, const std::vector<berm_can_frame>& frames, const std::vector<berm_scan_packet>& packets,
-                                                  const berm_request* request) = 0;
+  // One cycle of 10 ms: from what arrived to the frames for the machine.
+  virtual const std::vector<berm_can_frame>& step(std::uint64_t cycle, const Arrived& arrived, const berm_request* request) = 0;
   virtual const berm_state& state() const = 0;
   virtual bool needs_scans() const = 0;
 };

@@ -78,6 +78,13 @@ double distance_at(const plant::ImplementShape& shape, const std::array<double, 
   return plant::oracle::Oracle(shape).judge(joints, site).closest;
 }
 
+// From the swing axis to the nearest point of the box, level.
+double from_axis(const plant::BoxConfig& box) {
+  const double c = std::cos(box.yaw), s = std::sin(box.yaw);
+  const double along = std::fabs(c * box.x + s * box.y) - 0.5 * box.length, across = std::fabs(c * box.y - s * box.x) - 0.5 * box.width;
+  return std::hypot(std::max(along, 0.0), std::max(across, 0.0));
+}
+
 }  // namespace
 
 Trial draw_trial(std::uint64_t seed, int run, const plant::ImplementShape& shape, const SwingLimits& limits) {
@@ -105,7 +112,7 @@ Trial draw_trial(std::uint64_t seed, int run, const plant::ImplementShape& shape
     if (trial.place == Place::beyond_target) bearing = trial.to[0] + side * draw.between(4, 40) * degree;
     box.x = radius * std::cos(bearing);
     box.y = radius * std::sin(bearing);
-  } while (distance_at(shape, trial.from, box) < least_start_distance);
+  } while (from_axis(box) < limits.fence || distance_at(shape, trial.from, box) < least_start_distance);
   return trial;
 }
 

@@ -28,11 +28,12 @@ struct SwingLimits {
   double velocity_max;                 // rad/s
   double loaded_kg;
   double own_body_radius;              // m
+  double fence;                        // m from the swing axis: no obstacle stands nearer; 0 for none, where the tail is watched
 };
 
 // The same seed and run give the same trial. Poses keep the implements at least 1 m above the ground, and
 // stick and bucket 1 m clear of the machine's own cells, where the kernel lets them work; at the start the obstacle is 1 m away
-// or more.
+// or more, and no part of it ever stands within the fence.
 Trial draw_trial(std::uint64_t seed, int run, const plant::ImplementShape& shape, const SwingLimits& limits);
 
 const char* place_name(Place place);

@@ -105,10 +105,11 @@ class Loop {
       pan_.velocity[i] = servo_[i].velocity();
     }
     world_.step(t, cycle_s, dynamics_.state(), before);
-    std::vector<berm_scan_packet> packets;
-    if (scans_) world_.scan(t, cycle_s, before, dynamics_.state(), pan_before, pan_, packets);
+    Arrived arrived;
+    if (scans_) world_.scan(t, cycle_s, before, dynamics_.state(), pan_before, pan_, arrived.scans);
     if (seen_ != nullptr)
-      for (const auto& packet : packets) seen_->take(packet, t, dynamics_.state());
+      for (const auto& packet : arrived.scans) seen_->take(packet, t, dynamics_.state());
+    else if (scans_) world_.scan_lidars(t, cycle_s, before, dynamics_.state(), arrived.lidars);
     const auto& speed = dynamics_.state().velocity;
     resting_ = std::all_of(speed.begin(), speed.end(), [](double v) { return std::fabs(v) < still; });
 
@@ -119,14 +120,15 @@ class Loop {
     snapshot.panel.run = true;
     const bool has_request = cycle_ > 1;
     if (has_request) asked_ = commander_.answer(supervisor_->state());
-    for (const auto& frame : supervisor_->step(cycle_, frames_.frames(cycle_, snapshot), packets, has_request ? &asked_ : nullptr)) controller_.receive(frame, t);
+    arrived.frames = frames_.frames(cycle_, snapshot);
+    for (const auto& frame : supervisor_->step(cycle_, arrived, has_request ? &asked_ : nullptr)) controller_.receive(frame, t);
   }
 
   void judge(double t, Motion& motion) {
     const plant::OracleVerdict verdict = world_.judge(t, dynamics_.state());
     motion.closest_m = std::min(motion.closest_m, verdict.closest_m);
     motion.ground_gap_m = std::min(motion.ground_gap_m, verdict.ground_gap_m);
-    if (verdict.contact && !motion.contact) motion.touched = verdict.what;
+    if (verdict.contact && !motion.contact) motion.touched = verdict.what + (verdict.by_upper_body ? ", with the upper body" : "");
     motion.contact = motion.contact || verdict.contact;
   }
 

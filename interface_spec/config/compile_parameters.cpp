@@ -58,7 +58,8 @@ void compile_sensors(const MachineFile& m, berm_parameters& p) {
   p.lidars = static_cast<std::int32_t>(m.lidar.size());
   for (std::size_t i = 0; i < m.lidar.size(); ++i) {
     const auto& l = m.lidar[i];
-    p.lidar[i] = {near(l.position[0], kMilli), near(l.position[1], kMilli), near(l.position[2], kMilli), near(l.roll, kMicro), near(l.pitch, kMicro), near(l.yaw, kMicro)};
+    p.lidar[i] = {near(l.position[0], kMilli), near(l.position[1], kMilli), near(l.position[2], kMilli),
+                  near(l.roll, kMicro),        near(l.pitch, kMicro),       near(l.yaw, kMicro)};
   }
   const auto& k = m.kernel;
   p.scanner_silent_us = down(k.scanner_silent, kMicro);

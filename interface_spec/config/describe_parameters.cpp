@@ -62,7 +62,8 @@ void bodies_and_sensors(const berm_parameters& p, Listing& out) {
   }
   for (int i = 0; i < std::clamp(p.lidars, 0, BERM_LIDARS); ++i) {
     const berm_lidar_mount& l = p.lidar[i];
-    out.row(fmt::format("lidar[{}]", i), fmt::format("at {} {} {} mm, roll {} pitch {} yaw {} urad", l.x_mm, l.y_mm, l.z_mm, l.roll_urad, l.pitch_urad, l.yaw_urad));
+    out.row(fmt::format("lidar[{}]", i), fmt::format("at {} {} {} mm, roll {} pitch {} yaw {} urad", l.x_mm, l.y_mm, l.z_mm, l.roll_urad,
+                                                     l.pitch_urad, l.yaw_urad));
   }
   out.row("scanner_silent_us", p.scanner_silent_us);
   out.row("spurious_range_mm", p.spurious_range_mm);

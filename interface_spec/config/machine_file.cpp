@@ -103,7 +103,8 @@ ScannerFile read_scanner(StrictTable table) {
 LidarFile read_lidar(StrictTable table) {
   LidarFile lidar{};
   lidar.position = table.array<3>("position", -5.0, 8.0);
-  if (lidar.position[0] > 5.0 || lidar.position[1] > 5.0 || lidar.position[2] < 0.0) table.fail("position", "x and y are within -5 .. 5, z within 0 .. 8");
+  const auto& at = lidar.position;
+  if (at[0] > 5.0 || at[1] > 5.0 || at[2] < 0.0) table.fail("position", "x and y are within -5 .. 5, z within 0 .. 8");
   lidar.roll = table.degrees("roll_deg", -180.0, 180.0);
   lidar.pitch = table.degrees("pitch_deg", -180.0, 180.0);
   lidar.yaw = table.degrees("yaw_deg", -180.0, 180.0);

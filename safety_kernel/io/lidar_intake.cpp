@@ -10,14 +10,7 @@ namespace berm::kernel {
 
 namespace {
 
-constexpr std::size_t kClockOffset = 1200;           // of a packet: microseconds since the hour, little endian
 constexpr std::uint32_t kHourUs = 3600000000U;
-constexpr double kRadPerMdeg = 3.14159265358979323846 / 180000.0;
-
-std::uint32_t clock_of(const std::uint8_t* bytes) {
-  const std::uint8_t* p = bytes + kClockOffset;
-  return static_cast<std::uint32_t>(p[0]) | (static_cast<std::uint32_t>(p[1]) << 8) | (static_cast<std::uint32_t>(p[2]) << 16) | (static_cast<std::uint32_t>(p[3]) << 24);
-}
 
 sk_point base_point(const Eigen::Vector3d& upper, double cosine, double sine) {
   const auto mm = [](double m) { return static_cast<std::int32_t>(std::lround(m * 1e3)); };
@@ -32,14 +25,13 @@ LidarIntake::LidarIntake(const berm_parameters& parameters)
   for (int i = 0; i < lidars_; ++i) {
     const berm_lidar_mount& from = parameters.lidar[i];
     mount_[i].place = Eigen::Vector3d(from.x_mm, from.y_mm, from.z_mm) * 1e-3;
-    mount_[i].turn = (Eigen::AngleAxisd(from.yaw_urad * 1e-6, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(from.pitch_urad * 1e-6, Eigen::Vector3d::UnitY()) *
-                      Eigen::AngleAxisd(from.roll_urad * 1e-6, Eigen::Vector3d::UnitX()))
-                         .toRotationMatrix();
+    const Eigen::AngleAxisd yaw(from.yaw_urad * 1e-6, Eigen::Vector3d::UnitZ()), pitch(from.pitch_urad * 1e-6, Eigen::Vector3d::UnitY());
+    mount_[i].turn = (yaw * pitch * Eigen::AngleAxisd(from.roll_urad * 1e-6, Eigen::Vector3d::UnitX())).toRotationMatrix();
   }
 }
 
 bool LidarIntake::accept(Mount& mount, const std::uint8_t* bytes, std::int64_t now_us) const {
-  const std::uint32_t clock_us = clock_of(bytes);
+  const std::uint32_t clock_us = vlp16_clock_us(bytes);
   if (clock_us >= kHourUs) return false;
   const std::uint32_t ahead_us = clock_us >= mount.clock_us ? clock_us - mount.clock_us : clock_us + (kHourUs - mount.clock_us);
   // After a silence the sensor may have counted on: then it is heard anew.
@@ -53,24 +45,24 @@ bool LidarIntake::accept(Mount& mount, const std::uint8_t* bytes, std::int64_t n
 void LidarIntake::insert(const Mount& mount, const Vlp16Return& hit, const Swung& swung, std::int64_t now_us, sk_height_map& map, OwnShadow& shadow) {
   const Vlp16Elevation elevation = vlp16_elevation(hit.channel);
   const double range_m = hit.range_mm * 1e-3, level_m = range_m * elevation.cosine;
-  const double heading = -static_cast<double>(hit.azimuth_mdeg) * kRadPerMdeg, aside = std::max(hit.spread_mdeg, kTakenMdeg / 2) * kRadPerMdeg;
-  const double ahead_x = level_m * std::cos(heading), ahead_y = level_m * std::sin(heading);
-  // The edges by their small angle: to 1e-9 for a degree.
-  const double square = aside * aside, cosine = 1.0 - square * (0.5 - square / 24.0), sine = aside * (1.0 - square / 6.0);
-  const Eigen::Vector3d middle = mount.place + mount.turn * Eigen::Vector3d(ahead_x * cosine, ahead_y * cosine, range_m * elevation.sine);
-  const Eigen::Vector3d beside = mount.turn * Eigen::Vector3d(-ahead_y * sine, ahead_x * sine, 0.0);
+  const double aside_rad = std::max(hit.spread_mdeg, kTakenMdeg / 2) * kVlp16RadPerMdeg;
+  const Vlp16Edges beam = vlp16_edges(level_m, -static_cast<double>(hit.azimuth_mdeg) * kVlp16RadPerMdeg, aside_rad);
+  const Eigen::Vector3d middle = mount.place + mount.turn * Eigen::Vector3d(beam.middle_x, beam.middle_y, range_m * elevation.sine);
+  const Eigen::Vector3d beside = mount.turn * Eigen::Vector3d(beam.beside_x, beam.beside_y, 0.0);
   const Eigen::Vector3d edge[2] = {middle + beside, middle - beside};
   if (!(middle.head<2>().squaredNorm() <= kFarthestM * kFarthestM)) return;
   const sk_point from = base_point(edge[0], swung.cosine, swung.sine), to = base_point(edge[1], swung.cosine, swung.sine);
   if (self_.is_own(edge[0], swung.pose) && self_.is_own(edge[1], swung.pose)) {
     // What the implements hide keeps its height. Behind ground or tracks within the own body's circle nothing is hidden that this beam could have seen.
-    if (self_.is_implement(edge[0], swung.pose)) shadow.keep(OwnShadow::kLidar, base_point(mount.place, swung.cosine, swung.sine), from, now_us, map);
+    const sk_point head = base_point(mount.place, swung.cosine, swung.sine);
+    if (self_.is_implement(edge[0], swung.pose)) shadow.keep(OwnShadow::kLidar, head, from, now_us, map);
     return;
   }
   if (sk_raster_segment(&map, &from, &to, now_us, parameters_.generation_us) > 0) ++points_;
 }
 
-bool LidarIntake::take(int lidar, const std::uint8_t* bytes, std::size_t size, const JointHistory& joints, std::int64_t now_us, sk_height_map& map, OwnShadow& shadow) {
+bool LidarIntake::take(int lidar, const std::uint8_t* bytes, std::size_t size, const JointHistory& joints, std::int64_t now_us, sk_height_map& map,
+                       OwnShadow& shadow) {
   if (lidar < 0 || lidar >= lidars_ || vlp16_decode(bytes, size, packet_) != Vlp16Result::kOk) return false;
   Mount& mount = mount_[lidar];
   if (!accept(mount, bytes, now_us)) return false;

@@ -23,9 +23,10 @@ class LidarIntake {
 
   explicit LidarIntake(const berm_parameters& parameters);
 
-  // One packet of a lidar, its joint angles being those of now. False when it was refused: no packet of a VLP-16, of no lidar there is, or not later than the one
-  // before it, by the sensor's own clock, by at most a second.
-  bool take(int lidar, const std::uint8_t* bytes, std::size_t size, const JointHistory& joints, std::int64_t now_us, sk_height_map& map, OwnShadow& shadow);
+  // One packet of a lidar, its joint angles being those of now. False when it was refused: no packet of a VLP-16, of no lidar there is, or not
+  // later than the one before it, by the sensor's own clock, by at most a second.
+  bool take(int lidar, const std::uint8_t* bytes, std::size_t size, const JointHistory& joints, std::int64_t now_us, sk_height_map& map,
+            OwnShadow& shadow);
 
   bool all_heard() const;
   // No usable packet of some lidar for longer than the limit, once all were heard.

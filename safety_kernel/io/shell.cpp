@@ -41,7 +41,8 @@ bool Shell::open(std::string& error) {
     peers_.serve_journal(journal_.ring(), journal_.tail());
   }
   if (!options_.map_only && options_.lidar_ports != parameters_.lidars) {
-    error = "--lidar-port: given " + std::to_string(options_.lidar_ports) + " times, the parameter block has " + std::to_string(parameters_.lidars) + " lidars";
+    error = "--lidar-port: given " + std::to_string(options_.lidar_ports) + " times, the parameter block has " + std::to_string(parameters_.lidars) +
+            " lidars";
     return false;
   }
   if (!receiver_.open(error) || !peers_.open(options_.socket, policy, state_, request_, error)) return false;

@@ -62,7 +62,8 @@ bool inputs_ready(const FrameIntake& frames, const RangeSensors& sensors, const 
          sensors.all_heard() && !sensors.silent(now_us, parameters.scanner_silent_us);
 }
 
-void supervise(const FrameIntake& frames, const RangeSensors& sensors, const AppPulse& app, bool clock_fault, const berm_parameters& parameters, sk_stop_input& in) {
+void supervise(const FrameIntake& frames, const RangeSensors& sensors, const AppPulse& app, bool clock_fault, const berm_parameters& parameters,
+               sk_stop_input& in) {
   in.fault_reason = fault_of(frames, sensors, clock_fault, parameters, in.now_us);
   in.fault_category_0 = false;  // with valves that centre and brakes that hold, braking under control is the shorter way to standstill
   in.latch_reason = latch_of(frames, app, parameters, in.now_us);

@@ -43,6 +43,7 @@ struct RangeSensors {
 bool inputs_ready(const FrameIntake& frames, const RangeSensors& sensors, const berm_parameters& parameters, std::int64_t now_us);
 
 // Fills fault_reason, fault_category_0, latch_reason, latch_category_0.
-void supervise(const FrameIntake& frames, const RangeSensors& sensors, const AppPulse& app, bool clock_fault, const berm_parameters& parameters, sk_stop_input& in);
+void supervise(const FrameIntake& frames, const RangeSensors& sensors, const AppPulse& app, bool clock_fault, const berm_parameters& parameters,
+               sk_stop_input& in);
 
 }  // namespace berm::kernel

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kBlocks = 12;
 constexpr std::size_t kBlockBytes = 100;
-constexpr std::size_t kModeOffset = 1204;
+constexpr std::size_t kClockOffset = 1200, kModeOffset = 1204;
 constexpr std::uint8_t kModeStrongest = 0x37, kModeLast = 0x38, kModeDual = 0x39;
 constexpr std::uint8_t kProductVlp16 = 0x22;
 constexpr std::int32_t kRangeLsbMm = 2;
@@ -18,7 +18,6 @@ constexpr std::uint32_t kGapDefaultCdeg = 20;
 constexpr std::uint32_t kHalfDivergenceMdeg = 86;  // 1.5 mrad: a beam is 3 mrad wide (VLP-16 manual, specifications)
 // Firing times in nanoseconds: a sequence fires its 16 lasers one by one; a block holds two sequences.
 constexpr std::uint32_t kSequenceNs = 55296, kLaserNs = 2304;
-constexpr double kPi = 3.14159265358979323846;
 
 // Elevation rank of each laser in firing order: -15, 1, -13, 3, -11, 5, -9, 7, -7, 9, -5, 11, -3, 13, -1, 15 degrees.
 constexpr std::uint8_t kChannelOfLaser[kVlp16Channels] = {0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15};
@@ -95,19 +94,24 @@ Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packe
 
 Vlp16Elevation vlp16_elevation(std::uint8_t channel) { return {kChannelCosine[channel % kVlp16Channels], kChannelSine[channel % kVlp16Channels]}; }
 
+std::uint32_t vlp16_clock_us(const std::uint8_t* bytes) { return u16(bytes + kClockOffset) | (u16(bytes + kClockOffset + 2) << 16); }
+
+Vlp16Edges vlp16_edges(double level, double heading_rad, double aside_rad) {
+  const double ahead_x = level * std::cos(heading_rad), ahead_y = level * std::sin(heading_rad);
+  // By the small angle's series.
+  const double square = aside_rad * aside_rad, cosine = 1.0 - square * (0.5 - square / 24.0), sine = aside_rad * (1.0 - square / 6.0);
+  return {ahead_x * cosine, ahead_y * cosine, -ahead_y * sine, ahead_x * sine};
+}
+
 sk_point vlp16_head(const Vlp16Mount& mount) { return {rounded(mount.x_m * 1e3), rounded(mount.y_m * 1e3), rounded(mount.z_m * 1e3)}; }
 
 Vlp16Footprint vlp16_project(const Vlp16Mount& mount, const Vlp16Return& point) {
   const std::size_t channel = point.channel % kVlp16Channels;
   const double level = point.range_mm * kChannelCosine[channel];
   const std::int32_t z_mm = static_cast<std::int32_t>(std::ceil(mount.z_m * 1e3 + point.range_mm * kChannelSine[channel]));
-  constexpr double mdeg = 1e-3 * kPi / 180.0;
-  const double heading = mount.yaw_rad - point.azimuth_mdeg * mdeg, aside = point.spread_mdeg * mdeg;
-  const double ahead_x = level * std::cos(heading), ahead_y = level * std::sin(heading);
-  // The edges by their small angle: to 1e-9 rad for all that a packet can say (1.1 degrees).
-  const double square = aside * aside, cosine = 1.0 - square * (0.5 - square / 24.0), sine = aside * (1.0 - square / 6.0);
+  const Vlp16Edges beam = vlp16_edges(level, mount.yaw_rad - point.azimuth_mdeg * kVlp16RadPerMdeg, point.spread_mdeg * kVlp16RadPerMdeg);
   const auto edge = [&](double left) -> sk_point {
-    return {rounded(mount.x_m * 1e3 + ahead_x * cosine - left * ahead_y * sine), rounded(mount.y_m * 1e3 + ahead_y * cosine + left * ahead_x * sine), z_mm};
+    return {rounded(mount.x_m * 1e3 + beam.middle_x + left * beam.beside_x), rounded(mount.y_m * 1e3 + beam.middle_y + left * beam.beside_y), z_mm};
   };
   return {edge(1.0), edge(-1.0)};
 }

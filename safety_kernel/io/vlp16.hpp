@@ -14,6 +14,7 @@ constexpr std::size_t kVlp16PacketBytes = 1206;
 constexpr int kVlp16Channels = 16;
 constexpr int kVlp16MaxPoints = 12 * 2 * kVlp16Channels;  // of one packet, single return
 constexpr std::uint32_t kVlp16FiringMdeg = 200;           // a firing's share of the turn at 10 Hz
+constexpr double kVlp16RadPerMdeg = 3.14159265358979323846 / 180000.0;
 constexpr std::int32_t kVlp16RangeMinMm = 400;            // nearer returns are the sensor's own housing and mount
 
 enum class Vlp16Result { kOk, kSize, kMode, kProduct, kFlag, kAzimuth };
@@ -50,6 +51,16 @@ Vlp16Elevation vlp16_elevation(std::uint8_t channel);
 struct Vlp16Footprint {
   sk_point left, right;
 };
+
+// When the packet was finished by the sensor's own clock, microseconds since the hour; bytes of a whole packet.
+std::uint32_t vlp16_clock_us(const std::uint8_t* bytes);
+
+// The edges of a beam in the sensor's level plane, with its range's level part: middle + beside and middle - beside.
+struct Vlp16Edges {
+  double middle_x, middle_y, beside_x, beside_y;
+};
+// heading: of the beam's middle, positive left. aside: from it to either edge, at most 1.5 degrees, for which the edges are exact to 1e-9.
+Vlp16Edges vlp16_edges(double level, double heading_rad, double aside_rad);
 
 // The sensor's place, base frame.
 sk_point vlp16_head(const Vlp16Mount& mount);

@@ -58,13 +58,15 @@ bool take_lidar(ByteReader& from, const kernel::Vlp16Mount& mount, CycleInputs& 
 
 bool take_upper_lidar(ByteReader& from, CycleInputs& in) {
   const std::uint8_t* bytes = from.raw(up8(kernel::kVlp16PacketBytes + 1));
-  return bytes != nullptr && bytes[kernel::kVlp16PacketBytes] < BERM_LIDARS && in.take_lidar(bytes[kernel::kVlp16PacketBytes], bytes, kernel::kVlp16PacketBytes);
+  if (bytes == nullptr) return false;
+  const std::uint8_t number = bytes[kernel::kVlp16PacketBytes];
+  return number < BERM_LIDARS && in.take_lidar(number, bytes, kernel::kVlp16PacketBytes);
 }
 
 bool fits(const berm_journal_cycle& head, std::size_t size) {
   return head.magic == BERM_JOURNAL_RECORD_MAGIC && head.bytes == size && head.frames_in <= CycleInputs::kFrames &&
-         head.frames_out <= kernel::FrameList::kCapacity && head.scan_packets <= CycleInputs::kPackets && head.vlp16_packets <= CycleInputs::kVlp16Packets && head.lidar_packets <= CycleInputs::kLidarPackets &&
-         head.now_us >= 0 && head.now_us <= kTimeMaxUs;
+         head.frames_out <= kernel::FrameList::kCapacity && head.scan_packets <= CycleInputs::kPackets &&
+         head.vlp16_packets <= CycleInputs::kVlp16Packets && head.lidar_packets <= CycleInputs::kLidarPackets && head.now_us >= 0 && head.now_us <= kTimeMaxUs;
 }
 
 }  // namespace

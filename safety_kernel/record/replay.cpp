@@ -108,7 +108,7 @@ class Replay {
     ++result_.decisions;
     result_.frames += static_cast<std::uint64_t>(in_->frame_count);
     result_.scan_packets += static_cast<std::uint64_t>(in_->packet_count);
-    result_.vlp16_packets += static_cast<std::uint64_t>(in_->vlp16_count + in_->lidar_count);
+    result_.lidar_packets += static_cast<std::uint64_t>(in_->vlp16_count + in_->lidar_count);
     auto difference = first_difference(recorded_, *out_, cycle_->map());
     if (!difference) return;
     if (++result_.mismatches > 1) return;

@@ -16,7 +16,7 @@ struct ReplayResult {
   std::uint64_t mismatches = 0;    // of them with any difference
   std::uint64_t lost = 0;          // records that the journal lost
   std::uint64_t not_replayed = 0;  // cycles behind a gap: the state there is not known
-  std::uint64_t frames = 0, scan_packets = 0, vlp16_packets = 0;
+  std::uint64_t frames = 0, scan_packets = 0, lidar_packets = 0;  // the last of all lidars
   std::int64_t first_us = 0, last_us = 0;
   bool complete = false;           // the file has its end
   std::string incomplete_why;

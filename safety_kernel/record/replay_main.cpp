@@ -86,7 +86,7 @@ void print(const ReplayResult& r, const std::string& file, double seconds) {
   const auto n = [](std::uint64_t v) { return static_cast<unsigned long long>(v); };
   std::printf("Replay of %s\n", file.c_str());
   std::printf("  cycles              %llu (%.1f s recorded, replayed in %.1f s)\n", n(r.cycles), recorded, seconds);
-  std::printf("  inputs              %llu frames, %llu scan packets, %llu lidar packets\n", n(r.frames), n(r.scan_packets), n(r.vlp16_packets));
+  std::printf("  inputs              %llu frames, %llu scan packets, %llu lidar packets\n", n(r.frames), n(r.scan_packets), n(r.lidar_packets));
   std::printf("  decisions           %llu reproduced bit for bit, %llu differ\n", n(r.decisions - r.mismatches), n(r.mismatches));
   std::printf("  records lost        %llu%s\n", n(r.lost), r.lost > 0 ? " (what the kernel decided after the first loss cannot be replayed)" : "");
   if (r.not_replayed > 0) std::printf("  not replayed        %llu cycles behind the loss\n", n(r.not_replayed));

@@ -98,7 +98,8 @@ Judgement Oracle::judge(const std::array<double, 4>& joints, const Site& site, c
   Judgement out;
   const std::vector<Body> own = machine(joints, stand);
   const auto against = [&](const Body& other, const std::string& name) {
-    for (const Body& part : own) {
+    for (size_t i = 0; i < own.size(); ++i) {
+      const Body& part = own[i];
       // The spheres that hold the bodies cannot be nearer than this; skip what cannot become the nearest.
       if ((part.middle - other.middle).norm() - part.reach - other.reach >= out.closest) continue;
       const Distance d = distance(part, other);
@@ -106,6 +107,7 @@ Judgement Oracle::judge(const std::array<double, 4>& joints, const Site& site, c
       if (found < out.closest) {
         out.closest = found;
         out.what = name;
+        out.by_upper_body = i >= shape_.parts.size();
       }
     }
   };
@@ -122,9 +124,11 @@ Judgement Oracle::judge(const std::array<double, 4>& joints, const Site& site, c
   if (!out.contact && out.ground_gap <= 0) {
     out.contact = true;
     out.what = "ground outside the dig zone";
+    out.by_upper_body = false;
   } else if (!out.contact && floor_gap <= 0) {
     out.contact = true;
     out.what = "floor of the dig zone";
+    out.by_upper_body = false;
   }
   out.ground_gap = std::min(out.ground_gap, floor_gap);
   return out;

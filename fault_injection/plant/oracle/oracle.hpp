@@ -51,6 +51,7 @@ struct Judgement {
   bool contact = false;
   double closest = 1e9;               // to the nearest person or block; 0 in contact with one
   std::string what;                   // what is touched; else what is closest
+  bool by_upper_body = false;         // `what` was touched, or is closest, by the upper body, not by an implement
   double ground_gap = 1e9;            // least vertical gap to forbidden ground; negative when below it
 };
 

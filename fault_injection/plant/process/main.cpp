@@ -57,7 +57,9 @@ int run(int argc, char** argv) {
   app.add_option("--trucks", options.trucks, "trucks to come, one after another")->check(CLI::Range(1, 1000))->capture_default_str();
   app.add_option("--can", options.can_address, "can:INTERFACE or udp:GROUP:PORT")->required();
   app.add_option("--scan-port", options.scan_port, "UDP port on loopback that takes the scan packets")->required()->check(CLI::Range(1, 65535));
-  app.add_option("--lidar-port", options.lidar_port, "UDP port on loopback of a lidar on the upper body; once for each that the profile has")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--lidar-port", options.lidar_port, "UDP port on loopback of a lidar on the upper body; once for each that the profile has")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--out", options.out, "folder for the results, made when missing")->required();
   auto* step = app.add_flag("--lockstep", lockstep, "virtual time, in step with kernel and app (default)");
   app.add_flag("--realtime", options.realtime, "wall-clock time")->excludes(step);

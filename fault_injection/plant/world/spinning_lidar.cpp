@@ -53,7 +53,8 @@ void SpinningLidar::fire(std::int64_t firing, double swing, bool blocked, const 
     const double noise = random_.normal(), lost = random_.uniform();  // drawn whatever is hit
     if (blocked || lost < noise_.dropout_probability) continue;
     const double e = elevation_deg(laser) * std::numbers::pi / 180, turn = at + turns_per_s * 2 * std::numbers::pi * laser * 2304e-9;
-    const Ray upper{{mount_.position[0], mount_.position[1], mount_.position[2]}, turned({std::cos(e) * std::cos(turn), -std::cos(e) * std::sin(turn), std::sin(e)})};
+    const Vec3 direction = turned({std::cos(e) * std::cos(turn), -std::cos(e) * std::sin(turn), std::sin(e)});
+    const Ray upper{{mount_.position[0], mount_.position[1], mount_.position[2]}, direction};
     const Ray base{body.out(upper.origin), body.out(upper.direction)};
     const std::optional<double> hit = scene.cast(stand.out(base), base, upper, range_most);
     if (!hit || *hit < range_least) continue;

@@ -167,7 +167,7 @@ oracle::Site World::State::site() const {
 OracleVerdict World::judge(double, const JointState& joints) {
   const BasePose& b = state_->base;
   const oracle::Judgement j = state_->oracle.judge(joints.angle, state_->site(), {b.x, b.y, b.yaw, b.roll, b.pitch});
-  return {j.contact, j.closest, j.ground_gap, j.what};
+  return {j.contact, j.closest, j.ground_gap, j.what, j.by_upper_body};
 }
 
 double World::payload_kg() const { return state_->load.volume() * state_->loose_density() + state_->config.ballast_kg; }

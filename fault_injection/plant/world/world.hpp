@@ -32,10 +32,11 @@ struct Truth {
 };
 
 struct OracleVerdict {
-  bool contact = false;                   // of this step: an implement touches what it must not
+  bool contact = false;                   // of this step: the machine touches what it must not
   double closest_m = 0.0;                 // distance to the nearest person, vehicle, truck or box, 0 in contact; 1e9 when there is none
   double ground_gap_m = 0.0;              // least vertical gap over ground outside the dig zones (and over the zones' floor); negative: below it
   std::string what;                       // its name
+  bool by_upper_body = false;             // it is the upper body that touches it, or is nearest to it, and no implement
 };
 
 struct MoverPose { std::string name; double x = 0.0, y = 0.0, z = 0.0, yaw = 0.0; bool vehicle = false; };

@@ -51,7 +51,8 @@ def person_behind():
         assert stood is not None and moved_again is not None, f"seed {seed}: stood at {stood}, moved again at {moved_again}"
         assert result["closest_approach_m"] > 0.3, f"seed {seed}: closest approach {result['closest_approach_m']}"
         assert status == 0, f"seed {seed}: the truck was not loaded after the reset"
-        print(f"seed {seed}: stood at {stood:.2f} s, person within {nearest:.2f} m of the tail's circle, closest approach {result['closest_approach_m']:.2f} m, moves again at {moved_again:.2f} s")
+        print(f"seed {seed}: stood at {stood:.2f} s, person within {nearest:.2f} m of the tail's circle, "
+              f"closest approach {result['closest_approach_m']:.2f} m, moves again at {moved_again:.2f} s")
         replayed = run("berm_replay", out / "journal.mcap")
         assert replayed.returncode == 0, replayed.stdout[-500:]
         shutil.rmtree(out)

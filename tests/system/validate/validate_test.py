@@ -1,6 +1,6 @@
 """A short validation sweep: no contact where the nominal motion has some, what it finds is named so that it can be repeated, bad input is refused.
 
-verifies: SK-CY-20
+verifies: SK-CY-20, SK-TS-1
 """
 import json
 import pathlib
@@ -10,6 +10,7 @@ import tempfile
 from berm_command import main, one_clear_line, run
 
 RUNS, SEED = 40, 11
+STOP_TAIL = 19  # BERM_STOP_TAIL
 scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-validate-"))
 
 
@@ -64,11 +65,20 @@ def what_the_bucket_hides_is_not_forgotten():
 
 def a_stop_past_hidden_space_is_told_from_others():
     # Needless both by the definition; behind the first one's obstacle nothing was seen, round the second's something was.
-    for number, hidden in ((95, True), (227, False)):
+    for number, hidden in ((95, True), (165, False)):
         done = run("berm_validate", "--seed", 1, "--only", number, timeout=60)
         line = [row for row in done.stdout.splitlines() if "needless stop" in row]
         assert done.returncode == 1 and len(line) == 1, done.stdout
         assert ("space that the obstacle hid" in line[0]) == hidden, f"run {number}: {line[0]}"
+
+
+def the_tail_stops_short_of_what_it_would_touch_where_it_is_watched():
+    # The implements swing away from the box; the upper body's tail would meet it.
+    for number in (3823, 7205):
+        done = run("berm_validate", "--machine", "zx200_rear", "--seed", 11, "--only", number, timeout=120)
+        kernel, nominal = (next(row for row in done.stdout.splitlines() if row.startswith(f"  {name} ")) for name in ("kernel", "nominal"))
+        assert "CONTACT: obstacle, with the upper body" in nominal, nominal
+        assert done.returncode == 0 and "CONTACT" not in kernel and f"stopped (reason {STOP_TAIL})" in kernel, kernel
 
 
 def bad_input_is_one_line():
@@ -79,4 +89,4 @@ def bad_input_is_one_line():
 
 
 main([no_obstacle_is_touched_that_the_nominal_motion_touches, a_failure_names_the_run_that_repeats_it, what_the_bucket_hides_is_not_forgotten,
-      a_stop_past_hidden_space_is_told_from_others, bad_input_is_one_line])
+      a_stop_past_hidden_space_is_told_from_others, the_tail_stops_short_of_what_it_would_touch_where_it_is_watched, bad_input_is_one_line])

@@ -10,6 +10,14 @@
 
 namespace berm::config::test {
 
+namespace {
+
+std::string lidar(const std::string& height = "3.0", const std::string& yaw = "yaw_deg = 0.0\n") {
+  return "[[lidar]]\nposition = [0.0, 0.0, " + height + "]\nroll_deg = 0.0\npitch_deg = 0.0\n" + yaw;
+}
+
+}  // namespace
+
 std::string machine_path() { return BERM_CONFIG_FILES "/machines/zx200.toml"; }
 std::string site_path() { return BERM_CONFIG_FILES "/sites/bench.toml"; }
 
@@ -105,11 +113,10 @@ const std::vector<BadEdit>& bad_machine_edits() {
       {"hold above the contract's", "request_hold = 0.05", "request_hold = 0.06", "kernel.request_hold", "outside 0.01 .. 0.05"},
       {"silence above the contract's", "request_silent = 0.5", "request_silent = 0.6", "kernel.request_silent", "outside 0.05 .. 0.5"},
       {"generation above freshness", "generation = 1.0", "generation = 30.0", "kernel.generation", "above fresh"},
-      {"three lidars", "[tail] ", "[[lidar]]\nposition = [0.0, 0.0, 3.0]\nroll_deg = 0.0\npitch_deg = 0.0\nyaw_deg = 0.0\n[[lidar]]\nposition = [0.0, 0.0, 3.0]\nroll_deg = 0.0\npitch_deg = 0.0\nyaw_deg = 0.0\n"
-       "[[lidar]]\nposition = [0.0, 0.0, 3.0]\nroll_deg = 0.0\npitch_deg = 0.0\nyaw_deg = 0.0\n[tail] ", "lidar", "3 lidars, up to 2 are taken"},
-      {"lidar in the ground", "[tail] ", "[[lidar]]\nposition = [0.0, 0.0, -0.1]\nroll_deg = 0.0\npitch_deg = 0.0\nyaw_deg = 0.0\n[tail] ", "lidar[0].position", "0 .. 8"},
-      {"lidar without a yaw", "[tail] ", "[[lidar]]\nposition = [0.0, 0.0, 3.0]\nroll_deg = 0.0\npitch_deg = 0.0\n[tail] ", "lidar[0].yaw_deg", "is missing"},
-      {"lidar turned over", "[tail] ", "[[lidar]]\nposition = [0.0, 0.0, 3.0]\nroll_deg = 181.0\npitch_deg = 0.0\nyaw_deg = 0.0\n[tail] ", "lidar[0].roll_deg", "outside"},
+      {"three lidars", "[tail] ", lidar() + lidar() + lidar() + "[tail] ", "lidar", "3 lidars, up to 2 are taken"},
+      {"lidar in the ground", "[tail] ", lidar("-0.1") + "[tail] ", "lidar[0].position", "0 .. 8"},
+      {"lidar without a yaw", "[tail] ", lidar("3.0", "") + "[tail] ", "lidar[0].yaw_deg", "is missing"},
+      {"lidar turned over", "[tail] ", lidar("3.0", "yaw_deg = 181.0\n") + "[tail] ", "lidar[0].yaw_deg", "outside"},
       {"no tail", "[tail] ", "[nose] ", "tail", "is missing"},
       {"watched as text", "watched = false", "watched = \"no\"", "tail.watched", "true or false"},
       {"tail beyond the own body", "radius = 2.9 ", "radius = 3.0 ", "tail.radius", "above kinematics.own_body_radius"},

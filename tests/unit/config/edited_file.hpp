@@ -29,7 +29,7 @@ class Scratch {
 struct BadEdit {
   const char* name;
   const char* from;
-  const char* to;
+  std::string to;
   const char* field;   // the line names it
   const char* reason;  // and says this
 };

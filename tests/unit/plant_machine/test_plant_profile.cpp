@@ -8,12 +8,14 @@
 namespace berm::plant::testing {
 namespace {
 
-std::string shipped() {
-  std::ifstream in(BERM_PLANT_PROFILE);
+std::string text_of(const std::string& file) {
+  std::ifstream in(file);
   std::stringstream text;
   text << in.rdbuf();
   return text.str();
 }
+
+std::string shipped() { return text_of(BERM_PLANT_PROFILE); }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
@@ -42,6 +44,15 @@ TEST(PlantProfile, ShippedProfileLoads) {
   EXPECT_EQ(p.shape.parts.size(), 4u);
   EXPECT_EQ(p.shape.bucket_heaped_m3, 1.2);
   EXPECT_EQ(refusal(shipped()), "accepted");
+}
+
+// So that what is true of the one is true of the other.
+TEST(PlantProfile, TheMachineWithLidarsIsTheSameButForThem) {
+  const auto body = [](const std::string& text) { return text.substr(text.find("[kinematics]"), text.find("\n[[lidar]]") - text.find("[kinematics]")); };
+  const std::string rear = text_of(replaced(BERM_PLANT_PROFILE, "zx200_plant", "zx200_rear_plant"));
+  EXPECT_EQ(body(rear), body(shipped()));
+  EXPECT_EQ(refusal(rear), "accepted");
+  EXPECT_NE(rear.find("\n[[lidar]]"), std::string::npos);
 }
 
 TEST(PlantProfile, EveryKindOfMistakeIsNamed) {
