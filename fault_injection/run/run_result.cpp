@@ -151,7 +151,7 @@ json flat_json(const RunResult& r) {
   out["slowed_spans"] = slowed.spans;
   out["kernel_faults"] = r.kernel_faults;
   for (const char* name : {"cycle_us_p50", "cycle_us_p99", "cycle_us_max"}) out[name] = r.kernel.contains(name) ? r.kernel[name] : json(nullptr);
-  out["tail_watched"] = r.kernel.contains("tail_watched") ? json(r.kernel["tail_watched"].get<int>() != 0) : json(nullptr);
+  for (const char* key : {"tail_watched", "workspace_watched"}) out[key] = r.kernel.contains(key) ? json(r.kernel[key].get<int>() != 0) : json(nullptr);
   out["simulated_seconds"] = r.truth.value("simulated_seconds", 0.0);
   out["wall_seconds"] = r.wall_seconds;
   out["end_reason"] = r.truth.value("end_reason", "");
@@ -207,6 +207,7 @@ std::string summary_text(const RunResult& r) {
   row("slowed by the kernel", slowed_text(slowed_time(r)));
   row("held by the app", holds_text(app_holds(r)));
   if (r.kernel.contains("tail_watched") && r.kernel["tail_watched"] == 0) row("tail", "not watched by the kernel: the ground round it must be fenced");
+  if (r.kernel.contains("workspace_watched") && r.kernel["workspace_watched"] == 0) row("workspace", "not watched by the kernel: nobody may come into it");
   row("kernel faults", r.kernel_faults == 0 ? "none" : fmt::format("{} (first: {})", r.kernel_faults, r.first_fault));
   if (j["cycle_us_p50"].is_number())
     row("kernel cycle, CPU", fmt::format("median {} us, p99 {} us, maximum {} us", j["cycle_us_p50"].dump(), j["cycle_us_p99"].dump(), j["cycle_us_max"].dump()));

@@ -105,6 +105,23 @@ void compile_tail(const TailFile& t, berm_parameters& p) {
   p.tail_fresh_us = down(t.fresh, kMicro);
 }
 
+void compile_workspace(const WorkspaceFile& w, const SiteFile& site, berm_parameters& p) {
+  p.workspace_watched = w.watched ? 1 : 0;
+  p.workspace_radius_mm = up(w.radius, kMilli);
+  p.workspace_rise_mm = down(w.rise, kMilli);
+  p.workspace_neighbour_mm = down(w.neighbour, kMilli);  // fewer rises explained
+  p.workspace_slope_mm = up(w.slope, kMilli);            // fewer rises explained
+  p.workspace_wait_us = down(w.wait, kMicro);
+  p.workspace_period_us = down(w.period, kMicro);
+  p.workspace_dwell_us = up(w.dwell, kMicro);
+  p.workspace_follows = w.follows ? 1 : 0;
+  p.lanes = static_cast<std::int32_t>(site.truck_lane.size());
+  for (std::size_t i = 0; i < site.truck_lane.size(); ++i) {  // inwards: while open it is not watched
+    const auto& z = site.truck_lane[i];
+    p.lane[i] = {up(z.x_low, kMilli), up(z.y_low, kMilli), down(z.x_high, kMilli), down(z.y_high, kMilli)};
+  }
+}
+
 void compile_overpass(const SiteFile& site, berm_parameters& p) {
   p.pass_over_mm = down(site.pass_over, kMilli);
   p.ground_zones = static_cast<std::int32_t>(site.ground_zone.size());
@@ -142,6 +159,7 @@ berm_parameters compile_parameters(const MachineFile& m, const SiteFile& site) {
   compile_rules(m, site, p);
   compile_overpass(site, p);
   compile_tail(m.tail, p);
+  compile_workspace(m.workspace, site, p);
   p.crc32 = parameters_crc(p);
   return p;
 }

@@ -118,6 +118,22 @@ void tail(const berm_parameters& p, Listing& out) {
   out.row("tail_fresh_us", p.tail_fresh_us);
 }
 
+void workspace(const berm_parameters& p, Listing& out) {
+  out.row("workspace_watched", p.workspace_watched);
+  out.row("workspace_radius_mm", p.workspace_radius_mm);
+  out.row("workspace_rise_mm", p.workspace_rise_mm);
+  out.row("workspace_neighbour_mm", p.workspace_neighbour_mm);
+  out.row("workspace_slope_mm", p.workspace_slope_mm);
+  out.row("workspace_wait_us", p.workspace_wait_us);
+  out.row("workspace_period_us", p.workspace_period_us);
+  out.row("workspace_dwell_us", p.workspace_dwell_us);
+  out.row("workspace_follows", p.workspace_follows);
+  for (int i = 0; i < std::clamp(p.lanes, 0, BERM_LANES); ++i) {
+    const berm_lane& z = p.lane[i];
+    out.row(fmt::format("truck_lane[{}]", i), fmt::format("x {}..{} y {}..{} mm", z.x_low_mm, z.x_high_mm, z.y_low_mm, z.y_high_mm));
+  }
+}
+
 }  // namespace
 
 std::string describe(const berm_parameters& p) {
@@ -130,6 +146,7 @@ std::string describe(const berm_parameters& p) {
   rules(p, out);
   overpass(p, out);
   tail(p, out);
+  workspace(p, out);
   out.row("crc32", fmt::format("{:08x}", static_cast<std::uint32_t>(p.crc32)));
   return out.text();
 }

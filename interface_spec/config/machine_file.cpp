@@ -131,6 +131,22 @@ TailFile read_tail(StrictTable table, double own_body_radius, double kernel_fres
   return tail;
 }
 
+WorkspaceFile read_workspace(StrictTable table, double own_body_radius) {
+  WorkspaceFile w{};
+  w.watched = table.flag("watched");
+  w.radius = table.number("radius", 1.0, 15.0);
+  if (w.radius < own_body_radius + kRoundingRoom) table.fail("radius", fmt::format("{} is not above kinematics.own_body_radius, {}", w.radius, own_body_radius));
+  w.rise = table.number("rise", 0.1, 2.0);
+  w.neighbour = table.number("neighbour", 0.1, 2.0);
+  w.slope = table.number("slope", 0.1, 5.0);
+  w.wait = table.number("wait", 0.0, 10.0);
+  w.period = table.number("period", 0.01, 1.0);
+  w.dwell = table.number("dwell", 0.0, 60.0);
+  w.follows = table.flag("follows");
+  table.finish();
+  return w;
+}
+
 KernelFile read_kernel(StrictTable table) {
   KernelFile k{};
   k.cycle = table.number("cycle", 0.001, 0.1);
@@ -204,6 +220,7 @@ MachineFile load_machine_file(const std::string& path) {
   for (auto& lidar : file.tables("lidar")) m.lidar.push_back(read_lidar(std::move(lidar)));
   if (m.lidar.size() > BERM_LIDARS) file.fail("lidar", fmt::format("{} lidars, up to {} are taken", m.lidar.size(), BERM_LIDARS));
   m.tail = read_tail(file.table("tail"), m.own_body_radius, m.kernel.fresh);
+  m.workspace = read_workspace(file.table("workspace"), m.own_body_radius);
   if (m.kernel.dig_swing_limit > m.joint[0].velocity_max) file.fail("kernel.dig_swing_limit_deg_s", "above joint.swing.velocity_max_deg_s");
   file.finish();
   return m;

@@ -56,6 +56,14 @@ struct TailFile {
   double fresh;                               // s
 };
 
+struct WorkspaceFile {
+  bool watched;                               // what rises in the safety region stops the machine
+  double radius;                              // m, of the safety region about the swing axis
+  double rise, neighbour, slope;              // m
+  double wait, period, dwell;                 // s
+  bool follows;                               // the map that is compared with follows what is seen
+};
+
 struct MachineFile {
   std::string name;
   double boom_pin_x, boom_pin_z, boom, stick, bucket, own_body_radius;  // m
@@ -66,6 +74,7 @@ struct MachineFile {
   std::array<ScannerFile, 2> scanner;     // left, right
   std::vector<LidarFile> lidar;
   TailFile tail;
+  WorkspaceFile workspace;
   KernelFile kernel;
 };
 

@@ -24,6 +24,7 @@ extern "C" {
 #define BERM_GROUND_ZONES 4
 #define BERM_TRUCK_ZONES 4
 #define BERM_SCANNER_MOUNTS 2
+#define BERM_LANES 4
 #define BERM_LIDARS 2           /* VLP-16 on the upper body */
 
 typedef struct berm_part {
@@ -47,6 +48,8 @@ typedef struct berm_lidar_mount {                 /* sensor's frame in the upper
 typedef struct berm_dig_zone { int32_t x_low_mm, y_low_mm, x_high_mm, y_high_mm, floor_mm, ceiling_mm; } berm_dig_zone; /* base frame */
 typedef struct berm_ground_zone { int32_t x_low_mm, y_low_mm, x_high_mm, y_high_mm, pass_over_mm; } berm_ground_zone; /* lower ground; base frame */
 typedef struct berm_truck_zone { int32_t x_low_mm, y_low_mm, x_high_mm, y_high_mm, ceiling_mm; } berm_truck_zone;     /* base frame */
+
+typedef struct berm_lane { int32_t x_low_mm, y_low_mm, x_high_mm, y_high_mm; } berm_lane; /* base frame */
 
 typedef struct berm_parameters {
   int32_t magic, version, size, cell_mm;
@@ -104,6 +107,18 @@ typedef struct berm_parameters {
   int32_t tail_fresh_us;                          /* a cell round the tail observed longer ago is stale */
   int32_t lidars;
   berm_lidar_mount lidar[BERM_LIDARS];
+  /* Workspace Monitor: see safety_kernel/requirements/workspace_monitor.md */
+  int32_t workspace_watched;                      /* 1: what rises in the safety region stops the machine; 0: nobody watches it */
+  int32_t workspace_radius_mm;                    /* of the safety region, about the swing axis */
+  int32_t workspace_rise_mm;                      /* a rise by more is a change */
+  int32_t workspace_neighbour_mm;                 /* a neighbour less than this below what is new explains a rise */
+  int32_t workspace_slope_mm;                     /* a neighbour higher by more than this explains it too: an edge */
+  int32_t workspace_wait_us;                      /* a cell that gets data without end is judged when it is so old */
+  int32_t workspace_period_us;                    /* between comparisons */
+  int32_t workspace_dwell_us;                     /* the region is clear for so long before the machine may go on */
+  int32_t workspace_follows;                      /* 1: the map that is compared with follows what is seen; 0: it stays as it was first seen */
+  int32_t lanes;
+  berm_lane lane[BERM_LANES];                     /* where trucks come and go: not watched unless one is parked */
   int32_t crc32;                                  /* bit pattern of the CRC-32 */
 } berm_parameters;
 

@@ -55,6 +55,16 @@ void read_overpass(StrictTable& file, SiteFile& site) {
   if (site.truck_zone.size() > BERM_TRUCK_ZONES) file.fail("truck_zone", fmt::format("{} zones, up to {} are taken", site.truck_zone.size(), BERM_TRUCK_ZONES));
 }
 
+// None where no truck passes through the safety region.
+void read_lanes(StrictTable& file, SiteFile& site) {
+  for (auto& lane : file.tables("truck_lane")) {
+    const Sides s = read_sides(lane);
+    lane.finish();
+    site.truck_lane.push_back({s.x[0], s.x[1], s.y[0], s.y[1]});
+  }
+  if (site.truck_lane.size() > BERM_LANES) file.fail("truck_lane", fmt::format("{} lanes, up to {} are taken", site.truck_lane.size(), BERM_LANES));
+}
+
 TruckPlaceFile read_truck(StrictTable table) {
   TruckPlaceFile truck{};
   truck.centre = table.array<2>("centre", -15.0, 15.0);
@@ -79,6 +89,7 @@ SiteFile load_site_file(const std::string& path) {
   if (site.dig_zone.empty() || site.dig_zone.size() > BERM_DIG_ZONES)
     file.fail("dig_zone", fmt::format("{} zones, 1 to {} are taken", site.dig_zone.size(), BERM_DIG_ZONES));
   read_overpass(file, site);
+  read_lanes(file, site);
   site.truck = read_truck(file.table("truck"));
   StrictTable dig = file.table("dig");
   const auto swing = dig.array<2>("swing_deg", -180.0, 180.0);

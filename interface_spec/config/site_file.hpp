@@ -10,6 +10,7 @@ namespace berm::config {
 struct DigZoneFile { double x_low, x_high, y_low, y_high, floor, ceiling; };
 struct GroundZoneFile { double x_low, x_high, y_low, y_high, pass_over; };  // lower ground
 struct TruckZoneFile { double x_low, x_high, y_low, y_high, ceiling; };
+struct LaneFile { double x_low, x_high, y_low, y_high; };
 
 struct TruckPlaceFile {            // the inside of the bed of a parked truck
   std::array<double, 2> centre;
@@ -30,6 +31,7 @@ struct SiteFile {
   double pass_over;                // z: what stands higher the implements do not pass over
   std::vector<GroundZoneFile> ground_zone;
   std::vector<TruckZoneFile> truck_zone;
+  std::vector<LaneFile> truck_lane;  // where trucks come and go
   TruckPlaceFile truck;
   DigFile dig;
 };

@@ -79,12 +79,13 @@ enum {
   BERM_STOP_UNCOMMANDED = 17,        /* a joint moves otherwise than it was ever told to: fault, category 0 */
   BERM_STOP_OVERPASS = 18,           /* the reach box passes over what is too high to be passed over: a person or a vehicle may stand there */
   BERM_STOP_TAIL = 19,               /* the upper body's tail would swing into what stands there: latched */
-  BERM_STOP_REASONS = 20
+  BERM_STOP_INTRUDER = 20,           /* something moved into the safety region, and has not left it long enough */
+  BERM_STOP_REASONS = 21
 };
 
 /* Whether a reason is a cell of the map's: then the blocked_* fields say which. */
 #define BERM_STOP_HAS_CELL(reason) (((reason) >= BERM_STOP_COLLISION_PREDICTED && (reason) <= BERM_STOP_DIG_FLOOR) || (reason) == BERM_STOP_OVERPASS || \
-                                     (reason) == BERM_STOP_TAIL)
+                                     (reason) == BERM_STOP_TAIL || (reason) == BERM_STOP_INTRUDER)
 
 /* Result of the check of the newest request. */
 enum {
@@ -128,6 +129,7 @@ typedef struct berm_request_segment {
 #define BERM_PANEL_TRUCK_LEAVING 4u
 
 #define BERM_UNWATCHED_TAIL 1u      /* the ground round the upper body's tail: it must be fenced */
+#define BERM_UNWATCHED_WORKSPACE 2u /* the safety region: nobody may come into it */
 
 /* Machine state and verdict of one cycle. */
 typedef struct berm_state {
@@ -151,14 +153,13 @@ typedef struct berm_state {
   int32_t blocked_x_mm;                              /* centre of the first blocking cell, when BERM_STOP_HAS_CELL(stop_reason) */
   int32_t blocked_y_mm;
   int32_t blocked_height_mm;
-  uint32_t blocked_link;                             /* joint index of the link that would meet it; 0: the upper body's tail */
+  uint32_t blocked_link;                             /* joint index of the link that would meet it; 0: the upper body's tail; BERM_JOINTS: none, it is an intruder */
   uint32_t stop_count[BERM_STOP_REASONS];            /* stops since start, by reason */
   uint32_t cycle_cpu_us;                             /* CPU time of the previous cycle (not in journals: it is not reproducible) */
   uint32_t panel;                                    /* BERM_PANEL_*: newest operator and spotter frames; not trusted */
   uint32_t journal_lost;                             /* records that the journal lost before this cycle; stays at 2^32 - 1 */
   uint32_t terrain_confirmed_ms;                     /* since the scanned terrain last excluded a slip of the base; 2^32 - 1: not since the map was begun */
   uint32_t unwatched;                                /* BERM_UNWATCHED_*: what the kernel does not check, for no sensor sees it */
-  uint32_t reserved_tail;
 } berm_state;
 
 /* A block of consecutive samples of one scanline, as received. Range 0 means no return. */

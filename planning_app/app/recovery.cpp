@@ -23,7 +23,10 @@ constexpr double retreat_for = 1.0;     // s
 constexpr double creep_share = 0.9;
 constexpr double range_room = radians(8.0);
 
-bool by_ground(std::uint8_t reason) { return BERM_STOP_HAS_CELL(reason) || reason == BERM_STOP_JOINT_RANGE; }
+// Of what the implements' own motion led to; an intruder is waited for, wherever they are.
+bool by_ground(std::uint8_t reason) {
+  return (BERM_STOP_HAS_CELL(reason) && reason != BERM_STOP_INTRUDER) || reason == BERM_STOP_JOINT_RANGE;
+}
 
 }  // namespace
 
@@ -47,7 +50,8 @@ Joints Recovery::retreat(const Observation& o, double blocked_s) const {
 
 // What a person must do, once a trouble. True when the call was made just now.
 bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
-  if (called_ || !(o.latched || (by_ground(o.stop_reason) && o.time_s - since_s_ > call_after))) return false;
+  const bool lasts = by_ground(o.stop_reason) || o.stop_reason == BERM_STOP_INTRUDER;
+  if (called_ || !(o.latched || (lasts && o.time_s - since_s_ > call_after))) return false;
   called_ = true;
   nlohmann::ordered_json fields{{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}, {"stopped_s", o.time_s - since_s_}};
   if (o.latched) {
@@ -57,7 +61,8 @@ bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
     fields["advice"] = "move the joint back into its range by hand";
   } else {
     fields.update({{"x_m", o.blocked_x}, {"y_m", o.blocked_y}, {"height_m", o.blocked_height}});
-    fields["advice"] = o.stop_reason == BERM_STOP_OVERPASS ? "send away who or what stands there, or admit the truck; if nothing stands there, press relearn"
+    if (o.stop_reason == BERM_STOP_INTRUDER) fields["advice"] = "send away who or what came; if nobody is there, press relearn";
+    else fields["advice"] = o.stop_reason == BERM_STOP_OVERPASS ? "send away who or what stands there, or admit the truck; if nothing stands there, press relearn"
                                                            : "clear the place; if nothing stands there, press relearn";
   }
   log.event("operator_needed", fields);
@@ -76,8 +81,9 @@ void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
     next_rescan_s_ = since_s_ + rescan_after;
     next_back_s_ = since_s_ + back_after;
     called_ = moved_ = false;
+    back_way_ = 0.0;
   }
-  if (o.has_place()) {
+  if (o.has_place() && by_ground(o.stop_reason)) {
     blocked_x_ = o.blocked_x;
     blocked_y_ = o.blocked_y;
     back_way_ = std::copysign(1.0, wrapped(o.angle[swing] - o.blocked_bearing));
@@ -140,13 +146,13 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
   advice.in_charge = true;
   if (!stopped_) begin_stop(o, log);
   advice.operator_called = call_operator(o, log);
-  if (!by_ground(o.stop_reason)) return advice;
+  if (!by_ground(o.stop_reason) && o.stop_reason != BERM_STOP_INTRUDER) return advice;
   const double blocked = o.time_s - stop_s_;  // without a moment in which standing was permitted
   if (o.time_s > next_rescan_s_) {
     advice.rescan = true;
     next_rescan_s_ = o.time_s + rescan_every;
   }
-  if (blocked > patience) {
+  if (blocked > patience && by_ground(o.stop_reason)) {
     advice.velocity = retreat_ = retreat(o, blocked - patience);
     moved_ = true;
   }

@@ -87,6 +87,13 @@ SK_BEGIN
   @ ensures why_lidar_count: \result == SK_RULE_LIDAR_COUNT ==> !sk_rule_lidar_count(p);
   @ ensures why_lidar_position: \result == SK_RULE_LIDAR_POSITION ==> !sk_rule_lidar_position(p);
   @ ensures why_lidar_angles: \result == SK_RULE_LIDAR_ANGLES ==> !sk_rule_lidar_angles(p);
+  @ ensures why_workspace_watched: \result == SK_RULE_WORKSPACE_WATCHED ==> !sk_rule_workspace_watched(p);
+  @ ensures why_workspace_radius: \result == SK_RULE_WORKSPACE_RADIUS ==> !sk_rule_workspace_radius(p);
+  @ ensures why_workspace_heights: \result == SK_RULE_WORKSPACE_HEIGHTS ==> !sk_rule_workspace_heights(p);
+  @ ensures why_workspace_times: \result == SK_RULE_WORKSPACE_TIMES ==> !sk_rule_workspace_times(p);
+  @ ensures why_workspace_follows: \result == SK_RULE_WORKSPACE_FOLLOWS ==> !sk_rule_workspace_follows(p);
+  @ ensures why_lane_count: \result == SK_RULE_LANE_COUNT ==> !sk_rule_lane_count(p);
+  @ ensures why_lane_bounds: \result == SK_RULE_LANE_BOUNDS ==> !sk_rule_lane_bounds(p);
   @*/
 int32_t sk_parameters_check(const berm_parameters *p);
 

@@ -32,7 +32,9 @@ enum {
   SK_RULE_TAIL_WATCHED = 69, SK_RULE_TAIL_RADIUS = 70, SK_RULE_TAIL_WIDTH = 71, SK_RULE_TAIL_HEIGHTS = 72, SK_RULE_TAIL_CLEARANCE = 73,
   SK_RULE_TAIL_FRESH = 74,
   SK_RULE_LIDAR_COUNT = 75, SK_RULE_LIDAR_POSITION = 76, SK_RULE_LIDAR_ANGLES = 77,
-  SK_RULES = 78
+  SK_RULE_WORKSPACE_WATCHED = 78, SK_RULE_WORKSPACE_RADIUS = 79, SK_RULE_WORKSPACE_HEIGHTS = 80, SK_RULE_WORKSPACE_TIMES = 81,
+  SK_RULE_WORKSPACE_FOLLOWS = 82, SK_RULE_LANE_COUNT = 83, SK_RULE_LANE_BOUNDS = 84,
+  SK_RULES = 85
 };
 
 /*@ predicate sk_within(integer v, integer low, integer high) = low <= v <= high;
@@ -218,9 +220,24 @@ enum {
   @ predicate sk_rule_lidar_angles(berm_parameters *p) = \forall integer i; 0 <= i < p->lidars ==> sk_lidar_angles_ok(&p->lidar[i]);
   @ predicate sk_lidars_ok(berm_parameters *p) = sk_rule_lidar_count(p) && sk_rule_lidar_position(p) && sk_rule_lidar_angles(p);
   @
+  @ // the Workspace Monitor
+  @ predicate sk_lane_ok(berm_lane *z) = sk_rectangle_ok(z->x_low_mm, z->y_low_mm, z->x_high_mm, z->y_high_mm);
+  @ predicate sk_rule_workspace_watched(berm_parameters *p) = sk_within(p->workspace_watched, 0, 1);
+  @ predicate sk_rule_workspace_radius(berm_parameters *p) = sk_within(p->workspace_radius_mm, p->own_body_radius_mm, 15000);
+  @ predicate sk_rule_workspace_heights(berm_parameters *p) = sk_within(p->workspace_rise_mm, 100, 2000) &&
+  @   sk_within(p->workspace_neighbour_mm, 100, 2000) && sk_within(p->workspace_slope_mm, 100, 5000);
+  @ predicate sk_rule_workspace_times(berm_parameters *p) = sk_within(p->workspace_wait_us, 0, 10000000) &&
+  @   sk_within(p->workspace_period_us, 1, 1000000) && sk_within(p->workspace_dwell_us, 0, 60000000);
+  @ predicate sk_rule_workspace_follows(berm_parameters *p) = sk_within(p->workspace_follows, 0, 1);
+  @ predicate sk_rule_lane_count(berm_parameters *p) = sk_within(p->lanes, 0, BERM_LANES);
+  @ predicate sk_rule_lane_bounds(berm_parameters *p) = \forall integer i; 0 <= i < p->lanes ==> sk_lane_ok(&p->lane[i]);
+  @ predicate sk_workspace_ok(berm_parameters *p) =
+  @   sk_rule_workspace_watched(p) && sk_rule_workspace_radius(p) && sk_rule_workspace_heights(p) && sk_rule_workspace_times(p) &&
+  @   sk_rule_workspace_follows(p) && sk_rule_lane_count(p) && sk_rule_lane_bounds(p);
+  @
   @ predicate sk_parameters_ok(berm_parameters *p) =
   @   sk_head_ok(p) && sk_kinematics_ok(p) && sk_joints_ok(p) && sk_braking_ok(p) && sk_parts_ok(p) && sk_sensors_ok(p) && sk_map_rules_ok(p) &&
-  @   sk_times_ok(p) && sk_base_ok(p) && sk_overpass_ok(p) && sk_tail_ok(p) && sk_lidars_ok(p);
+  @   sk_times_ok(p) && sk_base_ok(p) && sk_overpass_ok(p) && sk_tail_ok(p) && sk_lidars_ok(p) && sk_workspace_ok(p);
   @*/
 
 SK_END

@@ -1,5 +1,5 @@
 /* The Workspace Monitor (leger-1998, section 3): heights that rise in the safety region stop the machine until what rose has left. Points go in as they
- * are seen; every period_us the modified cells are compared with the accumulated map and merged into it. Not yet part of the kernel's cycle. */
+ * are seen; every period_us the modified cells are compared with the accumulated map and merged into it. */
 #ifndef SK_WORKSPACE_MONITOR_H
 #define SK_WORKSPACE_MONITOR_H
 #include "monitor_check.h"

@@ -16,7 +16,8 @@ Cycle::Cycle(const berm_parameters& parameters, bool map_only)
       own_cells_(parameters),
       motion_(parameters, own_cells_),
       motion_watch_(parameters),
-      registration_(parameters) {
+      registration_(parameters),
+      workspace_(parameters) {
   sk_map_clear(&map_);
   sk_stop_init(&stop_);
 }
@@ -53,6 +54,7 @@ void Cycle::step(const CycleInputs& in, CycleOutputs& out) {
     register_terrain(out.blocks, in.now_us);
     // Nothing is kept while the base has moved, for it may still be moving, nor while the operator has the map learned anew.
     if (frames_.base().moved || relearns(in.now_us)) begin_map();
+    watch_workspace(out.blocks, in.now_us);
     own_cells_.stamp(map_, in.now_us, parameters_.generation_us);
     take_request(in);
     judge_motion(in.now_us);
@@ -113,6 +115,14 @@ void Cycle::learn_base(std::int64_t now_us) {
 void Cycle::begin_map() {
   sk_map_clear(&map_);
   registration_.begin();
+  workspace_.begin();
+}
+
+void Cycle::watch_workspace(const ScanBlocks& blocks, std::int64_t now_us) {
+  if (frames_.base().moved) return;
+  workspace_.take(blocks, now_us);
+  workspace_.trucks(frames_.spotter_fresh(now_us), frames_.truck_admitted(now_us));
+  intruder_ = workspace_.step(now_us);
 }
 
 void Cycle::register_terrain(const ScanBlocks& blocks, std::int64_t now_us) {
@@ -167,7 +177,7 @@ void Cycle::judge_motion(std::int64_t now_us) {
   std::copy(picture.velocity.velocity_urad_s, picture.velocity.velocity_urad_s + SK_JOINTS, query.velocity_urad_s);
   std::copy(requested_urad_s_, requested_urad_s_ + SK_JOINTS, query.requested_urad_s);
   commands_.range(now_us, query.under_way_low_urad_s, query.under_way_high_urad_s);
-  query.truck_admitted = frames_.spotter_fresh(now_us) && picture.spotter.truck_parked && !picture.spotter.truck_leaving;
+  query.truck_admitted = frames_.truck_admitted(now_us);
   motion_.check(query, map_, verdict_);
   motion_fault_ = motion_watch_.check(query, verdict_.box, frames_.angle_us(), frames_.velocity_us());
 }
@@ -175,6 +185,7 @@ void Cycle::judge_motion(std::int64_t now_us) {
 std::uint8_t Cycle::judge_hold(std::int64_t now_us) const {
   // While latched nothing moves and only the operator can change that: a blocked box must not stand in the way of the reset.
   if (stop_.latched) return BERM_STOP_NONE;
+  if (intruder_) return BERM_STOP_INTRUDER;
   if (app_.holds(now_us, parameters_.request_hold_us)) return BERM_STOP_REQUEST_HOLD;
   if (verdict_.permission == Permission::kHeld) return verdict_.reason;
   // Creep recovery counts as running only while it is used.

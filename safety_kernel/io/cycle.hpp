@@ -24,6 +24,7 @@
 #include "io/scan_intake.hpp"
 #include "io/supervision.hpp"
 #include "io/vlp16.hpp"
+#include "io/workspace_watch.hpp"
 #include "scan/scan_packet.h"
 
 namespace berm::kernel {
@@ -83,6 +84,7 @@ class Cycle {
   const sk_height_map& map() const { return map_; }
   const SliceSet& slices() const { return motion_.slices(); }
   const TerrainRegistration& registration() const { return registration_; }
+  const WorkspaceWatch& workspace() const { return workspace_; }
   std::uint64_t frames_rejected() const { return frames_.rejected(); }
   std::uint64_t scans_rejected() const { return scans_rejected_; }
   std::uint64_t lidars_rejected() const { return lidars_rejected_; }
@@ -95,6 +97,7 @@ class Cycle {
   void learn_base(std::int64_t now_us);
   void register_terrain(const ScanBlocks& blocks, std::int64_t now_us);
   void begin_map();
+  void watch_workspace(const ScanBlocks& blocks, std::int64_t now_us);
   bool relearns(std::int64_t now_us) const;
   void take_request(const CycleInputs& in);
   void judge_motion(std::int64_t now_us);
@@ -106,7 +109,12 @@ class Cycle {
   void report_decision(const CycleInputs& in, berm_decision& decision) const;
   std::uint32_t panel_flags(std::int64_t now_us) const;
   std::uint8_t published_reason() const;
-  const MotionVerdict& shown_verdict() const;
+  struct ShownCell {
+    bool has_cell;
+    std::int32_t x_mm, y_mm, height_mm;
+    std::uint32_t link;
+  };
+  ShownCell shown_cell() const;
 
   const berm_parameters& parameters_;
   const bool map_only_;
@@ -123,6 +131,7 @@ class Cycle {
   StandstillWatch standstill_watch_;
   sk_height_map map_;
   TerrainRegistration registration_;
+  WorkspaceWatch workspace_;
   sk_request_state request_state_{};
   sk_request request_{};            // newest accepted
   sk_stop_state stop_{};
@@ -137,6 +146,7 @@ class Cycle {
   std::int32_t requested_urad_s_[4] = {};
   bool motion_wanted_ = false;
   bool standstill_ = false;
+  bool intruder_ = false;
   std::uint8_t hold_reason_ = BERM_STOP_NONE;
   MotionVerdict verdict_{};
   std::uint8_t motion_fault_ = BERM_STOP_NONE;

@@ -23,7 +23,16 @@ std::uint8_t Cycle::published_reason() const {
 }
 
 // Whose blocking cell is published: of a latched stop that has one, the one that it was latched for.
-const MotionVerdict& Cycle::shown_verdict() const { return stop_.latched && stop_.reason == BERM_STOP_TAIL ? tail_met_ : verdict_; }
+Cycle::ShownCell Cycle::shown_cell() const {
+  ShownCell shown{false, 0, 0, 0, BERM_JOINTS};
+  if (published_reason() == BERM_STOP_INTRUDER) {
+    shown.has_cell = workspace_.place(shown.x_mm, shown.y_mm, shown.height_mm);
+    return shown;
+  }
+  const MotionVerdict& v = stop_.latched && stop_.reason == BERM_STOP_TAIL ? tail_met_ : verdict_;
+  if (v.has_cell) shown = {true, v.blocked_x_mm, v.blocked_y_mm, v.blocked_height_mm, v.blocked_link};
+  return shown;
+}
 
 std::uint32_t Cycle::panel_flags(std::int64_t now_us) const {
   const MachinePicture& picture = frames_.picture();
@@ -56,18 +65,18 @@ void Cycle::report_state(const CycleInputs& in, berm_state& state) const {
   state.kernel_state = contract_state(stop_.code);
   state.stop_reason = published_reason();
   state.stop_category = stop_.category;
-  const MotionVerdict& blocked = shown_verdict();
+  const ShownCell blocked = shown_cell();
   if (blocked.has_cell) {
-    state.blocked_x_mm = blocked.blocked_x_mm;
-    state.blocked_y_mm = blocked.blocked_y_mm;
-    state.blocked_height_mm = blocked.blocked_height_mm;
-    state.blocked_link = blocked.blocked_link;
+    state.blocked_x_mm = blocked.x_mm;
+    state.blocked_y_mm = blocked.y_mm;
+    state.blocked_height_mm = blocked.height_mm;
+    state.blocked_link = blocked.link;
   }
   std::copy(stop_count_, stop_count_ + BERM_STOP_REASONS, state.stop_count);
   state.cycle_cpu_us = in.cycle_cpu_us;
   state.panel = panel_flags(in.now_us);
   state.journal_lost = in.journal_lost;
-  state.unwatched = parameters_.tail_watched == 0 ? BERM_UNWATCHED_TAIL : 0U;
+  state.unwatched = (parameters_.tail_watched == 0 ? BERM_UNWATCHED_TAIL : 0U) | (workspace_.watched() ? 0U : BERM_UNWATCHED_WORKSPACE);
   const std::int64_t confirmed_us = registration_.confirmed_us();
   state.terrain_confirmed_ms = UINT32_MAX;
   if (confirmed_us >= 0) state.terrain_confirmed_ms = static_cast<std::uint32_t>(std::clamp<std::int64_t>((in.now_us - confirmed_us) / 1000, 0, UINT32_MAX - 1));
@@ -96,11 +105,11 @@ void Cycle::report_decision(const CycleInputs& in, berm_decision& decision) cons
   decision.phase = request_.phase;
   decision.slices = static_cast<std::uint16_t>(verdict_.slices);
   decision.cells = static_cast<std::uint32_t>(verdict_.cells);
-  const MotionVerdict& blocked = shown_verdict();
+  const ShownCell blocked = shown_cell();
   if (blocked.has_cell) {
-    decision.blocked_x_mm = blocked.blocked_x_mm;
-    decision.blocked_y_mm = blocked.blocked_y_mm;
-    decision.blocked_height_mm = blocked.blocked_height_mm;
+    decision.blocked_x_mm = blocked.x_mm;
+    decision.blocked_y_mm = blocked.y_mm;
+    decision.blocked_height_mm = blocked.height_mm;
   }
   decision.scan_points = map_points_;
 }

@@ -119,6 +119,10 @@ bool FrameIntake::operator_fresh(std::int64_t now_us) const { return sk_guard_fr
 
 bool FrameIntake::spotter_fresh(std::int64_t now_us) const { return sk_guard_fresh(&guard_[kSpotter], now_us, parameters_.operator_age_us); }
 
+bool FrameIntake::truck_admitted(std::int64_t now_us) const {
+  return spotter_fresh(now_us) && picture_.spotter.truck_parked && !picture_.spotter.truck_leaving;
+}
+
 bool FrameIntake::spotter_lost(std::int64_t now_us) const { return heard(kSpotter) && !spotter_fresh(now_us); }
 
 bool machine_healthy(const MachinePicture& picture) {

@@ -47,6 +47,8 @@ class FrameIntake {
   bool machine_fresh(std::int64_t now_us) const;   // machine state and e-stop status
   bool operator_fresh(std::int64_t now_us) const;
   bool spotter_fresh(std::int64_t now_us) const;
+  // By a fresh word of the spotter: a truck stands to be loaded, and is not leaving.
+  bool truck_admitted(std::int64_t now_us) const;
   // The spotter is optional: silent from the start is no matter, falling silent is.
   bool spotter_lost(std::int64_t now_us) const;
 

@@ -50,6 +50,8 @@ bool Shell::open(std::string& error) {
   if (!options_.map_only && parameters_.tail_watched == 0)
     std::fprintf(stderr, "berm_kernel: note: nobody watches the ground round the tail (tail.watched = false): fence it to %d mm from the swing axis\n",
                  parameters_.own_body_radius_mm + parameters_.tail_clearance_mm);
+  if (!options_.map_only && parameters_.workspace_watched == 0)
+    std::fputs("berm_kernel: note: nobody watches the workspace (workspace.watched = false): nobody may come into it\n", stderr);
   say_ready();
   return true;
 }
@@ -136,6 +138,7 @@ std::string Shell::report() const {
   add("lidar_packets", c.lidar_packets);
   add("lidar_rejected", c.lidar_rejected + cycle_->lidars_rejected());
   add("tail_watched", parameters_.tail_watched != 0 ? 1 : 0);
+  add("workspace_watched", parameters_.workspace_watched != 0 ? 1 : 0);
   add("journal_records", journal_.offered());
   add("journal_lost", journal_.lost());
   return json + "}";

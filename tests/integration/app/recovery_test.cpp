@@ -60,6 +60,32 @@ TEST(Recovery, HoldsLooksAgainThenRetreatsAtCreepSpeed) {
   EXPECT_FALSE(recovery.step(permitted(13.2), log).resumed);
 }
 
+// Whoever came must leave: no motion is asked for meanwhile, both scanners look, after half a minute the operator is called; and then the plan goes on
+// from where it was.
+TEST(Recovery, WaitsForAnIntruderWithoutMoving) {
+  Recovery recovery(berm::app_bench::zx200());
+  const ProgressLog log(-1);
+  int rescans = 0, calls = 0;
+  const auto intruder = [](double t) {
+    Observation o = stopped(t, BERM_STOP_INTRUDER);
+    o.blocked_x = 7.0;
+    o.blocked_y = 1.0;
+    return o;
+  };
+  for (int k = 0; k < 4000; ++k) {
+    const auto advice = recovery.step(intruder(0.01 * k), log);
+    ASSERT_TRUE(advice.in_charge);
+    ASSERT_EQ(advice.velocity, Joints{}) << "at " << 0.01 * k << " s";
+    rescans += advice.rescan;
+    calls += advice.operator_called;
+  }
+  EXPECT_GE(rescans, 6);
+  EXPECT_EQ(calls, 1);
+  const auto advice = recovery.step(permitted(40.0), log);
+  EXPECT_TRUE(advice.resumed) << "nothing to retreat from, nothing to look at from elsewhere";
+  EXPECT_FALSE(advice.moved);
+}
+
 // Standing is permitted, moving is not: no more than a few attempts, and in the end the operator.
 TEST(Recovery, AttemptsThatFailAtOnceFollowAtGrowingPauses) {
   Recovery recovery(berm::app_bench::zx200());

@@ -16,6 +16,12 @@ std::string lidar(const std::string& height = "3.0", const std::string& yaw = "y
   return "[[lidar]]\nposition = [0.0, 0.0, " + height + "]\nroll_deg = 0.0\npitch_deg = 0.0\n" + yaw;
 }
 
+std::string four_lanes() {
+  std::string all;
+  for (int i = 0; i < 4; ++i) all += "[[truck_lane]]\nx = [0.0, 1.0]\ny = [0.0, 1.0]\n";
+  return all;
+}
+
 }  // namespace
 
 std::string machine_path() { return BERM_CONFIG_FILES "/machines/zx200.toml"; }
@@ -117,6 +123,12 @@ const std::vector<BadEdit>& bad_machine_edits() {
       {"lidar in the ground", "[tail] ", lidar("-0.1") + "[tail] ", "lidar[0].position", "0 .. 8"},
       {"lidar without a yaw", "[tail] ", lidar("3.0", "") + "[tail] ", "lidar[0].yaw_deg", "is missing"},
       {"lidar turned over", "[tail] ", lidar("3.0", "yaw_deg = 181.0\n") + "[tail] ", "lidar[0].yaw_deg", "outside"},
+      {"no workspace", "[workspace] ", "[yard] ", "workspace", "is missing"},
+      {"region within the own body", "radius = 12.0 ", "radius = 3.0 ", "workspace.radius", "is not above kinematics.own_body_radius"},
+      {"region beyond the map", "radius = 12.0 ", "radius = 15.1 ", "workspace.radius", "outside"},
+      {"a rise that a stone makes", "rise = 0.5 ", "rise = 0.05 ", "workspace.rise", "outside"},
+      {"comparisons too seldom", "period = 0.5 ", "period = 1.5 ", "workspace.period", "outside"},
+      {"follows as a number", "follows = true", "follows = 1", "workspace.follows", "true or false"},
       {"no tail", "[tail] ", "[nose] ", "tail", "is missing"},
       {"watched as text", "watched = false", "watched = \"no\"", "tail.watched", "true or false"},
       {"tail beyond the own body", "radius = 2.9 ", "radius = 3.0 ", "tail.radius", "above kinematics.own_body_radius"},
@@ -147,6 +159,9 @@ const std::vector<BadEdit>& bad_site_edits() {
       {"lower ground without a limit", "pass_over = -0.9", "", "ground_zone[0].pass_over", "is missing"},
       {"five lower grounds", "[[truck_zone]]",
        "[[ground_zone]]\nx = [0.0, 1.0]\ny = [0.0, 1.0]\npass_over = 1.0\n[[ground_zone]]\nx = [0.0, 1.0]\ny = [0.0, 1.0]\npass_over = 1.0\n[[truck_zone]]", "ground_zone", "5 zones, up to 4 are taken"},
+      {"lane without width", "y = [4.5, 9.0]", "y = [9.0, 9.0]", "truck_lane[0].y", "not below"},
+      {"lane beyond the map", "y = [4.5, 9.0]", "y = [4.5, 15.5]", "truck_lane[0].y", "outside"},
+      {"five lanes", "[[truck_lane]]", four_lanes() + "[[truck_lane]]", "truck_lane", "5 lanes, up to 4 are taken"},
       {"truck zone the wrong way", "x = [-3.3, 4.5]", "x = [4.5, -3.3]", "truck_zone[0].x", "not below"},
       {"truck zone without a ceiling", "ceiling = 1.0 ", "roof = 1.0 ", "truck_zone[0].ceiling", "is missing"},
       {"no truck", "[truck]", "[lorry]", "truck", "is missing"},

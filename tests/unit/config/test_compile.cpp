@@ -115,6 +115,25 @@ void expect_tail_safe(const TailFile& t, const berm_parameters& p) {
   expect_down(t.fresh * 1e6, p.tail_fresh_us, "tail fresh");
 }
 
+void expect_workspace_safe(const WorkspaceFile& w, const SiteFile& site, const berm_parameters& p) {
+  EXPECT_EQ(p.workspace_watched, w.watched ? 1 : 0);
+  EXPECT_EQ(p.workspace_follows, w.follows ? 1 : 0);
+  expect_up(w.radius * 1e3, p.workspace_radius_mm, "workspace radius");
+  expect_down(w.rise * 1e3, p.workspace_rise_mm, "workspace rise");
+  expect_down(w.neighbour * 1e3, p.workspace_neighbour_mm, "workspace neighbour");
+  expect_up(w.slope * 1e3, p.workspace_slope_mm, "workspace slope");
+  expect_down(w.wait * 1e6, p.workspace_wait_us, "workspace wait");
+  expect_down(w.period * 1e6, p.workspace_period_us, "workspace period");
+  expect_up(w.dwell * 1e6, p.workspace_dwell_us, "workspace dwell");
+  ASSERT_EQ(p.lanes, static_cast<std::int32_t>(site.truck_lane.size()));
+  for (std::size_t i = 0; i < site.truck_lane.size(); ++i) {
+    expect_up(site.truck_lane[i].x_low * 1e3, p.lane[i].x_low_mm, "lane x_low");
+    expect_up(site.truck_lane[i].y_low * 1e3, p.lane[i].y_low_mm, "lane y_low");
+    expect_down(site.truck_lane[i].x_high * 1e3, p.lane[i].x_high_mm, "lane x_high");
+    expect_down(site.truck_lane[i].y_high * 1e3, p.lane[i].y_high_mm, "lane y_high");
+  }
+}
+
 void expect_places_safe(const MachineFile& m, const SiteFile& site, const berm_parameters& p) {
   expect_down(m.own_body_radius * 1e3, p.own_body_radius_mm, "own_body_radius");
   for (std::size_t i = 0; i < m.part.size(); ++i) {
@@ -179,6 +198,11 @@ void disturb(MachineFile& m, SiteFile& site, std::mt19937_64& random) {
   shake(site.pass_over);
   for (GroundZoneFile& zone : site.ground_zone) shake(zone.x_low, zone.x_high, zone.y_low, zone.y_high, zone.pass_over);
   for (TruckZoneFile& zone : site.truck_zone) shake(zone.x_low, zone.x_high, zone.y_low, zone.y_high, zone.ceiling);
+  WorkspaceFile& w = m.workspace;
+  shake(w.radius, w.rise, w.neighbour, w.slope, w.wait, w.period, w.dwell);
+  w.watched = random() % 2 == 0;
+  w.follows = random() % 2 == 0;
+  for (LaneFile& lane : site.truck_lane) shake(lane.x_low, lane.x_high, lane.y_low, lane.y_high);
 }
 
 // verifies: IF-CF-10, IF-CF-11, IF-CF-12, IF-CF-13
@@ -193,6 +217,7 @@ TEST(Compile, EveryFieldIsRoundedToTheSafeSide) {
     expect_rules_safe(d.machine.kernel, p);
     expect_places_safe(d.machine, d.site, p);
     expect_tail_safe(d.machine.tail, p);
+    expect_workspace_safe(d.machine.workspace, d.site, p);
     ASSERT_FALSE(testing::Test::HasFailure()) << "seed " << kSeed << " draw " << i;
   }
 }

@@ -37,7 +37,7 @@ TEST(Layout, NoHiddenPadding) {
     end = whole ? 0 : entry[i].offset + entry[i].size;
     structures += whole ? 1 : 0;
   }
-  EXPECT_EQ(structures, 15u);
+  EXPECT_EQ(structures, 16u);
 }
 
 // verifies: IF-CT-2

@@ -75,6 +75,16 @@ std::vector<Limit> limits(const berm_parameters& ok) {
       limit(SK_RULE_TAIL_CLEARANCE, 500, 3000, FIELD(tail_clearance_mm)),
       limit(SK_RULE_TAIL_FRESH, 1, ok.fresh_us, FIELD(tail_fresh_us)),
       limit(SK_RULE_LIDAR_COUNT, 0, BERM_LIDARS, FIELD(lidars)),
+      limit(SK_RULE_WORKSPACE_WATCHED, 0, 1, FIELD(workspace_watched)),
+      limit(SK_RULE_WORKSPACE_RADIUS, ok.own_body_radius_mm, 15000, FIELD(workspace_radius_mm)),
+      limit(SK_RULE_WORKSPACE_HEIGHTS, 100, 2000, FIELD(workspace_rise_mm)),
+      limit(SK_RULE_WORKSPACE_HEIGHTS, 100, 2000, FIELD(workspace_neighbour_mm)),
+      limit(SK_RULE_WORKSPACE_HEIGHTS, 100, 5000, FIELD(workspace_slope_mm)),
+      limit(SK_RULE_WORKSPACE_TIMES, 0, 10000000, FIELD(workspace_wait_us)),
+      limit(SK_RULE_WORKSPACE_TIMES, 1, 1000000, FIELD(workspace_period_us)),
+      limit(SK_RULE_WORKSPACE_TIMES, 0, 60000000, FIELD(workspace_dwell_us)),
+      limit(SK_RULE_WORKSPACE_FOLLOWS, 0, 1, FIELD(workspace_follows)),
+      limit(SK_RULE_LANE_COUNT, 0, BERM_LANES, FIELD(lanes)),
   };
   for (int j = 0; j < 4; ++j) {
     const std::int32_t bound = j == 0 ? 6283186 : 3141593;
@@ -171,6 +181,28 @@ TEST(ParameterCheck, EachLidarBeyondEachLimit) {
       }
       for (const std::int32_t v : {f.low, f.high}) EXPECT_EQ(with(v, BERM_LIDARS), SK_RULE_NONE) << "lidar " << i << ": " << v;
     }
+}
+
+// verifies: SK-PC-84
+TEST(ParameterCheck, EachLaneBeyondEachLimit) {
+  const berm_parameters ok = valid_parameters();
+  for (int i = 0; i < BERM_LANES; ++i) {
+    const auto with = [&](berm_lane lane, std::int32_t lanes) {
+      berm_parameters p = ok;
+      p.lanes = lanes;
+      for (berm_lane& l : p.lane) l = {-15000, -15000, 15000, 15000};
+      p.lane[i] = lane;
+      return sk_parameters_check(&p);
+    };
+    EXPECT_EQ(with({-15000, -15000, 15000, 15000}, BERM_LANES), SK_RULE_NONE);
+    EXPECT_EQ(with({0, 0, 1, 1}, BERM_LANES), SK_RULE_NONE);
+    constexpr std::int32_t kLow = std::numeric_limits<std::int32_t>::min(), kHigh = std::numeric_limits<std::int32_t>::max();
+    for (const berm_lane bad : {berm_lane{0, 0, 0, 1}, berm_lane{0, 0, 1, 0}, berm_lane{1, 0, 0, 1}, berm_lane{-15001, 0, 1, 1}, berm_lane{0, -15001, 1, 1},
+                                berm_lane{0, 0, 15001, 1}, berm_lane{0, 0, 1, 15001}, berm_lane{kLow, kLow, kHigh, kHigh}}) {
+      EXPECT_EQ(with(bad, BERM_LANES), SK_RULE_LANE_BOUNDS) << "lane " << i;
+      EXPECT_EQ(with(bad, i), SK_RULE_NONE) << "one that is not counted is not looked at";
+    }
+  }
 }
 
 // Two rules broken in different places: the one that stands first is returned.

@@ -1,11 +1,13 @@
 // Cells that are emptied, because their ground is known to have become another one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <initializer_list>
 #include <limits>
 #include <utility>
 
+#include "core/monitor_forget.h"
 #include "monitor_scene.hpp"
 
 namespace berm::core_test {
@@ -53,6 +55,25 @@ TEST_P(MonitorForget, NoOtherCellAndNothingElseChanges) {
     expected->height_mm[iy][ix] = expected->obstacle_height_mm[iy][ix] = -20000;
     EXPECT_TRUE(forget(iy, ix));
     EXPECT_EQ(std::memcmp(scene.monitor.get(), expected.get(), sizeof *expected), 0) << iy << " " << ix;
+  }
+}
+
+// verifies: SK-WM-8
+TEST_P(MonitorForget, OfARectangleEveryCellThatItTouchesAndNoOther) {
+  struct { std::int32_t x_low, y_low, x_high, y_high; } rectangles[] = {{-3000, 600, 900, 1500}, {-2999, 601, 899, 1499}, {5, 5, 6, 6}, {-15600, -15600, 15600, 15600},
+                                                                       {20000, 0, 30000, 300}};
+  for (const auto& r : rectangles) {
+    scene.ground(0);
+    const auto before = std::make_unique<sk_monitor>(*scene.monitor);
+    sk_forget_rectangle(scene.monitor.get(), r.x_low, r.y_low, r.x_high, r.y_high);
+    for (int iy = 0; iy < SK_MAP_CELLS; ++iy)
+      for (int ix = 0; ix < SK_MAP_CELLS; ++ix) {
+        const std::int32_t x = -15600 + 300 * ix, y = -15600 + 300 * iy;
+        const bool touches = std::max(x, r.x_low) <= std::min(x + 300, r.x_high) && std::max(y, r.y_low) <= std::min(y + 300, r.y_high);
+        ASSERT_EQ(scene.accumulated(iy, ix), (touches ? kForgotten : MonitorCell{before->accumulated_flag[iy][ix], before->height_mm[iy][ix],
+                                                                                 before->obstacle_height_mm[iy][ix]}))
+            << r.x_low << " " << iy << " " << ix;
+      }
   }
 }
 

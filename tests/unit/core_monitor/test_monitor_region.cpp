@@ -1,46 +1,103 @@
-// The safety region: its circle, and that an obstacle in any of its cells is found.
+// The safety region: its circle, what is left out of it, and that an obstacle in any of its cells is found.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <initializer_list>
-#include <limits>
-#include <utility>
+#include <random>
+#include <vector>
 
 #include "monitor_scene.hpp"
 
 namespace berm::core_test {
 namespace {
 
-// verifies: SK-WM-40
-TEST(MonitorRegion, TheCircleIsOfEveryCellThatHasAPointInIt) {
-  const auto rules = monitor_rules(true);
-  for (const std::int64_t radius : {1, 299, 300, 301, 12'000, 15'000, 15'600, 22'100, 32'000}) {
-    ASSERT_TRUE(sk_watch_circle(rules.get(), static_cast<std::int32_t>(radius)));
-    for (int iy = 0; iy < SK_MAP_CELLS; ++iy)
-      for (int ix = 0; ix < SK_MAP_CELLS; ++ix) {
-        const std::int64_t low_x = -15600 + 300 * ix, low_y = -15600 + 300 * iy;
-        const std::int64_t x = std::clamp<std::int64_t>(0, low_x, low_x + 300), y = std::clamp<std::int64_t>(0, low_y, low_y + 300);
-        ASSERT_EQ(rules->watched[iy][ix] != 0, x * x + y * y <= radius * radius) << radius << " " << iy << " " << ix;
-      }
-  }
+berm_parameters parameters(std::int32_t radius_mm, std::int32_t own_mm) {
+  berm_parameters p{};
+  p.workspace_radius_mm = radius_mm;
+  p.own_body_radius_mm = own_mm;
+  return p;
+}
+
+bool within(std::int64_t low_x, std::int64_t low_y, std::int64_t radius) {
+  const std::int64_t x = std::clamp<std::int64_t>(0, low_x, low_x + 300), y = std::clamp<std::int64_t>(0, low_y, low_y + 300);
+  return x * x + y * y <= radius * radius;
 }
 
 // verifies: SK-WM-40
-TEST(MonitorRegion, ARadiusOutOfRangeChangesNothing) {
+TEST(MonitorRegion, TheCircleIsOfEveryCellThatHasAPointInItButTheOwnBodys) {
   const auto rules = monitor_rules(true);
-  ASSERT_TRUE(sk_watch_circle(rules.get(), 5000));
-  const auto before = std::make_unique<sk_monitor_rules>(*rules);
-  for (const std::int32_t radius : {std::numeric_limits<std::int32_t>::min(), -1, 0, 32001, std::numeric_limits<std::int32_t>::max()})
-    EXPECT_FALSE(sk_watch_circle(rules.get(), radius)) << radius;
-  EXPECT_EQ(std::memcmp(rules.get(), before.get(), sizeof *rules), 0);
+  for (const std::int32_t radius : {1, 299, 300, 301, 12'000, 14'999, 15'000})
+    for (const std::int32_t own : {1, 300, 3'000}) {
+      const berm_parameters p = parameters(radius, own);
+      sk_watch_region(rules.get(), &p, true);
+      for (int iy = 0; iy < SK_MAP_CELLS; ++iy)
+        for (int ix = 0; ix < SK_MAP_CELLS; ++ix) {
+          const std::int64_t x = -15600 + 300 * ix, y = -15600 + 300 * iy;
+          ASSERT_EQ(rules->watched[iy][ix] != 0, within(x, y, radius) && !within(x, y, own)) << radius << " " << own << " " << iy << " " << ix;
+        }
+    }
+}
+
+struct Rectangle {
+  std::int64_t x_low, y_low, x_high, y_high;
+};
+
+// Not an edge of theirs is beyond an edge of the other's.
+bool touches(const Rectangle& a, const Rectangle& b) {
+  return std::max(a.x_low, b.x_low) <= std::min(a.x_high, b.x_high) && std::max(a.y_low, b.y_low) <= std::min(a.y_high, b.y_high);
+}
+
+// verifies: SK-WM-40, SK-WM-46
+TEST(MonitorRegion, WhatTheMachineChangesIsLeftOutAndLanesWhileTheyAreOpen) {
+  constexpr unsigned kSeed = 17;
+  std::mt19937 random(kSeed);
+  // Corners on cell borders too, where touching is decided.
+  const auto coordinate = [&random] { return static_cast<std::int32_t>(random() % 2 != 0 ? 300 * (random() % 101) - 15000 : random() % 30001 - 15000); };
+  const auto rectangle = [&] {
+    std::int32_t x = coordinate(), y = coordinate(), u = coordinate(), v = coordinate();
+    return berm_lane{std::min(x, u), std::min(y, v), std::max(x, u) + 1, std::max(y, v) + 1};
+  };
+  const auto rules = monitor_rules(true);
+  int left_out = 0;
+  for (int round = 0; round < 60; ++round) {
+    berm_parameters p = parameters(15'000, 2'000);
+    std::vector<Rectangle> fixed, lanes;
+    const auto noted = [](const berm_lane& r, std::vector<Rectangle>& list) { return list.push_back({r.x_low_mm, r.y_low_mm, r.x_high_mm, r.y_high_mm}), r; };
+    p.dig_zones = round % (BERM_DIG_ZONES + 1);
+    p.truck_zones = round % (BERM_TRUCK_ZONES + 1);
+    p.lanes = round % (BERM_LANES + 1);
+    for (int i = 0; i < p.dig_zones; ++i) {
+      const berm_lane r = noted(rectangle(), fixed);
+      p.dig_zone[i] = {r.x_low_mm, r.y_low_mm, r.x_high_mm, r.y_high_mm, 0, 0};
+    }
+    for (int i = 0; i < p.truck_zones; ++i) {
+      const berm_lane r = noted(rectangle(), fixed);
+      p.truck_zone[i] = {r.x_low_mm, r.y_low_mm, r.x_high_mm, r.y_high_mm, 0};
+    }
+    for (int i = 0; i < p.lanes; ++i) p.lane[i] = noted(rectangle(), lanes);
+    p.lane[BERM_LANES - 1].x_low_mm = p.lanes < BERM_LANES ? -15000 : p.lane[BERM_LANES - 1].x_low_mm;  // one that is not counted
+    for (const bool open : {false, true}) {
+      sk_watch_region(rules.get(), &p, open);
+      for (int iy = 0; iy < SK_MAP_CELLS; ++iy)
+        for (int ix = 0; ix < SK_MAP_CELLS; ++ix) {
+          const std::int64_t x = -15600 + 300 * ix, y = -15600 + 300 * iy;
+          const Rectangle cell{x, y, x + 300, y + 300};
+          const auto in = [&cell](const Rectangle& r) { return touches(cell, r); };
+          const bool out = std::any_of(fixed.begin(), fixed.end(), in) || (open && std::any_of(lanes.begin(), lanes.end(), in));
+          left_out += out;
+          ASSERT_EQ(rules->watched[iy][ix] != 0, within(x, y, 15'000) && !within(x, y, 2'000) && !out) << "seed " << kSeed << " round " << round << " " << iy << " " << ix;
+        }
+    }
+  }
+  EXPECT_GT(left_out, 100000);
 }
 
 // verifies: SK-WM-41
 TEST(MonitorRegion, AnObstacleStopsInEveryWatchedCellAndInNoOther) {
   MonitorScene scene(true);
   scene.ground(0);
-  sk_watch_circle(scene.rules.get(), 12'000);
+  const berm_parameters p = parameters(12'000, 2'000);
+  sk_watch_region(scene.rules.get(), &p, true);
   for (int iy = 0; iy < SK_MAP_CELLS; ++iy)
     for (int ix = 0; ix < SK_MAP_CELLS; ++ix)
       for (const int flag : std::initializer_list<int>{SK_FLAG_OBSTACLE, 0x00, SK_FLAG_NOT_VISITED}) {
@@ -52,43 +109,6 @@ TEST(MonitorRegion, AnObstacleStopsInEveryWatchedCellAndInNoOther) {
         scene.accumulated(iy, ix, {SK_FLAG_CHANGED, 0, 0});
       }
   EXPECT_FALSE(sk_find_obstacle(scene.monitor.get(), scene.rules.get(), &scene.where));
-}
-
-// verifies: SK-WM-46
-TEST(MonitorRegion, AnExcludedCellStopsNoMoreAndEveryOtherStill) {
-  MonitorScene scene(true);
-  scene.ground(0);
-  ASSERT_TRUE(sk_watch_circle(scene.rules.get(), 12'000));
-  for (const auto& [iy, ix] : std::initializer_list<std::pair<int, int>>{{52, 52}, {52, 53}, {20, 60}, {0, 0}, {103, 103}, {52, 52}}) {
-    const auto expected = std::make_unique<sk_monitor_rules>(*scene.rules);
-    expected->watched[iy][ix] = 0;
-    EXPECT_TRUE(sk_region_exclude(scene.rules.get(), iy, ix));
-    EXPECT_EQ(std::memcmp(scene.rules.get(), expected.get(), sizeof *expected), 0) << iy << " " << ix;
-  }
-  const auto found = [&scene](int iy, int ix) {
-    scene.accumulated(iy, ix, {SK_FLAG_OBSTACLE, 0, 1700});
-    const bool stops = sk_find_obstacle(scene.monitor.get(), scene.rules.get(), &scene.where);
-    scene.accumulated(iy, ix, {SK_FLAG_SET, 0, 0});
-    return stops;
-  };
-  EXPECT_FALSE(found(52, 53));
-  EXPECT_TRUE(found(53, 52));
-  EXPECT_TRUE(found(52, 54));
-  ASSERT_TRUE(sk_watch_circle(scene.rules.get(), 12'000));
-  EXPECT_TRUE(found(52, 53)) << "the circle puts it back";
-}
-
-// verifies: SK-WM-46
-TEST(MonitorRegion, ACellOutsideTheMapIsNotExcluded) {
-  const auto rules = monitor_rules(true);
-  const auto before = std::make_unique<sk_monitor_rules>(*rules);
-  constexpr std::int32_t kLow = std::numeric_limits<std::int32_t>::min(), kHigh = std::numeric_limits<std::int32_t>::max();
-  for (const std::int32_t out : {kLow, -1, SK_MAP_CELLS, kHigh})
-    for (const std::int32_t in : {0, 103}) {
-      EXPECT_FALSE(sk_region_exclude(rules.get(), out, in)) << out;
-      EXPECT_FALSE(sk_region_exclude(rules.get(), in, out)) << out;
-    }
-  EXPECT_EQ(std::memcmp(rules.get(), before.get(), sizeof *rules), 0);
 }
 
 }  // namespace

@@ -54,12 +54,16 @@ TEST_P(WorkspaceMonitor, APersonWhoComesStopsAndOneWhoLeavesLetsGoAfterTheDwell)
 
 // verifies: SK-WM-41
 TEST_P(WorkspaceMonitor, OutsideTheRegionAnObstacleStopsNothing) {
-  sk_watch_circle(scene.rules.get(), 5'000);
-  person_iy = person_ix = 10;
+  berm_parameters region{};
+  region.own_body_radius_mm = 1'000;
+  region.workspace_radius_mm = 5'000;
+  sk_watch_region(scene.rules.get(), &region, true);
+  person_iy = person_ix = 20;
   sweep();
   EXPECT_FALSE(stop);
-  EXPECT_EQ(scene.accumulated(10, 10).flag, SK_FLAG_OBSTACLE);
-  sk_watch_circle(scene.rules.get(), 20'000);
+  EXPECT_EQ(scene.accumulated(20, 20).flag, SK_FLAG_OBSTACLE);
+  region.workspace_radius_mm = 15'000;
+  sk_watch_region(scene.rules.get(), &region, true);
   EXPECT_TRUE(sk_monitor_step(scene.monitor.get(), scene.rules.get(), scene.now_us, &scene.where)) << "the region is asked at every step";
 }
 

@@ -17,10 +17,17 @@ constexpr double kBlockCdeg = 39.813;    // turned meanwhile at 10 Hz
 constexpr int kRankOfLaser[16] = {0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15};
 constexpr std::uint32_t kLegCycles = 400, kWallCycles = 3000;
 
+// The workspace watched as well: all that a cycle can be asked to do.
+berm_parameters watched() {
+  berm_parameters p = berm::test::demo_parameters();
+  p.workspace_watched = 1;
+  return p;
+}
+
 }  // namespace
 
 LoadedKernel::LoadedKernel()
-    : lidar_(one_second_of_vlp16()), scratch_(std::make_unique<Vlp16Packet>()), segment_(std::make_unique<berm_state_segment>()) {
+    : rig_(watched()), lidar_(one_second_of_vlp16()), scratch_(std::make_unique<Vlp16Packet>()), segment_(std::make_unique<berm_state_segment>()) {
   publisher_ = std::make_unique<Publisher>(*segment_, rig_.parameters, true);
   arrived_.reserve(16);
 }

@@ -102,7 +102,7 @@ TEST_F(CycleTail, UnwatchedNothingIsCheckedAndTheStateSaysSo) {
   begin();
   stand_at(0.4 + kPi + 0.8, 3.4);
   ASSERT_TRUE(reach_state(BERM_STATE_RUN, 1500)) << why();
-  EXPECT_EQ(state().unwatched, BERM_UNWATCHED_TAIL);
+  EXPECT_EQ(state().unwatched & BERM_UNWATCHED_TAIL, BERM_UNWATCHED_TAIL);
   steps(1000);
   rig->wanted_urad_s[0] = 300000;
   steps(400);
@@ -112,7 +112,7 @@ TEST_F(CycleTail, UnwatchedNothingIsCheckedAndTheStateSaysSo) {
 // verifies: SK-TS-1
 TEST_F(CycleTail, WatchedAndFreeItSwings) {
   run();
-  EXPECT_EQ(state().unwatched, 0U);
+  EXPECT_EQ(state().unwatched & BERM_UNWATCHED_TAIL, 0U);
   rig->wanted_urad_s[0] = 300000;
   steps(400);
   EXPECT_GT(swing(), 1.0) << why();

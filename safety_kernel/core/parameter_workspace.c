@@ -1,0 +1,62 @@
+#include "parameter_workspace.h"
+#include "parameter_range.h"
+#include "parameter_rectangle.h"
+
+/*@ requires \valid_read(p);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_rule_workspace_heights(p);
+  @*/
+static bool heights_ok(const berm_parameters *p)
+{
+  return sk_is_within(p->workspace_rise_mm, 100, 2000) && sk_is_within(p->workspace_neighbour_mm, 100, 2000) &&
+         sk_is_within(p->workspace_slope_mm, 100, 5000);
+}
+
+/*@ requires \valid_read(p);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_rule_workspace_times(p);
+  @*/
+static bool times_ok(const berm_parameters *p)
+{
+  return sk_is_within(p->workspace_wait_us, 0, 10000000) && sk_is_within(p->workspace_period_us, 1, 1000000) &&
+         sk_is_within(p->workspace_dwell_us, 0, 60000000);
+}
+
+/*@ requires \valid_read(z);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_lane_ok(z);
+  @*/
+static bool lane_ok(const berm_lane *z)
+{
+  return sk_is_rectangle(z->x_low_mm, z->y_low_mm, z->x_high_mm, z->y_high_mm);
+}
+
+/*@ requires \valid_read(p) && 0 <= p->lanes <= BERM_LANES;
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_rule_lane_bounds(p);
+  @*/
+static bool lanes_ok(const berm_parameters *p)
+{
+  int32_t i;
+  /*@ loop invariant 0 <= i <= p->lanes;
+    @ loop invariant \forall integer k; 0 <= k < i ==> sk_lane_ok(&p->lane[k]);
+    @ loop assigns i;
+    @ loop variant p->lanes - i;
+    @*/
+  for (i = 0; i < p->lanes; i++) {
+    if (!lane_ok(&p->lane[i])) { return false; }
+  }
+  return true;
+}
+
+int32_t sk_check_workspace(const berm_parameters *p)
+{
+  if (!sk_is_within(p->workspace_watched, 0, 1)) { return SK_RULE_WORKSPACE_WATCHED; }
+  if (!sk_is_within(p->workspace_radius_mm, p->own_body_radius_mm, 15000)) { return SK_RULE_WORKSPACE_RADIUS; }
+  if (!heights_ok(p)) { return SK_RULE_WORKSPACE_HEIGHTS; }
+  if (!times_ok(p)) { return SK_RULE_WORKSPACE_TIMES; }
+  if (!sk_is_within(p->workspace_follows, 0, 1)) { return SK_RULE_WORKSPACE_FOLLOWS; }
+  if (!sk_is_within(p->lanes, 0, BERM_LANES)) { return SK_RULE_LANE_COUNT; }
+  if (!lanes_ok(p)) { return SK_RULE_LANE_BOUNDS; }
+  return SK_RULE_NONE;
+}
