@@ -109,7 +109,7 @@ class Loop {
     if (scans_) world_.scan(t, cycle_s, before, dynamics_.state(), pan_before, pan_, arrived.scans);
     if (seen_ != nullptr)
       for (const auto& packet : arrived.scans) seen_->take(packet, t, dynamics_.state());
-    else if (scans_) world_.scan_lidars(t, cycle_s, before, dynamics_.state(), arrived.lidars);
+    if (supervisor_->needs_scans()) world_.scan_lidars(t, cycle_s, before, dynamics_.state(), arrived.lidars);
     const auto& speed = dynamics_.state().velocity;
     resting_ = std::all_of(speed.begin(), speed.end(), [](double v) { return std::fabs(v) < still; });
 

@@ -23,9 +23,22 @@ constexpr double retreat_for = 1.0;     // s
 constexpr double creep_share = 0.9;
 constexpr double range_room = radians(8.0);
 
-// Of what the implements' own motion led to; an intruder is waited for, wherever they are.
+// Of what the implements' own motion led to.
 bool by_ground(std::uint8_t reason) {
   return (BERM_STOP_HAS_CELL(reason) && reason != BERM_STOP_INTRUDER) || reason == BERM_STOP_JOINT_RANGE;
+}
+
+// What another look may end: the same, and an intruder, who is waited for wherever the implements are.
+bool by_place(std::uint8_t reason) { return by_ground(reason) || reason == BERM_STOP_INTRUDER; }
+
+const char* advice_for(const Observation& o) {
+  switch (o.stop_reason) {
+    case BERM_STOP_TAIL: return "send away who stands behind the machine, look all round it, beside the tracks too, then press reset";
+    case BERM_STOP_JOINT_RANGE: return "move the joint back into its range by hand";
+    case BERM_STOP_INTRUDER: return "send away who or what came; if nobody is there, press relearn";
+    case BERM_STOP_OVERPASS: return "send away who or what stands there, or admit the truck; if nothing stands there, press relearn";
+    default: return o.latched ? "mend the cause, then press reset" : "clear the place; if nothing stands there, press relearn";
+  }
 }
 
 }  // namespace
@@ -50,21 +63,11 @@ Joints Recovery::retreat(const Observation& o, double blocked_s) const {
 
 // What a person must do, once a trouble. True when the call was made just now.
 bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
-  const bool lasts = by_ground(o.stop_reason) || o.stop_reason == BERM_STOP_INTRUDER;
-  if (called_ || !(o.latched || (lasts && o.time_s - since_s_ > call_after))) return false;
+  if (called_ || !(o.latched || (by_place(o.stop_reason) && o.time_s - since_s_ > call_after))) return false;
   called_ = true;
   nlohmann::ordered_json fields{{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}, {"stopped_s", o.time_s - since_s_}};
-  if (o.latched) {
-    fields["advice"] = o.stop_reason == BERM_STOP_TAIL ? "send away who stands behind the machine, look all round it, beside the tracks too, then press reset"
-                                                       : "mend the cause, then press reset";
-  } else if (o.stop_reason == BERM_STOP_JOINT_RANGE) {
-    fields["advice"] = "move the joint back into its range by hand";
-  } else {
-    fields.update({{"x_m", o.blocked_x}, {"y_m", o.blocked_y}, {"height_m", o.blocked_height}});
-    if (o.stop_reason == BERM_STOP_INTRUDER) fields["advice"] = "send away who or what came; if nobody is there, press relearn";
-    else fields["advice"] = o.stop_reason == BERM_STOP_OVERPASS ? "send away who or what stands there, or admit the truck; if nothing stands there, press relearn"
-                                                           : "clear the place; if nothing stands there, press relearn";
-  }
+  if (!o.latched && o.stop_reason != BERM_STOP_JOINT_RANGE) fields.update({{"x_m", o.blocked_x}, {"y_m", o.blocked_y}, {"height_m", o.blocked_height}});
+  fields["advice"] = advice_for(o);
   log.event("operator_needed", fields);
   return true;
 }
@@ -146,7 +149,7 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
   advice.in_charge = true;
   if (!stopped_) begin_stop(o, log);
   advice.operator_called = call_operator(o, log);
-  if (!by_ground(o.stop_reason) && o.stop_reason != BERM_STOP_INTRUDER) return advice;
+  if (!by_place(o.stop_reason)) return advice;
   const double blocked = o.time_s - stop_s_;  // without a moment in which standing was permitted
   if (o.time_s > next_rescan_s_) {
     advice.rescan = true;

@@ -54,8 +54,8 @@ void LidarIntake::insert(const Mount& mount, const Vlp16Return& hit, const Swung
   const sk_point from = base_point(edge[0], swung.cosine, swung.sine), to = base_point(edge[1], swung.cosine, swung.sine);
   if (self_.is_own(edge[0], swung.pose) && self_.is_own(edge[1], swung.pose)) {
     // What the implements hide keeps its height. Behind ground or tracks within the own body's circle nothing is hidden that this beam could have seen.
-    const sk_point head = base_point(mount.place, swung.cosine, swung.sine);
-    if (self_.is_implement(edge[0], swung.pose)) shadow.keep(OwnShadow::kLidar, head, from, now_us, map);
+    if (!self_.is_implement(edge[0], swung.pose)) return;
+    shadow.keep(OwnShadow::kLidar, base_point(mount.place, swung.cosine, swung.sine), from, now_us, map);
     return;
   }
   if (sk_raster_segment(&map, &from, &to, now_us, parameters_.generation_us) > 0) ++points_;

@@ -98,7 +98,7 @@ TEST_F(CycleWorkspace, AMovingMachineIsStopped) {
   EXPECT_LT(std::fabs(rig->machine.velocity_rad_s[3]), 1e-3);
 }
 
-// verifies: SK-WM-52
+// verifies: SK-WM-40, SK-WM-51
 TEST_F(CycleWorkspace, WhatIsFarOrLowIsNoIntruder) {
   run();
   rises(0.9 * parameters.workspace_rise_mm * 1e-3);
@@ -137,6 +137,20 @@ TEST_F(CycleWorkspace, RelearningTakesWhatStandsThereForGround) {
   rig->machine.relearn_key = false;
   EXPECT_GT(cycles_until(BERM_STATE_RUN, 2 * kSweepCycles), 0) << why();
   EXPECT_EQ(cycles_until(BERM_STATE_STOPPED, 2 * detection_limit()), -1) << why();
+}
+
+// verifies: SK-WM-52, SK-WM-54
+TEST_F(CycleWorkspace, WhileTheBaseHasMovedNothingIsFed) {
+  run();
+  rig->steps(3);
+  EXPECT_GT(rig->cycle->workspace().monitor().modified, 0);
+  rig->machine.roll_urad = 30000;
+  for (int n = 0; n < 100 && state().stop_reason != BERM_STOP_BASE_MOVED; ++n) rig->step();
+  ASSERT_EQ(state().stop_reason, BERM_STOP_BASE_MOVED) << why();
+  for (int n = 0; n < 50; ++n) {
+    rig->step();
+    ASSERT_EQ(rig->cycle->workspace().monitor().modified, 0);
+  }
 }
 
 }  // namespace

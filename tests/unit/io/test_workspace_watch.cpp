@@ -1,0 +1,102 @@
+// What the Workspace Monitor is fed, and when a lane is watched.
+#include "io/workspace_watch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "core/height_map.h"
+#include "mini_machine.hpp"
+
+namespace berm::kernel::test {
+namespace {
+
+constexpr std::int64_t kNow = 1000000;
+
+class WorkspaceWatchTest : public testing::Test {
+ protected:
+  WorkspaceWatchTest() {
+    parameters = berm::test::demo_parameters();
+    parameters.workspace_watched = 1;
+    parameters.dig_zones = parameters.truck_zones = 0;
+    parameters.lanes = 1;
+    parameters.lane[0] = {-15000, 6000, 15000, 9000};
+    watch = std::make_unique<WorkspaceWatch>(parameters);
+  }
+  // Returns of one scanline, the first with this number.
+  void see(std::initializer_list<sk_point> points, int first, std::uint32_t scanline = 7, int dropped = -1) {
+    blocks->count = 1;
+    berm_scan_block& block = blocks->block[0];
+    block = berm_scan_block{};
+    block.scanline = scanline;
+    block.first_index = static_cast<std::uint16_t>(first);
+    for (const sk_point& p : points) {
+      block.used[block.count] = block.count == dropped ? 0 : 1;
+      block.point_mm[block.count][0] = p.x_mm;
+      block.point_mm[block.count][1] = p.y_mm;
+      block.point_mm[block.count][2] = p.z_mm;
+      ++block.count;
+    }
+    watch->take(*blocks, kNow);
+  }
+  int flag(std::int32_t x_mm, std::int32_t y_mm) const { return watch->monitor().temporary_flag[sk_map_index(y_mm)][sk_map_index(x_mm)]; }
+  int height(std::int32_t x_mm, std::int32_t y_mm) const { return watch->monitor().highest_mm[sk_map_index(y_mm)][sk_map_index(x_mm)]; }
+  bool watched(std::int32_t x_mm, std::int32_t y_mm) const { return watch->rules().watched[sk_map_index(y_mm)][sk_map_index(x_mm)] != 0; }
+
+  berm_parameters parameters{};
+  std::unique_ptr<WorkspaceWatch> watch;
+  std::unique_ptr<ScanBlocks> blocks = std::make_unique<ScanBlocks>();
+};
+
+// verifies: SK-WM-52
+TEST_F(WorkspaceWatchTest, ReturnsAndTheLineBetweenThoseThatFollowOneAnother) {
+  see({{5050, 3050, 0}, {8050, 3050, 1000}}, 100);
+  EXPECT_EQ(flag(5050, 3050), SK_FLAG_SET);
+  EXPECT_EQ(flag(8050, 3050), SK_FLAG_SET);
+  for (std::int32_t x = 5350; x < 8000; x += 300) {
+    EXPECT_EQ(flag(x, 3050), SK_FLAG_INTERPOLATED) << x;
+    EXPECT_NEAR(height(x, 3050), (x - 5050) / 3.0, 60) << x;
+  }
+  EXPECT_EQ(flag(8350, 3050), SK_FLAG_EMPTY);
+  EXPECT_EQ(flag(4750, 3050), SK_FLAG_EMPTY);
+  see({{8050, 5950, 1000}}, 102);
+  EXPECT_EQ(flag(8050, 4500), SK_FLAG_INTERPOLATED) << "across blocks";
+}
+
+// verifies: SK-WM-52
+TEST_F(WorkspaceWatchTest, NoLineOverADroppedReturnNorFromAnotherScanlineOrScanner) {
+  see({{5050, 3050, 0}, {6000, 3050, 0}, {8050, 3050, 0}}, 100, 7, 1);
+  EXPECT_EQ(flag(6050, 3050), SK_FLAG_EMPTY) << "what is not in the height map is not fed, and cuts the line";
+  see({{5050, 5050, 0}}, 103, 8);
+  EXPECT_EQ(flag(6550, 4050), SK_FLAG_EMPTY) << "another scanline";
+  blocks->block[0].scanner = 1;
+  blocks->block[0].first_index = 104;
+  blocks->block[0].point_mm[0][0] = 9050;
+  watch->take(*blocks, kNow);
+  EXPECT_EQ(flag(7050, 5050), SK_FLAG_EMPTY) << "another scanner";
+  EXPECT_EQ(flag(9050, 5050), SK_FLAG_SET);
+}
+
+// verifies: SK-WM-53
+TEST_F(WorkspaceWatchTest, ALaneChangesOnlyOnAFreshWord) {
+  EXPECT_FALSE(watched(4050, 7050)) << "open from the start";
+  EXPECT_TRUE(watched(4050, 5050));
+  see({{4050, 7050, 0}, {4050, 5050, 0}}, 100);
+  watch->trucks(false, true);
+  EXPECT_FALSE(watched(4050, 7050));
+  EXPECT_EQ(flag(4050, 7050), SK_FLAG_SET);
+  watch->trucks(true, true);
+  EXPECT_TRUE(watched(4050, 7050));
+  EXPECT_EQ(flag(4050, 7050), SK_FLAG_EMPTY) << "forgotten";
+  EXPECT_EQ(flag(4050, 5050), SK_FLAG_SET) << "beside it nothing is";
+  see({{4050, 7050, 0}}, 200);
+  watch->trucks(true, true);
+  EXPECT_EQ(flag(4050, 7050), SK_FLAG_SET) << "said again, nothing is forgotten again";
+  watch->trucks(false, false);
+  EXPECT_TRUE(watched(4050, 7050)) << "a spotter who fell silent opens nothing";
+  watch->trucks(true, false);
+  EXPECT_FALSE(watched(4050, 7050));
+}
+
+}  // namespace
+}  // namespace berm::kernel::test
