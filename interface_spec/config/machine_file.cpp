@@ -142,6 +142,8 @@ WorkspaceFile read_workspace(StrictTable table, double own_body_radius) {
   w.wait = table.number("wait", 0.0, 10.0);
   w.period = table.number("period", 0.01, 1.0);
   w.dwell = table.number("dwell", 0.0, 60.0);
+  w.learn = table.number("learn", 0.0, 120.0);
+  w.foreign = static_cast<int>(table.integer("foreign", 0, 100));
   w.follows = table.flag("follows");
   table.finish();
   return w;

@@ -60,7 +60,8 @@ struct WorkspaceFile {
   bool watched;                               // what rises in the safety region stops the machine
   double radius;                              // m, of the safety region about the swing axis
   double rise, neighbour, slope;              // m
-  double wait, period, dwell;                 // s
+  double wait, period, dwell, learn;          // s
+  int foreign;                                // voxels of free space with something in them that are an intruder; 0: not kept
   bool follows;                               // the map that is compared with follows what is seen
 };
 

@@ -90,6 +90,7 @@ static uint8_t sk_verdict_of(const sk_monitor *m, const sk_monitor_rules *r, int
 {
   if (!sk_is_due(m, r, now_us, iy, ix)) { return m->temporary_flag[iy][ix]; }
   if (!sk_is_risen(m, r, iy, ix)) { return SK_FLAG_NOT_VISITED; }
+  if (m->second_mm[iy][ix] == SK_NO_HEIGHT) { return SK_FLAG_INTERPOLATED_NOT_VISITED; }
   return sk_is_excused(m, r, iy, ix) ? SK_FLAG_CHANGED : SK_FLAG_OBSTACLE;
 }
 

@@ -12,6 +12,8 @@ SK_BEGIN
   @ predicate sk_rises{L}(sk_monitor *m, sk_monitor_rules *r, integer iy, integer ix) =
   @   \at(m->accumulated_flag[iy][ix], L) != SK_FLAG_EMPTY &&
   @   sk_new_height{L}(m, iy, ix) - \at(m->height_mm[iy][ix], L) > \at(r->height_threshold_mm, L);
+  @ // by more than one point: a lone one may be spurious, and of two the higher is discarded
+  @ predicate sk_stands_out{L}(sk_monitor *m, sk_monitor_rules *r, integer iy, integer ix) = sk_rises{L}(m, r, iy, ix) && !sk_lone{L}(m, iy, ix);
   @
   @ // a neighbour (j, i) of (iy, ix) that is SET, and nearly as high as what is new, or much higher than the cell was
   @ predicate sk_explains{L}(sk_monitor *m, sk_monitor_rules *r, integer iy, integer ix, integer j, integer i) = sk_in_map(j, i) &&
@@ -37,10 +39,11 @@ SK_BEGIN
   @ predicate sk_verdict{L}(sk_monitor *m, sk_monitor_rules *r, integer now, integer iy, integer ix, integer flag, integer verdict) =
   @   (!sk_due{L}(m, r, now, iy, ix, flag) ==> verdict == flag) &&
   @   (sk_due{L}(m, r, now, iy, ix, flag) && !sk_rises{L}(m, r, iy, ix) ==> verdict == SK_FLAG_NOT_VISITED) &&
-  @   (sk_due{L}(m, r, now, iy, ix, flag) && sk_rises{L}(m, r, iy, ix) && sk_excused{L}(m, r, iy, ix) ==> verdict == SK_FLAG_CHANGED) &&
-  @   (sk_due{L}(m, r, now, iy, ix, flag) && sk_rises{L}(m, r, iy, ix) && !sk_excused{L}(m, r, iy, ix) ==> verdict == SK_FLAG_OBSTACLE);
+  @   (sk_due{L}(m, r, now, iy, ix, flag) && sk_rises{L}(m, r, iy, ix) && sk_lone{L}(m, iy, ix) ==> verdict == SK_FLAG_INTERPOLATED_NOT_VISITED) &&
+  @   (sk_due{L}(m, r, now, iy, ix, flag) && sk_stands_out{L}(m, r, iy, ix) && sk_excused{L}(m, r, iy, ix) ==> verdict == SK_FLAG_CHANGED) &&
+  @   (sk_due{L}(m, r, now, iy, ix, flag) && sk_stands_out{L}(m, r, iy, ix) && !sk_excused{L}(m, r, iy, ix) ==> verdict == SK_FLAG_OBSTACLE);
   @ predicate sk_seen_obstacle{L}(sk_monitor *m, sk_monitor_rules *r, integer now, integer iy, integer ix) =
-  @   sk_due{L}(m, r, now, iy, ix, \at(m->temporary_flag[iy][ix], L)) && sk_rises{L}(m, r, iy, ix) && !sk_excused{L}(m, r, iy, ix);
+  @   sk_due{L}(m, r, now, iy, ix, \at(m->temporary_flag[iy][ix], L)) && sk_stands_out{L}(m, r, iy, ix) && !sk_excused{L}(m, r, iy, ix);
   @*/
 
 /* Judges one cell of the temporary map, whatever it, the accumulated map and the rules hold. False, and nothing changed, outside the map. */

@@ -47,6 +47,7 @@ typedef struct sk_monitor {
   @ // the height of a temporary cell: the highest point but one; that of its only point
   @ logic integer sk_new_height{L}(sk_monitor *m, integer iy, integer ix) =
   @   \at(m->second_mm[iy][ix], L) == SK_NO_HEIGHT ? \at(m->highest_mm[iy][ix], L) : \at(m->second_mm[iy][ix], L);
+  @ predicate sk_lone{L}(sk_monitor *m, integer iy, integer ix) = \at(m->second_mm[iy][ix], L) == SK_NO_HEIGHT;
   @ predicate sk_points_kept{A, B}(sk_monitor *m, integer iy, integer ix) =
   @   \at(m->highest_mm[iy][ix], A) == \at(m->highest_mm[iy][ix], B) && \at(m->second_mm[iy][ix], A) == \at(m->second_mm[iy][ix], B);
   @ predicate sk_temporary_kept{A, B}(sk_monitor *m, integer iy, integer ix) = sk_points_kept{A, B}(m, iy, ix) &&

@@ -91,6 +91,7 @@ SK_BEGIN
   @ ensures why_workspace_radius: \result == SK_RULE_WORKSPACE_RADIUS ==> !sk_rule_workspace_radius(p);
   @ ensures why_workspace_heights: \result == SK_RULE_WORKSPACE_HEIGHTS ==> !sk_rule_workspace_heights(p);
   @ ensures why_workspace_times: \result == SK_RULE_WORKSPACE_TIMES ==> !sk_rule_workspace_times(p);
+  @ ensures why_workspace_foreign: \result == SK_RULE_WORKSPACE_FOREIGN ==> !sk_rule_workspace_foreign(p);
   @ ensures why_workspace_follows: \result == SK_RULE_WORKSPACE_FOLLOWS ==> !sk_rule_workspace_follows(p);
   @ ensures why_lane_count: \result == SK_RULE_LANE_COUNT ==> !sk_rule_lane_count(p);
   @ ensures why_lane_bounds: \result == SK_RULE_LANE_BOUNDS ==> !sk_rule_lane_bounds(p);

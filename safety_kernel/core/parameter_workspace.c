@@ -19,7 +19,7 @@ static bool heights_ok(const berm_parameters *p)
 static bool times_ok(const berm_parameters *p)
 {
   return sk_is_within(p->workspace_wait_us, 0, 10000000) && sk_is_within(p->workspace_period_us, 1, 1000000) &&
-         sk_is_within(p->workspace_dwell_us, 0, 60000000);
+         sk_is_within(p->workspace_dwell_us, 0, 60000000) && sk_is_within(p->workspace_learn_us, 0, 120000000);
 }
 
 /*@ requires \valid_read(z);
@@ -55,6 +55,7 @@ int32_t sk_check_workspace(const berm_parameters *p)
   if (!sk_is_within(p->workspace_radius_mm, p->own_body_radius_mm, 15000)) { return SK_RULE_WORKSPACE_RADIUS; }
   if (!heights_ok(p)) { return SK_RULE_WORKSPACE_HEIGHTS; }
   if (!times_ok(p)) { return SK_RULE_WORKSPACE_TIMES; }
+  if (!sk_is_within(p->workspace_foreign, 0, 100)) { return SK_RULE_WORKSPACE_FOREIGN; }
   if (!sk_is_within(p->workspace_follows, 0, 1)) { return SK_RULE_WORKSPACE_FOLLOWS; }
   if (!sk_is_within(p->lanes, 0, BERM_LANES)) { return SK_RULE_LANE_COUNT; }
   if (!lanes_ok(p)) { return SK_RULE_LANE_BOUNDS; }

@@ -120,8 +120,8 @@ void Cycle::begin_map() {
 
 void Cycle::watch_workspace(const ScanBlocks& blocks, std::int64_t now_us) {
   if (frames_.base().moved) return;
-  workspace_.take(blocks, now_us);
-  workspace_.trucks(frames_.spotter_fresh(now_us), frames_.truck_admitted(now_us));
+  workspace_.take(blocks, joints_, now_us);
+  workspace_.trucks(frames_.spotter_fresh(now_us), frames_.truck_admitted(now_us), now_us);
   intruder_ = workspace_.step(now_us);
 }
 

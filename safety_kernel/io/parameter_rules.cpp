@@ -88,7 +88,9 @@ constexpr const char* kText[] = {
     "workspace_watched: 0 or 1",
     "workspace_radius_mm: within own_body_radius_mm..15000",
     "workspace_rise_mm, workspace_neighbour_mm: within 100..2000; workspace_slope_mm: within 100..5000",
-    "workspace_wait_us: within 0..10000000; workspace_period_us: within 1..1000000; workspace_dwell_us: within 0..60000000",
+    "workspace_wait_us: within 0..10000000; workspace_period_us: within 1..1000000; workspace_dwell_us: within 0..60000000; "
+    "workspace_learn_us: within 0..120000000",
+    "workspace_foreign: within 0..100",
     "workspace_follows: 0 or 1",
     "lanes: 0 to 4",
     "lane: low below high, within +-15000 mm",

@@ -128,6 +128,8 @@ const std::vector<BadEdit>& bad_machine_edits() {
       {"region beyond the map", "radius = 12.0 ", "radius = 15.1 ", "workspace.radius", "outside"},
       {"a rise that a stone makes", "rise = 0.5 ", "rise = 0.05 ", "workspace.rise", "outside"},
       {"comparisons too seldom", "period = 0.5 ", "period = 1.5 ", "workspace.period", "outside"},
+      {"learning too long", "learn = 20.0 ", "learn = 200.0 ", "workspace.learn", "outside"},
+      {"part of a voxel", "foreign = 4 ", "foreign = 4.5 ", "workspace.foreign", "whole number"},
       {"follows as a number", "follows = true", "follows = 1", "workspace.follows", "true or false"},
       {"no tail", "[tail] ", "[nose] ", "tail", "is missing"},
       {"watched as text", "watched = false", "watched = \"no\"", "tail.watched", "true or false"},

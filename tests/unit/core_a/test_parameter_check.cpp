@@ -83,6 +83,8 @@ std::vector<Limit> limits(const berm_parameters& ok) {
       limit(SK_RULE_WORKSPACE_TIMES, 0, 10000000, FIELD(workspace_wait_us)),
       limit(SK_RULE_WORKSPACE_TIMES, 1, 1000000, FIELD(workspace_period_us)),
       limit(SK_RULE_WORKSPACE_TIMES, 0, 60000000, FIELD(workspace_dwell_us)),
+      limit(SK_RULE_WORKSPACE_TIMES, 0, 120000000, FIELD(workspace_learn_us)),
+      limit(SK_RULE_WORKSPACE_FOREIGN, 0, 100, FIELD(workspace_foreign)),
       limit(SK_RULE_WORKSPACE_FOLLOWS, 0, 1, FIELD(workspace_follows)),
       limit(SK_RULE_LANE_COUNT, 0, BERM_LANES, FIELD(lanes)),
   };

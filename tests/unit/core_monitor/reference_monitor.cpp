@@ -31,6 +31,7 @@ const ReferenceCell* ReferenceMonitor::find(int y, int x) const {
 ReferenceMonitor::Verdict ReferenceMonitor::judge(int y, int x) const {
   const ReferenceCell& c = *find(y, x);
   if (c.held == Held::kEmpty || c.seen_height() - c.height <= rules_.height_threshold) return Verdict::kNothing;
+  if (c.points.size() == 1) return Verdict::kDoubtful;
   int empty = 0;
   for (const auto& [dy, dx] : {std::pair{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {1, 0}, {1, 1}}) {
     const ReferenceCell* n = find(y + dy, x + dx);
@@ -89,7 +90,10 @@ void ReferenceMonitor::update(std::int64_t now) {
     else if (c.fresh == Fresh::kInterpolatedNotVisited) judged.emplace_back(&c, Verdict::kNothing);
     else if (c.fresh != Fresh::kEmpty) in_progress.push_back(&c);
   }
-  for (const auto& [c, verdict] : judged) merge(*c, verdict);
+  for (const auto& [c, verdict] : judged) {
+    if (verdict == Verdict::kDoubtful) c->fresh = Fresh::kInterpolatedNotVisited;
+    merge(*c, verdict == Verdict::kDoubtful ? Verdict::kNothing : verdict);
+  }
   for (ReferenceCell* c : in_progress) c->fresh = c->fresh == Fresh::kSet ? Fresh::kNotVisited : Fresh::kInterpolatedNotVisited;
 }
 

@@ -37,7 +37,7 @@ class ReferenceMonitor {
   ReferenceCell& at(int y, int x) { return cells_[{y, x}]; }
 
  private:
-  enum class Verdict { kNothing, kChanged, kObstacle };
+  enum class Verdict { kNothing, kDoubtful, kChanged, kObstacle };  // doubtful: rises by one point alone
   Verdict judge(int y, int x) const;
   const ReferenceCell* find(int y, int x) const;
   void merge(ReferenceCell& cell, Verdict verdict) const;

@@ -37,13 +37,14 @@ class WorkspaceWatchTest : public testing::Test {
       block.point_mm[block.count][2] = p.z_mm;
       ++block.count;
     }
-    watch->take(*blocks, kNow);
+    watch->take(*blocks, joints, kNow);
   }
   int flag(std::int32_t x_mm, std::int32_t y_mm) const { return watch->monitor().temporary_flag[sk_map_index(y_mm)][sk_map_index(x_mm)]; }
   int height(std::int32_t x_mm, std::int32_t y_mm) const { return watch->monitor().highest_mm[sk_map_index(y_mm)][sk_map_index(x_mm)]; }
   bool watched(std::int32_t x_mm, std::int32_t y_mm) const { return watch->rules().watched[sk_map_index(y_mm)][sk_map_index(x_mm)] != 0; }
 
   berm_parameters parameters{};
+  JointHistory joints;
   std::unique_ptr<WorkspaceWatch> watch;
   std::unique_ptr<ScanBlocks> blocks = std::make_unique<ScanBlocks>();
 };
@@ -72,7 +73,7 @@ TEST_F(WorkspaceWatchTest, NoLineOverADroppedReturnNorFromAnotherScanlineOrScann
   blocks->block[0].scanner = 1;
   blocks->block[0].first_index = 104;
   blocks->block[0].point_mm[0][0] = 9050;
-  watch->take(*blocks, kNow);
+  watch->take(*blocks, joints, kNow);
   EXPECT_EQ(flag(7050, 5050), SK_FLAG_EMPTY) << "another scanner";
   EXPECT_EQ(flag(9050, 5050), SK_FLAG_SET);
 }
@@ -82,19 +83,19 @@ TEST_F(WorkspaceWatchTest, ALaneChangesOnlyOnAFreshWord) {
   EXPECT_FALSE(watched(4050, 7050)) << "open from the start";
   EXPECT_TRUE(watched(4050, 5050));
   see({{4050, 7050, 0}, {4050, 5050, 0}}, 100);
-  watch->trucks(false, true);
+  watch->trucks(false, true, kNow);
   EXPECT_FALSE(watched(4050, 7050));
   EXPECT_EQ(flag(4050, 7050), SK_FLAG_SET);
-  watch->trucks(true, true);
+  watch->trucks(true, true, kNow);
   EXPECT_TRUE(watched(4050, 7050));
   EXPECT_EQ(flag(4050, 7050), SK_FLAG_EMPTY) << "forgotten";
   EXPECT_EQ(flag(4050, 5050), SK_FLAG_SET) << "beside it nothing is";
   see({{4050, 7050, 0}}, 200);
-  watch->trucks(true, true);
+  watch->trucks(true, true, kNow);
   EXPECT_EQ(flag(4050, 7050), SK_FLAG_SET) << "said again, nothing is forgotten again";
-  watch->trucks(false, false);
+  watch->trucks(false, false, kNow);
   EXPECT_TRUE(watched(4050, 7050)) << "a spotter who fell silent opens nothing";
-  watch->trucks(true, false);
+  watch->trucks(true, false, kNow);
   EXPECT_FALSE(watched(4050, 7050));
 }
 

@@ -1,0 +1,51 @@
+// Free space in the kernel's cycle: rays and returns into its voxels, and where something stands in what was free.
+#pragma once
+
+#include <cstdint>
+
+#include "config/parameter_block.h"
+#include "core/clearance_rules.h"
+#include "core/free_space.h"
+#include "core/scanline_raster.h"
+
+namespace berm::kernel {
+
+class SpaceWatch {
+ public:
+  explicit SpaceWatch(const berm_parameters& parameters);
+
+  bool kept() const { return parameters_.workspace_foreign > 0; }
+  // Nothing is known of any voxel.
+  void begin();
+  // Nothing is known any more of the voxels over the cells that touch the lane.
+  void forget(const berm_lane& lane);
+  // A return that is not of the own machine, and the space between it and the sensor's head, base frame. learning: what is there now belongs there.
+  void take(const sk_point& head, const sk_point& point, bool learning);
+  // The region, less what the machine itself changes: as the Workspace Monitor's; but of a truck zone only the box round what stands in it is left
+  // out, higher than may be passed over: the truck and its load. While nobody knows what stands there, the whole zone is.
+  void watch(bool lanes_open, bool truck_learned);
+  // A cell of the region with so many FOREIGN voxels that somebody is in it; false where there is none.
+  bool find(sk_monitor_cell& where) const;
+  // The highest FOREIGN voxel of a cell, its low side; the floor where there is none.
+  std::int32_t foreign_height_mm(const sk_monitor_cell& cell) const;
+
+  const sk_free_space& space() const { return space_; }
+  bool watched(std::int32_t iy, std::int32_t ix) const { return region_.watched[iy][ix] != 0; }
+
+ private:
+  static constexpr double kStepMm = 100.0;   // along a ray: of every voxel of which it crosses more than a corner
+  static constexpr double kShortMm = 200.0;  // of the return: its own surface, by noise and the beam's width
+  static constexpr double kReachMm = 22000.0;
+
+  void leave_out(const berm_truck_zone& zone, bool truck_learned);
+  bool stands_high(std::int32_t iy, std::int32_t ix) const;
+
+  const berm_parameters& parameters_;
+  berm_parameters without_truck_zones_;
+  sk_clearance_rules limits_;   // pass_mm alone: with no truck
+  sk_monitor_rules region_;     // watched alone
+  sk_free_space space_;
+  bool blank_ = false;          // nothing has been taken since the begin
+};
+
+}  // namespace berm::kernel
