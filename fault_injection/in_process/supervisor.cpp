@@ -1,11 +1,11 @@
-#include "validate/supervisor.hpp"
+#include "in_process/supervisor.hpp"
 
 #include <algorithm>
 #include <cstring>
 
 #include "io/cycle.hpp"
 
-namespace berm::validate {
+namespace berm::in_process {
 
 namespace {
 
@@ -39,6 +39,7 @@ class Kernel final : public Supervisor {
   }
   const berm_state& state() const override { return out_->state; }
   bool needs_scans() const override { return true; }
+  const kernel::Cycle* cycle() const override { return cycle_.get(); }
 
  private:
   berm_parameters parameters_;
@@ -98,4 +99,4 @@ class Obedient final : public Supervisor {
 std::unique_ptr<Supervisor> make_kernel(const berm_parameters& parameters) { return std::make_unique<Kernel>(parameters); }
 std::unique_ptr<Supervisor> make_obedient() { return std::make_unique<Obedient>(); }
 
-}  // namespace berm::validate
+}  // namespace berm::in_process
