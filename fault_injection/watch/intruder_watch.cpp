@@ -1,6 +1,7 @@
 #include "watch/intruder_watch.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "contract/berm_contract.h"
 
@@ -42,7 +43,10 @@ double IntruderWatch::nearest_on_track(std::size_t i, double x, double y) const 
 void IntruderWatch::enter(const Moment& now, const Presence& presence, IntruderRecord& record) const {
   record.inside = presence.present && meets_region(presence.footprint, *now.rules);
   if (presence.present && watched_at(*now.rules, presence.footprint.x, presence.footprint.y)) record.inside_s += cycle_s;
+  if (!begun_ && record.inside) record.stood = presence.footprint;
+  if (!record.inside) record.stood.reset();
   if (!record.inside || record.entered_s) return;
+  if (record.stood && std::hypot(presence.footprint.x - record.stood->x, presence.footprint.y - record.stood->y) < moved_m) return;
   record.entered_s = now.time_s;
   record.stood_at_entry = state_before_ != BERM_STATE_RUN;
 }
@@ -104,6 +108,7 @@ void IntruderWatch::step(const Moment& now, const std::vector<Presence>& presenc
   if (now.stop_reason == BERM_STOP_INTRUDER && reason_before_ != BERM_STOP_INTRUDER) note_alarm(now);
   for (std::size_t i = 0; i < records_.size(); ++i) detect(now, presences[i], i, stops_now);
   stand(now, presences);
+  begun_ = true;
   state_before_ = now.kernel_state;
   reason_before_ = now.stop_reason;
 }

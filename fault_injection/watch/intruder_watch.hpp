@@ -14,6 +14,7 @@
 namespace berm::watch {
 
 constexpr double alarm_within_m = 1.0;       // of the published cell: nobody nearer, and the alarm is false
+constexpr double moved_m = 1.0;              // who is in the region from the first enters it when it has gone so far
 constexpr double standstill_rad_s = 0.5 * 3.14159265358979323846 / 180.0, standstill_s = 0.2;
 
 // What the kernel gave out and held in a cycle, and whether the machine's joints truly stand.
@@ -43,6 +44,7 @@ struct IntruderRecord {
   double inside_s = 0.0;                           // how long its middle was in a watched cell
   bool stood_at_entry = false;                     // the kernel was not in RUN when it entered
   bool inside = false;                             // now
+  std::optional<Footprint> stood;                  // where it was in the region from the first: the kernel takes it for ground there
 };
 
 struct Alarm {                                     // an intruder stop that begins
@@ -78,6 +80,7 @@ class IntruderWatch {
   std::vector<double> distance_when_still_;
   double still_since_s_ = -1.0;
   bool standing_ = false;
+  bool begun_ = false;
   std::uint8_t state_before_ = 0, reason_before_ = 0;
 };
 

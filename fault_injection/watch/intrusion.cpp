@@ -20,6 +20,7 @@ constexpr double longest_wait_s = 20.0;    // more than a whole pass
 constexpr double rim = 0.5;                // m, to the terrain's edge
 constexpr double beside_sweep = 25 * degree, beyond_reach = 1.5;  // nobody begins where the implements may be within a step
 constexpr double last_step = 0.6;          // m, how near to the machine's own circle a way ends
+constexpr double beside_face = 2.5;        // m: some come up beside what is dug
 constexpr double clear_of_truck = 0.1;     // m
 
 struct Point { double x, y; };
@@ -85,8 +86,9 @@ void draw_who(Draw& draw, Intrusion& in) {
 }
 
 void draw_dig_face(Draw& draw, const IntrusionSite& s, Intrusion& in) {
-  const Point from{draw.between(s.region_radius + 0.3, s.extent[0] - rim - 0.1), draw.between(-s.half_face, s.half_face)};
-  const Point to{draw.between(s.crest_x - 1.5, s.crest_x - 0.5), draw.between(-s.half_face, s.half_face)};
+  const double half = s.half_face + beside_face;
+  const Point from{draw.between(s.region_radius + 0.3, s.extent[0] - rim - 0.1), draw.between(-half, half)};
+  const Point to{draw.between(s.crest_x - 1.5, s.crest_x - 0.5), draw.between(-half, half)};
   in.mover.waypoints = {{from.x, from.y, 0.0}, {to.x, to.y, 0.0}};
 }
 

@@ -10,6 +10,7 @@
 #include "run/svg.hpp"
 #include "watch/intrusion_report.hpp"
 #include "watch/options.hpp"
+#include "watch/scenario_watch.hpp"
 
 namespace berm::watch {
 namespace {
@@ -43,10 +44,17 @@ int watch_intrusions(const Options& options) {
   return result["unsafe"] == 0 && result["undetected"] == 0 ? 0 : 1;
 }
 
+int watch_one_scenario(const Options& o) {
+  const ScenarioResult result = watch_scenario({o.scenario, o.machine, o.out, o.picture, BERM_PLANT_PROFILES, o.seed, o.trucks, o.max_time_s});
+  fmt::print("{}", summary_text(result));
+  if (!o.json.empty()) run::write_text_file(o.json, flat_json(result).dump(1) + "\n");
+  return result.held() ? 0 : 1;
+}
+
 int run(int argc, char** argv) {
   Options options;
   if (const auto status = read_options(argc, argv, options)) return *status;
-  return watch_intrusions(options);
+  return options.scenario.empty() ? watch_intrusions(options) : watch_one_scenario(options);
 }
 
 }  // namespace

@@ -14,6 +14,8 @@ struct Options {
   std::uint64_t seed = 1;
   int only = -1;                   // of the intrusions
   int jobs = 0;
+  int trucks = 1;                  // of the scenario
+  std::optional<double> max_time_s;
   std::string machine;             // empty: zx200, or the scenario's
   std::string json, picture, out, trace;
 };
