@@ -30,7 +30,8 @@ class MachineLoop {
   // The request that answers a published state.
   using Answer = std::function<berm_request(const berm_state&)>;
 
-  MachineLoop(const plant::PlantProfile& profile, const plant::WorldConfig& world, std::uint64_t seed, const Start& start, std::unique_ptr<Supervisor> supervisor);
+  MachineLoop(const plant::PlantProfile& profile, const plant::WorldConfig& world, std::uint64_t seed, const Start& start,
+              std::unique_ptr<Supervisor> supervisor);
 
   // One cycle. The first has no request.
   void advance(const Answer& answer);

@@ -81,7 +81,8 @@ bool obstacle_near(const Footprint& f, double within, const sk_monitor& monitor,
 
 plant::oracle::Body body_of(const plant::MoverConfig& shape, const plant::MoverPose& pose) {
   if (!shape.vehicle) return plant::oracle::Body::cylinder({pose.x, pose.y, pose.z}, shape.radius, shape.height);
-  return plant::oracle::body_of({shape.name, pose.x, pose.y, pose.z, pose.yaw, {-shape.length / 2, -shape.width / 2, 0}, {shape.length / 2, shape.width / 2, shape.height}});
+  return plant::oracle::body_of(
+      {shape.name, pose.x, pose.y, pose.z, pose.yaw, {-shape.length / 2, -shape.width / 2, 0}, {shape.length / 2, shape.width / 2, shape.height}});
 }
 
 }  // namespace berm::watch

@@ -61,8 +61,9 @@ void IntruderWatch::detect(const Moment& now, const Presence& presence, std::siz
   if (record.detected_s) return;
   bool found = false;
   if (now.stop_reason == BERM_STOP_INTRUDER) {
-    found = nearest_on_track(i, now.cell_x, now.cell_y) <= alarm_within_m ||
-            std::any_of(track_[i].begin(), track_[i].end(), [&](const Seen& s) { return obstacle_near(s.footprint, alarm_within_m, *now.monitor, *now.rules); });
+    found = nearest_on_track(i, now.cell_x, now.cell_y) <= alarm_within_m || std::any_of(track_[i].begin(), track_[i].end(), [&](const Seen& s) {
+              return obstacle_near(s.footprint, alarm_within_m, *now.monitor, *now.rules);
+            });
   } else if (stops_now && BERM_STOP_HAS_CELL(now.stop_reason)) {
     found = nearest_on_track(i, now.cell_x, now.cell_y) <= alarm_within_m;
   }

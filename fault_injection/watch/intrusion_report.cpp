@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "run/contract_text.hpp"
 
@@ -25,7 +26,9 @@ ordered_json percentile(std::vector<double> values, double share) {
   return std::round(values[std::clamp<std::size_t>(rank, 1, values.size()) - 1] * 1000.0) / 1000.0;
 }
 
-bool judged(const IntrusionResult& r) { return r.outcome == Outcome::detected || r.outcome == Outcome::stopped || r.outcome == Outcome::undetected || r.failed(); }
+bool judged(const IntrusionResult& r) {
+  return r.outcome == Outcome::detected || r.outcome == Outcome::stopped || r.outcome == Outcome::undetected || r.failed();
+}
 
 int count(const Some& some, Outcome outcome) {
   return static_cast<int>(std::count_if(some.begin(), some.end(), [outcome](const auto* r) { return r->outcome == outcome; }));
@@ -49,7 +52,6 @@ std::vector<double> seen_to_stop_ms(const Some& some) {
 
 ordered_json figures(const Some& some) {
   int unsafe = 0, contacts = 0, was_judged = 0, unseen = 0;
-  std::vector<double> inside_s;
   for (const auto* r : some) {
     unsafe += r->unsafe_s ? 1 : 0;
     contacts += r->contact_s ? 1 : 0;
@@ -57,11 +59,22 @@ ordered_json figures(const Some& some) {
     unseen += r->outcome == Outcome::undetected && !r->seen_s ? 1 : 0;
   }
   const auto detect = detect_ms(some), seen = seen_to_stop_ms(some);
-  return {{"runs", some.size()}, {"judged", was_judged}, {"unsafe", unsafe}, {"contacts", contacts}, {"undetected", count(some, Outcome::undetected)}, {"undetected_never_seen", unseen},
-          {"detected", count(some, Outcome::detected)}, {"stopped_otherwise", count(some, Outcome::stopped)}, {"brief", count(some, Outcome::brief)},
-          {"false_alarm_runs", count(some, Outcome::false_alarm)}, {"not_judged", count(some, Outcome::not_judged)},
-          {"detect_ms_p50", percentile(detect, 0.5)}, {"detect_ms_p95", percentile(detect, 0.95)},
-          {"seen_to_stop_ms_p50", percentile(seen, 0.5)}, {"seen_to_stop_ms_p95", percentile(seen, 0.95)}, {"seen_to_stop_ms_max", percentile(seen, 1.0)}};
+  return {{"runs", some.size()},
+          {"judged", was_judged},
+          {"unsafe", unsafe},
+          {"contacts", contacts},
+          {"undetected", count(some, Outcome::undetected)},
+          {"undetected_never_seen", unseen},
+          {"detected", count(some, Outcome::detected)},
+          {"stopped_otherwise", count(some, Outcome::stopped)},
+          {"brief", count(some, Outcome::brief)},
+          {"false_alarm_runs", count(some, Outcome::false_alarm)},
+          {"not_judged", count(some, Outcome::not_judged)},
+          {"detect_ms_p50", percentile(detect, 0.5)},
+          {"detect_ms_p95", percentile(detect, 0.95)},
+          {"seen_to_stop_ms_p50", percentile(seen, 0.5)},
+          {"seen_to_stop_ms_p95", percentile(seen, 0.95)},
+          {"seen_to_stop_ms_max", percentile(seen, 1.0)}};
 }
 
 Some all_of(const Campaign& campaign) {
@@ -73,7 +86,7 @@ Some all_of(const Campaign& campaign) {
 // From where it came, as seen from the machine at the dig.
 const char* side_of(const IntrusionResult& r) {
   const auto& w = r.intrusion.mover.waypoints.front();
-  const double bearing = std::atan2(w.y, w.x) * 180.0 / 3.14159265358979323846;
+  const double bearing = std::atan2(w.y, w.x) * 180.0 / std::numbers::pi;
   return std::fabs(bearing) <= 45.0 ? "front" : std::fabs(bearing) >= 135.0 ? "behind" : bearing > 0.0 ? "left" : "right";
 }
 
@@ -99,17 +112,28 @@ std::string kind_of(const IntrusionResult& r) {
 ordered_json number(const std::optional<double>& value) { return value ? ordered_json(std::round(*value * 1000.0) / 1000.0) : ordered_json(nullptr); }
 
 ordered_json one(const Campaign& campaign, const IntrusionResult& r) {
-  return {{"run", r.intrusion.run}, {"kind", kind_of(r)}, {"outcome", name_of(r.outcome)}, {"who", describe(r.intrusion)}, {"entered_s", number(r.record.entered_s)}, {"seen_s", number(r.seen_s)},
-          {"detected_s", number(r.record.detected_s)}, {"detected_by", r.record.detected_s ? run::stop_reason_name(r.record.detected_by) : ""},
-          {"standstill_s", number(r.record.standstill_s)}, {"unsafe_s", number(r.unsafe_s)}, {"contact_s", number(r.contact_s)}, {"inside_s", r.record.inside_s},
+  return {{"run", r.intrusion.run},
+          {"kind", kind_of(r)},
+          {"outcome", name_of(r.outcome)},
+          {"who", describe(r.intrusion)},
+          {"entered_s", number(r.record.entered_s)},
+          {"seen_s", number(r.seen_s)},
+          {"detected_s", number(r.record.detected_s)},
+          {"detected_by", r.record.detected_s ? run::stop_reason_name(r.record.detected_by) : ""},
+          {"standstill_s", number(r.record.standstill_s)},
+          {"unsafe_s", number(r.unsafe_s)},
+          {"contact_s", number(r.contact_s)},
+          {"inside_s", r.record.inside_s},
           {"command", command_of(campaign, r)}};
 }
 
 std::string in_ms(const ordered_json& value) { return value.is_number() ? fmt::format("{:.0f} ms", value.get<double>()) : "-"; }
 
 std::string row_of(const std::string& name, const ordered_json& f) {
-  return fmt::format("  {:<26}{:>5} {:>7} {:>7} {:>9} {:>11} {:>9} {:>10} {:>10}\n", name, f["runs"].get<int>(), f["judged"].get<int>(), f["unsafe"].get<int>(), f["contacts"].get<int>(),
-                     fmt::format("{} ({})", f["undetected"].get<int>(), f["undetected_never_seen"].get<int>()), f["detected"].get<int>(), in_ms(f["detect_ms_p50"]), in_ms(f["detect_ms_p95"]));
+  return fmt::format("  {:<26}{:>5} {:>7} {:>7} {:>9} {:>11} {:>9} {:>10} {:>10}\n", name, f["runs"].get<int>(), f["judged"].get<int>(),
+                     f["unsafe"].get<int>(), f["contacts"].get<int>(),
+                     fmt::format("{} ({})", f["undetected"].get<int>(), f["undetected_never_seen"].get<int>()), f["detected"].get<int>(),
+                     in_ms(f["detect_ms_p50"]), in_ms(f["detect_ms_p95"]));
 }
 
 }  // namespace
@@ -144,7 +168,13 @@ ordered_json flat_json(const Campaign& campaign) {
   for (const auto* r : all) {
     if (r->failed()) failures.push_back(one(campaign, *r));
     for (const Alarm& a : r->alarms)
-      if (a.nearest.empty()) quiet.push_back({{"run", r->intrusion.run}, {"time_s", a.time_s}, {"x_m", a.x}, {"y_m", a.y}, {"height_m", a.height}, {"command", command_of(campaign, *r)}});
+      if (a.nearest.empty())
+        quiet.push_back({{"run", r->intrusion.run},
+                         {"time_s", a.time_s},
+                         {"x_m", a.x},
+                         {"y_m", a.y},
+                         {"height_m", a.height},
+                         {"command", command_of(campaign, *r)}});
   }
   out["failures"] = failures;
   out["false_alarm_list"] = quiet;
@@ -155,16 +185,19 @@ ordered_json flat_json(const Campaign& campaign) {
 std::string summary_text(const Campaign& campaign) {
   const ordered_json j = flat_json(campaign);
   std::string text = fmt::format("\nIntrusions ({}, seed {}; a simulation, judged by the plant's truth)\n", campaign.machine, campaign.seed);
-  text += fmt::format("  {:<26}{:>5} {:>7} {:>7} {:>9} {:>11} {:>9} {:>10} {:>10}\n", "", "runs", "judged", "unsafe", "contacts", "undetected*", "detected", "p50", "p95");
+  text += fmt::format("  {:<26}{:>5} {:>7} {:>7} {:>9} {:>11} {:>9} {:>10} {:>10}\n", "", "runs", "judged", "unsafe", "contacts", "undetected*",
+                      "detected", "p50", "p95");
   text += row_of("all", j);
   for (const char* group : {"by_way", "by_size", "by_speed", "by_side", "by_merge"})
     for (const auto& [name, f] : j[group].items()) text += row_of("  " + name, f);
   text += "  * in brackets: of them those that no sensor ever met within the region\n";
   const auto row = [&text](const std::string& name, const std::string& value) { text += fmt::format("  {:<34}{}\n", name, value); };
-  row("from first return to stop", fmt::format("median {}, 95 % {}, longest {}", in_ms(j["seen_to_stop_ms_p50"]), in_ms(j["seen_to_stop_ms_p95"]), in_ms(j["seen_to_stop_ms_max"])));
+  row("from first return to stop", fmt::format("median {}, 95 % {}, longest {}", in_ms(j["seen_to_stop_ms_p50"]), in_ms(j["seen_to_stop_ms_p95"]),
+                                               in_ms(j["seen_to_stop_ms_max"])));
   row("detected by", j["detected_by"].dump());
   const auto& side = j["truck_side_detection_m_p95"];
-  row("beside the truck", fmt::format("95 % detected within {} of it, {} undetected", side.is_number() ? fmt::format("{:.2f} m", side.get<double>()) : "-", j["truck_side_undetected"].get<int>()));
+  row("beside the truck", fmt::format("95 % detected within {} of it, {} undetected",
+                                      side.is_number() ? fmt::format("{:.2f} m", side.get<double>()) : "-", j["truck_side_undetected"].get<int>()));
   row("stopped for something else", j["stopped_otherwise"].dump());
   row("less than a second inside", j["brief"].dump());
   row("false alarms", fmt::format("{}; {} trials ended by one before anybody came", j["false_alarms"].get<int>(), j["false_alarm_runs"].get<int>()));
@@ -189,13 +222,15 @@ std::string detail_text(const IntrusionResult& r) {
   row("entered the region", k.entered_s, "");
   row("first return from within", r.seen_s, "");
   row("first stop of the kernel", k.stopped_s, fmt::format(", {}", run::stop_reason_name(k.stopped_by)));
-  row("detected", k.detected_s, k.detected_s ? fmt::format(", {}, {:.2f} m from the implements", run::stop_reason_name(k.detected_by), *k.distance_at_detection_m) : "");
+  row("detected", k.detected_s,
+      k.detected_s ? fmt::format(", {}, {:.2f} m from the implements", run::stop_reason_name(k.detected_by), *k.distance_at_detection_m) : "");
   row("standstill", k.standstill_s, k.standstill_s ? fmt::format(", {:.2f} m from the implements", *k.distance_at_standstill_m) : "");
   row("in the swept volume", r.unsafe_s, "");
   row("contact", r.contact_s, "");
   row("end", r.ended_s, fmt::format(", {:.2f} s in the region", k.inside_s));
   for (const Alarm& a : r.alarms)
-    text += fmt::format("  alarm at {:.2f} s, cell ({:.2f}, {:.2f}), height {:.2f} m: {}\n", a.time_s, a.x, a.y, a.height, a.nearest.empty() ? "FALSE, nobody near" : a.nearest);
+    text += fmt::format("  alarm at {:.2f} s, cell ({:.2f}, {:.2f}), height {:.2f} m: {}\n", a.time_s, a.x, a.y, a.height,
+                        a.nearest.empty() ? "FALSE, nobody near" : a.nearest);
   return text;
 }
 

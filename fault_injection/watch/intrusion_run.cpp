@@ -90,13 +90,14 @@ class Trial {
     const berm_state& state = machine_.state();
     const auto& workspace = machine_.supervisor().cycle()->workspace();
     const bool stands = still(machine_.joints());
-    watch_.step({machine_.time_s(), state.kernel_state, state.stop_reason, state.blocked_x_mm * 1e-3, state.blocked_y_mm * 1e-3, state.blocked_height_mm * 1e-3, stands,
-                 &workspace.monitor(), &workspace.rules()},
+    watch_.step({machine_.time_s(), state.kernel_state, state.stop_reason, state.blocked_x_mm * 1e-3, state.blocked_y_mm * 1e-3,
+                 state.blocked_height_mm * 1e-3, stands, &workspace.monitor(), &workspace.rules()},
                 {{present, footprint_of(shape_, pose.x, pose.y, pose.yaw), implements_m}});
     if (present) judge_danger(state, body, implements_m, stands);
     if (present) note_seen(workspace.rules());
     if (watch_.records().front().detected_s && !result_.truck_distance_m)
-      result_.truck_distance_m = std::max(0.0, distance_from_truck(bench_.intrusion_site.truck, pose.x, pose.y) - outer_radius(footprint_of(shape_, pose.x, pose.y, 0.0)));
+      result_.truck_distance_m =
+          std::max(0.0, distance_from_truck(bench_.intrusion_site.truck, pose.x, pose.y) - outer_radius(footprint_of(shape_, pose.x, pose.y, 0.0)));
     if (trace_ != nullptr) write_row(pose, present, implements_m);
   }
 
@@ -143,9 +144,10 @@ class Trial {
     const berm_state& s = machine_.state();
     const auto& q = machine_.joints();
     const IntruderRecord& r = watch_.records().front();
-    fmt::print(trace_, "{:.2f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{},{},{},{},{},{:.4f},{:.4f},{},{:.4f},{},{},{},{}\n", machine_.time_s(), q.angle[0], q.angle[1], q.angle[2], q.angle[3],
-               q.velocity[0], s.kernel_state, s.stop_reason, s.blocked_x_mm, s.blocked_y_mm, present ? 1 : 0, pose.x, pose.y, r.inside ? 1 : 0, implements_m,
-               machine_.world().mover_returns().size(), s.pan_angle_urad[0], s.pan_angle_urad[1], motion_.cycles());
+    fmt::print(trace_, "{:.2f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{},{},{},{},{},{:.4f},{:.4f},{},{:.4f},{},{},{},{}\n", machine_.time_s(),
+               q.angle[0], q.angle[1], q.angle[2], q.angle[3], q.velocity[0], s.kernel_state, s.stop_reason, s.blocked_x_mm, s.blocked_y_mm,
+               present ? 1 : 0, pose.x, pose.y, r.inside ? 1 : 0, implements_m, machine_.world().mover_returns().size(), s.pan_angle_urad[0],
+               s.pan_angle_urad[1], motion_.cycles());
   }
 
   const Bench& bench_;
@@ -159,7 +161,8 @@ class Trial {
 };
 
 constexpr const char* trace_header =
-    "time_s,swing_rad,boom_rad,stick_rad,bucket_rad,swing_rad_s,kernel_state,stop_reason,blocked_x_mm,blocked_y_mm,present,x_m,y_m,in_region,implements_m,returns,"
+    "time_s,swing_rad,boom_rad,stick_rad,bucket_rad,swing_rad_s,kernel_state,stop_reason,blocked_x_mm,blocked_y_mm,present,x_m,y_m,in_region,"
+    "implements_m,returns,"
     "pan_left_urad,pan_right_urad,passes\n";
 
 }  // namespace

@@ -86,10 +86,11 @@ berm_request LoadingMotion::answer(const berm_state& state) {
   r.phase = legs[leg_].phase;
   const std::array<double, 4> to = goal();
   std::array<double, 4> speed{};
-  for (std::size_t j = 0; j < speed.size(); ++j) speed[j] = driver_.speed(j, to[j], j == 0 ? machine_.joint[j].velocity_max : driver_.arm_limit(j), state);
+  for (std::size_t j = 0; j < speed.size(); ++j)
+    speed[j] = driver_.speed(j, to[j], j == 0 ? machine_.joint[j].velocity_max : driver_.arm_limit(j), state);
   in_process::put_speeds(speed, machine_, r);
-  const auto pans = scheduler_.step(r.phase, place_.dig_bearing, place_.truck_bearing, state.joint_angle_urad[0] * 1e-6, state.joint_velocity_urad_s[0] * 1e-6,
-                                    {state.pan_angle_urad[0] * 1e-6, state.pan_angle_urad[1] * 1e-6});
+  const auto pans = scheduler_.step(r.phase, place_.dig_bearing, place_.truck_bearing, state.joint_angle_urad[0] * 1e-6,
+                                    state.joint_velocity_urad_s[0] * 1e-6, {state.pan_angle_urad[0] * 1e-6, state.pan_angle_urad[1] * 1e-6});
   for (std::size_t i = 0; i < pans.size(); ++i) {
     r.pan_goal_urad[i] = static_cast<std::int32_t>(pans[i].goal * 1e6);
     r.pan_rate_urad_s[i] = static_cast<std::int32_t>(pans[i].rate * 1e6);

@@ -1,5 +1,5 @@
-// Stands in for the app in a trial: swings to and fro between dig and truck as a loading machine does, raises, curls and opens the bucket at the ends,
-// and pans the scanners by the app's own schedule. Knows the machine file and what the kernel publishes, nothing of anybody on the site.
+// Stands in for the app in a trial: swings to and fro between dig and truck as a loading machine does, lowers, curls and raises the bucket at the
+// ends, and pans the scanners by the app's own schedule. Knows the machine file and what the kernel publishes, nothing of anybody on the site.
 #pragma once
 
 #include <array>

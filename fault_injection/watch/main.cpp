@@ -10,6 +10,7 @@
 #include "run/svg.hpp"
 #include "watch/intrusion_report.hpp"
 #include "watch/options.hpp"
+#include "watch/quiet_hours.hpp"
 #include "watch/scenario_watch.hpp"
 
 namespace berm::watch {
@@ -51,10 +52,18 @@ int watch_one_scenario(const Options& o) {
   return result.held() ? 0 : 1;
 }
 
+int watch_quietly(const Options& o) {
+  const QuietResult result = watch_quiet_hours({o.quiet_hours, o.seed, o.machine, BERM_PLANT_PROFILES, o.jobs});
+  fmt::print("{}", summary_text(result));
+  if (!o.json.empty()) run::write_text_file(o.json, flat_json(result).dump(1) + "\n");
+  return result.false_alarms() == 0 && result.contacts() == 0 ? 0 : 1;
+}
+
 int run(int argc, char** argv) {
   Options options;
   if (const auto status = read_options(argc, argv, options)) return *status;
-  return options.scenario.empty() ? watch_intrusions(options) : watch_one_scenario(options);
+  if (options.intrusions > 0) return watch_intrusions(options);
+  return options.scenario.empty() ? watch_quietly(options) : watch_one_scenario(options);
 }
 
 }  // namespace

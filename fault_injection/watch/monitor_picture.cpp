@@ -42,7 +42,8 @@ void draw_flags(SvgPanel& panel, FlagAt flag_at) {
       const std::uint16_t flag = flag_at(iy, ix);
       int end = ix + 1;
       while (end < SK_MAP_CELLS && flag_at(iy, end) == flag) ++end;
-      panel.rectangle(origin_m + ix * cell_m, origin_m + iy * cell_m, (end - ix) * cell_m, cell_m, fmt::format("fill:{};shape-rendering:crispEdges", fill_of(flag)));
+      panel.rectangle(origin_m + ix * cell_m, origin_m + iy * cell_m, (end - ix) * cell_m, cell_m,
+                      fmt::format("fill:{};shape-rendering:crispEdges", fill_of(flag)));
       ix = end;
     }
   }
@@ -95,7 +96,8 @@ void draw_truth(SvgPanel& panel, const MonitorPictureInput& in) {
 std::string legend(double at_x, double at_y) {
   std::string text;
   const auto row = [&](const std::string& sign, const std::string& words) {
-    text += fmt::format("<g transform=\"translate({:.1f} {:.1f})\">{}<text x=\"24\" y=\"12\" style=\"font:13px sans-serif\">{}</text></g>\n", at_x, at_y, sign, words);
+    text += fmt::format("<g transform=\"translate({:.1f} {:.1f})\">{}<text x=\"24\" y=\"12\" style=\"font:13px sans-serif\">{}</text></g>\n", at_x,
+                        at_y, sign, words);
     at_y += 21;
   };
   const auto square = [](const char* fill) { return fmt::format("<rect width=\"16\" height=\"14\" fill=\"{}\" stroke=\"#999\"/>", fill); };

@@ -22,14 +22,20 @@ std::string refusal(const Options& o) {
 }  // namespace
 
 std::optional<int> read_options(int argc, char** argv, Options& o) {
-  CLI::App app{"Measures the Workspace Monitor: people and vehicles that enter the safety region must stop the machine. A simulation, judged by the plant's truth.\n"
-               "Exit status 0: nobody was touched, in danger (--intrusions) or undetected, and no alarm was false (--scenario, --quiet-hours); 1: that is not so; 2: bad input.",
-               "berm watch"};
-  app.add_option("--scenario", o.scenario, "runs a scenario (a name or a TOML file) with its workspace watched and reports on each person and vehicle in it");
+  CLI::App app{
+      "Measures the Workspace Monitor: people and vehicles that enter the safety region must stop the machine. A simulation, judged by the plant's "
+      "truth.\n"
+      "Exit status 0: nobody was touched, in danger (--intrusions) or undetected, and no alarm was false (--scenario, --quiet-hours); 1: that is not "
+      "so; 2: bad input.",
+      "berm watch"};
+  app.add_option("--scenario", o.scenario,
+                 "runs a scenario (a name or a TOML file) with its workspace watched and reports on each person and vehicle in it");
   app.add_option("--intrusions", o.intrusions, "this many drawn intrusions, each a trial of its own")->check(CLI::Range(1, 1000000));
-  app.add_option("--quiet-hours", o.quiet_hours, "loads trucks with nobody there for so many simulated hours, and counts the alarms")->check(CLI::Range(0.01, 1000.0));
+  app.add_option("--quiet-hours", o.quiet_hours, "loads trucks with nobody there for so many simulated hours, and counts the alarms")
+      ->check(CLI::Range(0.01, 1000.0));
   app.add_option("--trucks", o.trucks, "with --scenario: trucks to load")->check(CLI::Range(1, 100))->capture_default_str();
-  app.add_option("--max-time", o.max_time_s, "with --scenario: the run ends then at the latest, simulated seconds, instead of when the scenario says")->check(CLI::Range(1.0, 36000.0));
+  app.add_option("--max-time", o.max_time_s, "with --scenario: the run ends then at the latest, simulated seconds, instead of when the scenario says")
+      ->check(CLI::Range(1.0, 36000.0));
   app.add_option("--seed", o.seed, "seed of every draw")->capture_default_str();
   app.add_option("--only", o.only, "with --intrusions: this one trial, in detail")->check(CLI::Range(0, 10000000));
   app.add_option("--machine", o.machine, "machine, name or file; its workspace is watched whatever it says (the scenario's, or zx200)");

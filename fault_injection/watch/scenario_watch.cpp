@@ -44,7 +44,8 @@ class Follower {
     }
     const bool still = std::all_of(joints.velocity.begin(), joints.velocity.end(), [](double v) { return std::fabs(v) < standstill_rad_s; });
     const auto& workspace = cycle.workspace();
-    watch_.step({t, s.kernel_state, s.stop_reason, s.blocked_x_mm * 1e-3, s.blocked_y_mm * 1e-3, s.blocked_height_mm * 1e-3, still, &workspace.monitor(), &workspace.rules()},
+    watch_.step({t, s.kernel_state, s.stop_reason, s.blocked_x_mm * 1e-3, s.blocked_y_mm * 1e-3, s.blocked_height_mm * 1e-3, still,
+                 &workspace.monitor(), &workspace.rules()},
                 presences_);
     if (picture_ != nullptr && watch_.alarms().size() == 1 && !pictured_) {
       keep_picture(workspace, fmt::format("the first alarm, {:.2f} s", t));
@@ -132,27 +133,41 @@ ScenarioResult watch_scenario(const ScenarioOptions& options) {
 ordered_json flat_json(const ScenarioResult& result) {
   ordered_json intruders = ordered_json::array(), alarms = ordered_json::array();
   for (const auto& r : result.intruders)
-    intruders.push_back({{"name", r.name}, {"entered_s", number(r.entered_s)}, {"detected_s", number(r.detected_s)}, {"detected_by", r.detected_s ? ordered_json(run::stop_reason_name(r.detected_by)) : ordered_json(nullptr)},
-                         {"standstill_s", number(r.standstill_s)}, {"distance_at_detection_m", number(r.distance_at_detection_m)},
-                         {"distance_at_standstill_m", number(r.distance_at_standstill_m)}, {"inside_s", number(r.inside_s)}, {"undetected", undetected(r)}});
+    intruders.push_back({{"name", r.name},
+                         {"entered_s", number(r.entered_s)},
+                         {"detected_s", number(r.detected_s)},
+                         {"detected_by", r.detected_s ? ordered_json(run::stop_reason_name(r.detected_by)) : ordered_json(nullptr)},
+                         {"standstill_s", number(r.standstill_s)},
+                         {"distance_at_detection_m", number(r.distance_at_detection_m)},
+                         {"distance_at_standstill_m", number(r.distance_at_standstill_m)},
+                         {"inside_s", number(r.inside_s)},
+                         {"undetected", undetected(r)}});
   for (const Alarm& a : result.alarms)
-    alarms.push_back({{"time_s", number(a.time_s)}, {"x_m", a.x}, {"y_m", a.y}, {"height_m", a.height}, {"nearest", a.nearest.empty() ? ordered_json(nullptr) : ordered_json(a.nearest)}});
+    alarms.push_back({{"time_s", number(a.time_s)},
+                      {"x_m", a.x},
+                      {"y_m", a.y},
+                      {"height_m", a.height},
+                      {"nearest", a.nearest.empty() ? ordered_json(nullptr) : ordered_json(a.nearest)}});
   return {{"scenario", result.scenario}, {"seed", result.seed}, {"simulated_seconds", result.simulated_seconds}, {"contacts", result.contacts},
           {"false_alarms", result.false_alarms}, {"intruders", intruders}, {"alarms", alarms}};
 }
 
 std::string summary_text(const ScenarioResult& result) {
-  std::string text = fmt::format("\nWorkspace ({}, seed {}; a simulation, judged by the plant's truth)\n  {:<18}{:>12}{:>12}{:>12}  {:<24}{:>14}{:>16}\n", result.scenario, result.seed, "", "entered",
-                                 "detected", "stood", "by", "at detection", "at standstill");
-  const auto s = [](const std::optional<double>& value, const char* unit) { return value ? fmt::format("{:.2f} {}", *value, unit) : std::string("-"); };
+  std::string text =
+      fmt::format("\nWorkspace ({}, seed {}; a simulation, judged by the plant's truth)\n  {:<18}{:>12}{:>12}{:>12}  {:<24}{:>14}{:>16}\n",
+                  result.scenario, result.seed, "", "entered", "detected", "stood", "by", "at detection", "at standstill");
+  const auto s = [](const std::optional<double>& value, const char* unit) {
+    return value ? fmt::format("{:.2f} {}", *value, unit) : std::string("-");
+  };
   for (const auto& r : result.intruders)
-    text += fmt::format("  {:<18}{:>12}{:>12}{:>12}  {:<24}{:>14}{:>16}{}\n", r.name, s(r.entered_s, "s"), s(r.detected_s, "s"), s(r.standstill_s, "s"),
-                        r.detected_s ? run::stop_reason_name(r.detected_by) : "-", s(r.distance_at_detection_m, "m"), s(r.distance_at_standstill_m, "m"),
-                        undetected(r) ? "  UNDETECTED" : "");
+    text += fmt::format("  {:<18}{:>12}{:>12}{:>12}  {:<24}{:>14}{:>16}{}\n", r.name, s(r.entered_s, "s"), s(r.detected_s, "s"),
+                        s(r.standstill_s, "s"), r.detected_s ? run::stop_reason_name(r.detected_by) : "-", s(r.distance_at_detection_m, "m"),
+                        s(r.distance_at_standstill_m, "m"), undetected(r) ? "  UNDETECTED" : "");
   if (result.intruders.empty()) text += "  nobody is in this scenario\n";
   text += fmt::format("  contacts (oracle) {}; false alarms {}\n", result.contacts, result.false_alarms);
   for (const Alarm& a : result.alarms)
-    text += fmt::format("  alarm at {:.2f} s, cell ({:.2f}, {:.2f}), height {:.2f} m: {}\n", a.time_s, a.x, a.y, a.height, a.nearest.empty() ? "FALSE, nobody near" : a.nearest);
+    text += fmt::format("  alarm at {:.2f} s, cell ({:.2f}, {:.2f}), height {:.2f} m: {}\n", a.time_s, a.x, a.y, a.height,
+                        a.nearest.empty() ? "FALSE, nobody near" : a.nearest);
   return text;
 }
 
