@@ -6,6 +6,7 @@
 
 #include "config/machine_file.hpp"
 #include "contract/berm_contract.h"
+#include "in_process/joint_driver.hpp"
 #include "validate/trial.hpp"
 
 namespace berm::validate {
@@ -22,13 +23,11 @@ class Commander {
   bool arrived(const berm_state& state) const;                 // at the target and at rest
 
  private:
-  double joint_speed(std::size_t joint, const berm_state& state);
   void pans(const berm_state& state, berm_request& request);
 
   const config::MachineFile& machine_;
   Trial trial_;
-  std::array<double, 4> deceleration_{};  // rad/s2, that it counts on
-  std::array<double, 4> asked_{};         // rad/s
+  in_process::JointDriver driver_;
   std::array<bool, 2> low_seen_{}, high_seen_{}, up_{{true, true}};
   bool swinging_ = false;
   std::uint32_t sequence_ = 0;

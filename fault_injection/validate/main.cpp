@@ -4,15 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <mutex>
-#include <thread>
 
 #include "config/compile_parameters.hpp"
 #include "config/strict_table.hpp"
+#include "in_process/workers.hpp"
 #include "run/parameter_file.hpp"
 #include "run/svg.hpp"
 #include "validate/report.hpp"
@@ -44,24 +42,16 @@ Bench make_bench(const std::string& machine) {
 void run_all(const Bench& bench, const Options& options, const SwingLimits& limits, Sweep& sweep) {
   const auto begin = std::chrono::steady_clock::now();
   sweep.results.resize(static_cast<std::size_t>(options.runs));
-  std::atomic<int> next = 0, done = 0;
-  std::mutex printing;
   const bool progress = isatty(STDERR_FILENO) != 0;
-  const auto work = [&] {
-    for (int run = next++; run < options.runs; run = next++) {
-      sweep.results[static_cast<std::size_t>(run)] = run_trial(bench, draw_trial(options.seed, run, bench.profile.shape, limits), {});
-      const int finished = ++done;
-      const std::lock_guard lock(printing);
-      const TrialResult& r = sweep.results[static_cast<std::size_t>(run)];
-      if (r.outcome == Outcome::miss) fmt::print(stderr, "MISS in run {}: {}\n", run, r.why);
-      if (progress) fmt::print(stderr, "\r{} of {} runs", finished, options.runs);
-      else if (finished % 500 == 0) fmt::print(stderr, "{} of {} runs\n", finished, options.runs);
-    }
+  const auto do_one = [&](int run) {
+    sweep.results[static_cast<std::size_t>(run)] = run_trial(bench, draw_trial(options.seed, run, bench.profile.shape, limits), {});
   };
-  std::vector<std::thread> workers;
-  for (int i = 1; i < options.jobs; ++i) workers.emplace_back(work);
-  work();
-  for (auto& worker : workers) worker.join();
+  in_process::run_trials(options.runs, options.jobs, do_one, [&](int finished, int run) {
+    const TrialResult& r = sweep.results[static_cast<std::size_t>(run)];
+    if (r.outcome == Outcome::miss) fmt::print(stderr, "MISS in run {}: {}\n", run, r.why);
+    if (progress) fmt::print(stderr, "\r{} of {} runs", finished, options.runs);
+    else if (finished % 500 == 0) fmt::print(stderr, "{} of {} runs\n", finished, options.runs);
+  });
   if (progress) fmt::print(stderr, "\n");
   sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
@@ -102,7 +92,6 @@ int run(int argc, char** argv) {
     fmt::print(stderr, "berm validate: --trace needs --only\n");
     return 2;
   }
-  if (options.jobs == 0) options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const Bench bench = make_bench(options.machine);
   // Where nobody watches the ground round the tail it must be fenced, as the kernel says when it starts: the sweep keeps to that.
   const double fence = bench.machine.tail.watched ? 0.0 : bench.machine.own_body_radius + bench.machine.tail.clearance;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
+#include "in_process/draw.hpp"
 #include "plant/machine/kinematics.hpp"
 #include "plant/oracle/oracle.hpp"
 
@@ -14,21 +14,11 @@ namespace berm::validate {
 
 namespace {
 
+using in_process::Draw;
+
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double least_height = 1.0, least_start_distance = 1.0;  // m
 constexpr double own_rim = 1.0;  // m: a cell's diagonal, the margin and the prisms' allowance
-
-class Draw {
- public:
-  Draw(std::uint64_t seed, int run) : engine_(seed * 0x9E3779B97F4A7C15ULL + static_cast<std::uint64_t>(run)) {}
-  // 53 bits of the engine: the same on every library, unlike std::uniform_real_distribution.
-  double unit() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
-  double between(double low, double high) { return low + (high - low) * unit(); }
-  bool chance(double share) { return unit() < share; }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 // Where the kernel would let the implements work if there were no obstacle: high enough, stick and bucket clear of the machine's own cells.
 bool workable(const plant::ImplementShape& shape, const SwingLimits& limits, const std::array<double, 4>& joints) {

@@ -8,18 +8,19 @@
 #include <memory>
 #include <stdexcept>
 
+#include "in_process/machine_loop.hpp"
 #include "plant/machine/kinematics.hpp"
-#include "plant/machine/machine_controller.hpp"
-#include "plant/machine/pan_servo.hpp"
-#include "plant/machine/state_frames.hpp"
 #include "plant/oracle/oracle.hpp"
 #include "validate/commander.hpp"
 #include "validate/seen_space.hpp"
-#include "validate/supervisor.hpp"
 
 namespace berm::validate {
 
 namespace {
+
+using in_process::make_kernel;
+using in_process::make_obedient;
+using in_process::Supervisor;
 
 constexpr double cycle_s = 0.01;
 constexpr double longest_survey_s = 15.0, longest_motion_s = 30.0, stopped_for_s = 1.5;
@@ -40,25 +41,24 @@ plant::WorldConfig without_noise(plant::WorldConfig world) {
   return world;
 }
 
-// Machine, world, commander and whoever supervises, in one loop of virtual time: the plant's own parts, in the order of its process.
+// One motion, with whoever supervises.
 class Loop {
  public:
   // seen: takes what the scanners look through, or null. path: the joints' angles every 0.1 s of the swing, or null.
   Loop(const Bench& bench, const Trial& trial, std::unique_ptr<Supervisor> supervisor, SeenSpace* seen = nullptr, std::vector<PathPoint>* path = nullptr)
-      : trial_(trial), scans_(supervisor->needs_scans() || seen != nullptr), seen_(seen), path_(path), supervisor_(std::move(supervisor)),
-        world_(seen == nullptr ? world_of(trial) : without_noise(world_of(trial)), bench.profile.shape, seed_of(trial), 0),
-        dynamics_(bench.profile.dynamics, bench.profile.shape, seed_of(trial), {trial.from, {}}), controller_(bench.profile), frames_(bench.profile, seed_of(trial)),
-        servo_{plant::PanServo(bench.profile.shape.scanner[0]), plant::PanServo(bench.profile.shape.scanner[1])},
-        commander_(bench.machine, trial, std::max(plant::reach(bench.profile.shape, {trial.from, {}}), plant::reach(bench.profile.shape, {trial.to, {}})), scans_) {}
+      : seen_(seen), path_(path), looks_(supervisor->needs_scans() || seen != nullptr),
+        machine_(bench.profile, seen == nullptr ? world_of(trial) : without_noise(world_of(trial)), seed_of(trial), {trial.from, trial.payload_kg, 0, looks_},
+                 std::move(supervisor)),
+        commander_(bench.machine, trial, std::max(plant::reach(bench.profile.shape, {trial.from, {}}), plant::reach(bench.profile.shape, {trial.to, {}})), looks_) {}
 
   Motion run(std::FILE* trace) {
     Motion motion;
     motion.closest_m = motion.ground_gap_m = 1e9;
     double began_s = 0.0, still_s = 0.0;
     const double end_s = longest_survey_s + longest_motion_s;
-    for (double t = cycle_s; t < end_s; t = static_cast<double>(++cycle_) * cycle_s) {
-      advance(t);
-      const berm_state& state = supervisor_->state();
+    for (double t = cycle_s; t < end_s; t = static_cast<double>(machine_.cycle() + 1) * cycle_s) {
+      advance();
+      const berm_state& state = machine_.state();
       judge(t, motion);
       if (trace != nullptr) write_row(trace, t);
       if (motion.contact) break;
@@ -69,19 +69,19 @@ class Loop {
         motion.stop_reason = state.stop_reason;
         break;
       }
-      if (path_ != nullptr && cycle_ % note_every == 0) path_->push_back({t, dynamics_.state().angle});
+      if (path_ != nullptr && machine_.cycle() % note_every == 0) path_->push_back({t, machine_.joints().angle});
       motion.seconds = t - began_s;
       if (motion.seconds > longest_motion_s) break;
       if (state.kernel_state != BERM_STATE_RUN && !motion.stopped) {
         motion.stopped = true;
         motion.stop_reason = state.stop_reason;
       }
-      for (int j = 0; j < 4; ++j) motion.governed = motion.governed || std::abs(state.commanded_urad_s[j]) + 1000 < std::abs(asked_.joint_velocity_urad_s[j]);
+      for (int j = 0; j < 4; ++j) motion.governed = motion.governed || std::abs(state.commanded_urad_s[j]) + 1000 < std::abs(machine_.asked().joint_velocity_urad_s[j]);
       if (commander_.arrived(state)) {
         motion.arrived = true;
         break;
       }
-      const auto& speed = dynamics_.state().velocity;
+      const auto& speed = machine_.joints().velocity;
       const bool rests = std::all_of(speed.begin(), speed.end(), [](double v) { return std::fabs(v) < still; });
       still_s = rests && state.kernel_state != BERM_STATE_RUN ? still_s + cycle_s : 0.0;
       if (still_s > stopped_for_s) break;
@@ -92,40 +92,14 @@ class Loop {
  private:
   static std::uint64_t seed_of(const Trial& trial) { return trial.seed * 1000003U + static_cast<std::uint64_t>(trial.run); }
 
-  void advance(double t) {
-    now_ = t - cycle_s;
-    controller_.decide(now_, resting_);
-    const plant::JointState before = dynamics_.state();
-    const plant::PanState pan_before = pan_;
-    dynamics_.step(cycle_s, controller_.drive(), controller_.command(), plant::DigForces{}, trial_.payload_kg);
-    for (std::size_t i = 0; i < servo_.size(); ++i) {
-      const plant::PanGoal goal = controller_.pan(i, now_, servo_[i].angle());
-      servo_[i].step(cycle_s, goal.goal, goal.rate);
-      pan_.angle[i] = servo_[i].angle();
-      pan_.velocity[i] = servo_[i].velocity();
-    }
-    world_.step(t, cycle_s, dynamics_.state(), before);
-    Arrived arrived;
-    if (scans_) world_.scan(t, cycle_s, before, dynamics_.state(), pan_before, pan_, arrived.scans);
-    if (seen_ != nullptr)
-      for (const auto& packet : arrived.scans) seen_->take(packet, t, dynamics_.state());
-    if (supervisor_->needs_scans()) world_.scan_lidars(t, cycle_s, before, dynamics_.state(), arrived.lidars);
-    const auto& speed = dynamics_.state().velocity;
-    resting_ = std::all_of(speed.begin(), speed.end(), [](double v) { return std::fabs(v) < still; });
-
-    plant::MachineSnapshot snapshot;
-    snapshot.joints = dynamics_.state();
-    snapshot.payload_kg = trial_.payload_kg;
-    snapshot.pilot_unlocked = controller_.pilot_unlocked();
-    snapshot.panel.run = true;
-    const bool has_request = cycle_ > 1;
-    if (has_request) asked_ = commander_.answer(supervisor_->state());
-    arrived.frames = frames_.frames(cycle_, snapshot);
-    for (const auto& frame : supervisor_->step(cycle_, arrived, has_request ? &asked_ : nullptr)) controller_.receive(frame, t);
+  void advance() {
+    machine_.advance([this](const berm_state& state) { return commander_.answer(state); });
+    if (seen_ == nullptr) return;
+    for (const auto& packet : machine_.scans()) seen_->take(packet, machine_.time_s(), machine_.joints());
   }
 
   void judge(double t, Motion& motion) {
-    const plant::OracleVerdict verdict = world_.judge(t, dynamics_.state());
+    const plant::OracleVerdict verdict = machine_.world().judge(t, machine_.joints());
     motion.closest_m = std::min(motion.closest_m, verdict.closest_m);
     motion.ground_gap_m = std::min(motion.ground_gap_m, verdict.ground_gap_m);
     if (verdict.contact && !motion.contact) motion.touched = verdict.what + (verdict.by_upper_body ? ", with the upper body" : "");
@@ -133,30 +107,19 @@ class Loop {
   }
 
   void write_row(std::FILE* trace, double t) {
-    const berm_state& s = supervisor_->state();
-    const plant::JointState& q = dynamics_.state();
-    fmt::print(trace, "{:.2f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{},{},{},{},{},{},{}", t, q.angle[0], q.angle[1], q.angle[2], q.angle[3], q.velocity[0], asked_.joint_velocity_urad_s[0],
+    const berm_state& s = machine_.state();
+    const plant::JointState& q = machine_.joints();
+    fmt::print(trace, "{:.2f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{},{},{},{},{},{},{}", t, q.angle[0], q.angle[1], q.angle[2], q.angle[3], q.velocity[0], machine_.asked().joint_velocity_urad_s[0],
                s.commanded_urad_s[0], s.kernel_state, s.stop_reason, s.blocked_x_mm, s.blocked_y_mm, s.blocked_height_mm);
     for (int j = 0; j < 4; ++j) fmt::print(trace, ",{},{}", s.reach_low_urad[j], s.reach_high_urad[j]);
     fmt::print(trace, "\n");
   }
 
-  const Trial& trial_;
-  bool scans_;
   SeenSpace* seen_;
   std::vector<PathPoint>* path_;
-  std::unique_ptr<Supervisor> supervisor_;
-  plant::World world_;
-  plant::JointDynamics dynamics_;
-  plant::MachineController controller_;
-  plant::StateFrames frames_;
-  std::array<plant::PanServo, 2> servo_;
+  bool looks_;
+  in_process::MachineLoop machine_;
   Commander commander_;
-  plant::PanState pan_;
-  berm_request asked_{};
-  std::uint64_t cycle_ = 1;
-  double now_ = 0.0;
-  bool resting_ = true;
 };
 
 plant::oracle::Body column_of(const SeenSpace::Hidden& hidden) {

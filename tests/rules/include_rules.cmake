@@ -12,7 +12,9 @@ set(record_rooms record)
 set(app_rooms motion planning perception app)
 set(plant_rooms plant)
 set(run_rooms plant run map)
-set(validate_rooms plant run validate io)
+set(in_process_rooms plant in_process io)
+set(validate_rooms plant run in_process validate)
+set(watch_rooms plant run in_process watch io core record ${app_rooms})  # the app's own pan schedule moves the scanners
 set(identify_rooms identify run)  # never the plant: it measures what is on the bus
 
 set(violations 0)
@@ -65,7 +67,9 @@ check_folder(fault_injection/plant "${plant_rooms};${interface_rooms}" "")
 check_folder(fault_injection/run "${run_rooms};${interface_rooms}" "")
 check_folder(fault_injection/identify "${identify_rooms};${interface_rooms}" "")
 check_folder(fault_injection/map "${run_rooms};${interface_rooms}" "")
-# Joins plant and kernel in one process, for speed.
+# Join plant and kernel in one process, for speed.
+check_folder(fault_injection/in_process "${in_process_rooms};${interface_rooms}" "")
+check_folder(fault_injection/watch "${watch_rooms};${interface_rooms}" "")
 check_folder(fault_injection/validate "${validate_rooms};${interface_rooms}" "")
 
 if(violations GREATER 0)

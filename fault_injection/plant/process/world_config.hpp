@@ -63,6 +63,7 @@ struct MoverConfig {
   double start_s = 0.0;                   // leaves the first waypoint at this time ...
   std::optional<double> start_swing_above;  // ... and not before the swing angle first exceeds this at or after start_s
   std::vector<WaypointConfig> waypoints;  // stands at the first until it starts, at the last for ever
+  double appears_s = 0.0;                 // is nowhere before: comes out of a place that no sensor sees. Not part of the file format
 };
 
 struct BoxConfig {                        // a fixed obstacle

@@ -22,6 +22,7 @@ Movers::Movers(const std::vector<MoverConfig>& config) {
 
 void Movers::step(double t, double dt, double swing_angle, const Terrain& terrain) {
   for (Mover& m : mover_) {
+    m.present = t >= m.config.appears_s;
     if (!m.started && t >= m.config.start_s) m.started = !m.config.start_swing_above || swing_angle > *m.config.start_swing_above;
     if (m.started) advance(m, std::min(dt, std::max(0.0, t - m.config.start_s)));
     m.pose.z = terrain.grid().surface(m.pose.x, m.pose.y);

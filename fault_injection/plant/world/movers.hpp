@@ -15,15 +15,19 @@ class Movers {
   // From t - dt to t. swing_angle starts those that wait for it.
   void step(double t, double dt, double swing_angle, const Terrain& terrain);
 
+  // Appears at t, and sets out.
+  void bring(size_t i, double t) { mover_[i].config.appears_s = mover_[i].config.start_s = t; }
+
   [[nodiscard]] size_t count() const { return mover_.size(); }
   [[nodiscard]] const MoverConfig& config(size_t i) const { return mover_[i].config; }
   [[nodiscard]] const MoverPose& pose(size_t i) const { return mover_[i].pose; }
+  [[nodiscard]] bool present(size_t i) const { return mover_[i].present; }
 
  private:
   struct Mover {
     MoverConfig config;
     MoverPose pose;
-    bool started = false;
+    bool present = false, started = false;
     size_t at = 0;        // the waypoint it stands at or comes from
     double waited = 0;    // at that waypoint
     double walked = 0;    // from that waypoint towards the next

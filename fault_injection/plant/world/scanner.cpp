@@ -30,11 +30,11 @@ Vec3 Scanner::direction(int index, double pan) const {
 
 uint16_t Scanner::raw(double range) const { return static_cast<uint16_t>(std::clamp<long long>(std::llround(range * 1000 / BERM_SCAN_RANGE_LSB_MM), 1, 65535)); }
 
-Scanner::Sample Scanner::measure(const Ray& world, const Ray& base, const Ray& upper, const Scene& scene) {
+Scanner::Sample Scanner::measure(const Ray& world, const Ray& base, const Ray& upper, const Scene& scene, std::vector<MoverReturn>* returns) {
   Sample s;
   // The draws do not depend on what is hit, so that one changed object does not change every later sample's noise.
   const double noise = random_.normal(), what = random_.uniform(), where = random_.uniform(), film = random_.uniform();
-  const std::optional<double> hit = scene.cast(world, base, upper, config_.range_max);
+  const std::optional<SceneHit> hit = scene.meet(world, base, upper, config_.range_max);
   int echoes = 0;
   const auto add = [&](double range) {  // nearest first; never more than three
     int k = echoes++;
@@ -45,21 +45,22 @@ Scanner::Sample Scanner::measure(const Ray& world, const Ray& base, const Ray& u
   // Part of the light comes back from a dirty window; the last echo is still the target.
   if (film * 200 < 100 - config_.window_percent) add(config_.range_min);
   double rate = config_.outlier_probability;
-  const double reach = hit ? *hit : config_.range_max;
+  const double reach = hit ? hit->range : config_.range_max;
   const double between = config_.range_min + where * std::max(0.0, reach - config_.range_min);
   if (what < rate) {
     add(between);
-  } else if (what < (rate += config_.dropout_probability) || !hit || *hit < config_.range_min) {
+  } else if (what < (rate += config_.dropout_probability) || !hit || hit->range < config_.range_min) {
     // no return
   } else {
     if (what < rate + config_.dust_probability) add(between);
-    add(std::max(config_.range_min, *hit + config_.range_stddev * noise));
+    add(std::max(config_.range_min, hit->range + config_.range_stddev * noise));
+    note(*hit, world, returns);
   }
   return s;
 }
 
 void Scanner::step(double t, double dt, const ScanPose& before, const ScanPose& now, const Scene& scene, std::vector<berm_scan_packet>& out,
-                   const BaseFrame& stand) {
+                   const BaseFrame& stand, std::vector<MoverReturn>* returns) {
   const int64_t end = std::llround(t * 1e9), begin = end - std::llround(dt * 1e9);
   const auto fraction = [&](int64_t sample) {
     return std::clamp(static_cast<double>(time_ns(sample) - begin) / static_cast<double>(end - begin), 0.0, 1.0);
@@ -94,7 +95,7 @@ void Scanner::step(double t, double dt, const ScanPose& before, const ScanPose& 
       const Ray upper{head_, direction(index + i, pan_at(f))};
       const PlanarFrame body(0, 0, 0, before.swing + f * (now.swing - before.swing));
       const Ray base{body.out(upper.origin), body.out(upper.direction)};
-      const Sample s = measure(stand.out(base), base, upper, scene);
+      const Sample s = measure(stand.out(base), base, upper, scene, returns);
       for (int k = 0; k < BERM_SCAN_ECHOES; ++k) {
         p.range[i][k] = s.echo[k];
         if (s.echo[k] != 0) most = std::max(most, k + 1);

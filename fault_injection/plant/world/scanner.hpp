@@ -21,9 +21,9 @@ class Scanner {
  public:
   Scanner(const ScannerConfig& config, const ScannerMount& mount, uint8_t number, uint64_t seed);
   // The samples in (t - dt, t]. Sample n is taken at (n + 1) / rate, counted from the start in whole nanoseconds, so nothing drifts.
-  // Packets do not span scanlines or calls.
+  // Packets do not span scanlines or calls. returns: takes what people and vehicles sent back, or null.
   void step(double t, double dt, const ScanPose& before, const ScanPose& now, const Scene& scene, std::vector<berm_scan_packet>& out,
-            const BaseFrame& stand = BaseFrame());
+            const BaseFrame& stand = BaseFrame(), std::vector<MoverReturn>* returns = nullptr);
 
   // Direction of a sample in the upper body's frame.
   [[nodiscard]] Vec3 direction(int index, double pan) const;
@@ -31,7 +31,7 @@ class Scanner {
  private:
   struct Sample { uint16_t echo[BERM_SCAN_ECHOES] = {0, 0, 0}; };
   [[nodiscard]] int64_t time_ns(int64_t sample) const { return (sample + 1) * 1'000'000'000 / rate_; }
-  Sample measure(const Ray& world, const Ray& base, const Ray& upper, const Scene& scene);
+  Sample measure(const Ray& world, const Ray& base, const Ray& upper, const Scene& scene, std::vector<MoverReturn>* returns);
   [[nodiscard]] uint16_t raw(double range) const;
 
   ScannerConfig config_;

@@ -31,17 +31,22 @@ void Scene::place_site(const Terrain& terrain, const std::vector<Truck>& trucks,
     truck_.push_back(std::move(s));
   }
   box_.clear();
+  box_mover_.assign(boxes.size(), no_mover);
   for (const BoxConfig& b : boxes) {
     box_.push_back({PlanarFrame(b.x, b.y, 0, b.yaw), {-b.length / 2, -b.width / 2, b.z_low}, {b.length / 2, b.width / 2, b.z_high}});
   }
   person_.clear();
+  person_mover_.clear();
   for (size_t i = 0; i < movers.count(); ++i) {
+    if (!movers.present(i)) continue;
     const MoverConfig& c = movers.config(i);
     const MoverPose& p = movers.pose(i);
     if (c.vehicle) {
       box_.push_back({PlanarFrame(p.x, p.y, p.z, p.yaw), {-c.length / 2, -c.width / 2, 0}, {c.length / 2, c.width / 2, c.height}});
+      box_mover_.push_back(static_cast<int>(i));
     } else {
       person_.push_back({p.x, p.y, p.z, p.z + c.height, c.radius});
+      person_mover_.push_back(static_cast<int>(i));
     }
   }
 }
@@ -97,20 +102,40 @@ double Scene::cast_beyond(const Ray& world, double range) const {
 }
 
 std::optional<double> Scene::cast(const Ray& world, const Ray& base, const Ray& upper, double range_max) const {
-  double range = range_max;
+  const std::optional<SceneHit> hit = meet(world, base, upper, range_max);
+  return hit ? std::optional<double>(hit->range) : std::nullopt;
+}
+
+std::optional<SceneHit> Scene::meet(const Ray& world, const Ray& base, const Ray& upper, double range_max) const {
+  double range = range_max, nearest_mover = range_max;
+  int mover = no_mover;
   if (cast_box(upper, implement_low_, implement_high_, range)) {
     for (const PrismSolid& s : implement_) nearer(s.cast(upper, range), range);
   }
   for (const BoxSolid& b : upper_body_) nearer(cast_box(upper, b.low, b.high, range), range);
   for (const BoxSolid& b : track_) nearer(cast_box(base, b.low, b.high, range), range);
   for (const TruckSolid& t : truck_) range = cast_truck(t, world, range);
-  for (const BoxSolid& b : box_) nearer(b.cast(world, range), range);
-  for (const CylinderSolid& p : person_) nearer(p.cast(world, range), range);
+  const auto against = [&](const auto& solid, int which) {
+    const double before = range;
+    nearer(solid.cast(world, range), range);
+    if (range >= before || which == no_mover) return;
+    mover = which;
+    nearest_mover = range;
+  };
+  for (size_t i = 0; i < box_.size(); ++i) against(box_[i], box_mover_[i]);
+  for (size_t i = 0; i < person_.size(); ++i) against(person_[i], person_mover_[i]);
   if (terrain_ != nullptr) {
     nearer(terrain_->grid().cast(world, range), range);
     range = cast_beyond(world, range);
   }
-  return range < range_max ? std::optional<double>(range) : std::nullopt;
+  if (range >= range_max) return std::nullopt;
+  return SceneHit{range, range < nearest_mover ? no_mover : mover};
+}
+
+void note(const SceneHit& hit, const Ray& world, std::vector<MoverReturn>* returns) {
+  if (returns == nullptr || hit.mover == no_mover) return;
+  const Vec3 at = world.at(hit.range);
+  returns->push_back({static_cast<size_t>(hit.mover), at.x, at.y, at.z});
 }
 
 }  // namespace berm::plant

@@ -14,6 +14,11 @@
 
 namespace berm::plant {
 
+constexpr int no_mover = -1;
+
+// What a ray meets first: where, and which person or vehicle it is (its place among the movers), if it is one.
+struct SceneHit { double range; int mover; };
+
 class Scene {
  public:
   // Walls and cab of trucks, people, vehicles, fixed boxes.
@@ -21,7 +26,9 @@ class Scene {
   // The machine at one pose of boom, stick and bucket, with its load heaped over the mouth. Upper body's frame: the swing stays out of it.
   void place_machine(const ImplementShape& shape, const LinkFrames& links, double heap_volume);
 
-  // Range of the first hit. The rays are the same one: in the world, in the base frame and in the upper body's.
+  // The first hit. The rays are the same one: in the world, in the base frame and in the upper body's.
+  [[nodiscard]] std::optional<SceneHit> meet(const Ray& world, const Ray& base, const Ray& upper, double range_max) const;
+  // Its range.
   [[nodiscard]] std::optional<double> cast(const Ray& world, const Ray& base, const Ray& upper, double range_max) const;
 
  private:
@@ -39,9 +46,13 @@ class Scene {
   std::vector<TruckSolid> truck_;
   std::vector<BoxSolid> box_;
   std::vector<CylinderSolid> person_;
+  std::vector<int> box_mover_, person_mover_;  // beside them: which mover it is, no_mover for a fixed box
   std::vector<PrismSolid> implement_;
   std::vector<BoxSolid> upper_body_, track_;
   Vec3 implement_low_, implement_high_;
 };
+
+// Keeps a hit that came back from a person or vehicle; returns may be null.
+void note(const SceneHit& hit, const Ray& world, std::vector<MoverReturn>* returns);
 
 }  // namespace berm::plant

@@ -42,7 +42,8 @@ SpinningLidar::SpinningLidar(const ScannerConfig& noise, const LidarMount& mount
 
 Vec3 SpinningLidar::turned(const Vec3& v) const { return v.x * x_ + v.y * y_ + v.z * z_; }
 
-void SpinningLidar::fire(std::int64_t firing, double swing, bool blocked, const Scene& scene, const BaseFrame& stand, std::uint8_t* records) {
+void SpinningLidar::fire(std::int64_t firing, double swing, bool blocked, const Scene& scene, const BaseFrame& stand, std::uint8_t* records,
+                         std::vector<MoverReturn>* returns) {
   const double at = azimuth(firing);
   const bool in_sector = std::min(at, 2 * std::numbers::pi - at) <= half_sector;
   const PlanarFrame body(0, 0, 0, swing);
@@ -56,16 +57,18 @@ void SpinningLidar::fire(std::int64_t firing, double swing, bool blocked, const 
     const Vec3 direction = turned({std::cos(e) * std::cos(turn), -std::cos(e) * std::sin(turn), std::sin(e)});
     const Ray upper{{mount_.position[0], mount_.position[1], mount_.position[2]}, direction};
     const Ray base{body.out(upper.origin), body.out(upper.direction)};
-    const std::optional<double> hit = scene.cast(stand.out(base), base, upper, range_most);
-    if (!hit || *hit < range_least) continue;
-    const double range = std::max(range_least, *hit + noise_.range_stddev * noise);
+    const Ray world = stand.out(base);
+    const std::optional<SceneHit> hit = scene.meet(world, base, upper, range_most);
+    if (!hit || hit->range < range_least) continue;
+    note(*hit, world, returns);
+    const double range = std::max(range_least, hit->range + noise_.range_stddev * noise);
     put16(to, static_cast<unsigned>(std::clamp<long>(std::lround(range / range_lsb), 1, 65535)));
     to[2] = reflectivity;
   }
 }
 
 void SpinningLidar::step(double t, double dt, double swing_before, double swing_now, bool blocked, const Scene& scene, const BaseFrame& stand,
-                         std::vector<LidarPacket>& out) {
+                         std::vector<LidarPacket>& out, std::vector<MoverReturn>* returns) {
   const std::int64_t end = std::llround(t * 1e9), begin = end - std::llround(dt * 1e9);
   const auto time_ns = [](std::int64_t firing) { return (firing + 1) * firing_ns; };
   if (time_ns(next_) <= begin) next_ = begin / firing_ns;  // a caller that left a span of time out gets no firings of it
@@ -78,7 +81,7 @@ void SpinningLidar::step(double t, double dt, double swing_before, double swing_
       put16(block, 0xEEFF);
       put16(block + 2, static_cast<unsigned>(azimuth(next_) * 18000 / std::numbers::pi) % 36000);
     }
-    fire(next_, swing_before + f * (swing_now - swing_before), blocked, scene, stand, block + 4 + (place % 2) * lasers * record_bytes);
+    fire(next_, swing_before + f * (swing_now - swing_before), blocked, scene, stand, block + 4 + (place % 2) * lasers * record_bytes, returns);
     if (place + 1 < firings_a_packet) continue;
     const auto stamp = static_cast<std::uint32_t>((time_ns(next_) / 1000) % hour_us);
     for (std::size_t i = 0; i < 4; ++i) packet_.bytes[1200 + i] = static_cast<std::uint8_t>(stamp >> (8 * i));

@@ -23,12 +23,13 @@ class SpinningLidar {
  public:
   SpinningLidar(const ScannerConfig& noise, const LidarMount& mount, std::uint8_t number, std::uint64_t seed);
   // The firings in (t - dt, t], appended as packets when twelve blocks of two firings are full. blocked: something lies on the window, and nothing
-  // comes back.
+  // comes back. returns: takes what people and vehicles sent back, or null.
   void step(double t, double dt, double swing_before, double swing_now, bool blocked, const Scene& scene, const BaseFrame& stand,
-            std::vector<LidarPacket>& out);
+            std::vector<LidarPacket>& out, std::vector<MoverReturn>* returns = nullptr);
 
  private:
-  void fire(std::int64_t firing, double swing, bool blocked, const Scene& scene, const BaseFrame& stand, std::uint8_t* records);
+  void fire(std::int64_t firing, double swing, bool blocked, const Scene& scene, const BaseFrame& stand, std::uint8_t* records,
+            std::vector<MoverReturn>* returns);
   [[nodiscard]] Vec3 turned(const Vec3& v) const;
 
   ScannerConfig noise_;

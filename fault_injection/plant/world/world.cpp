@@ -93,6 +93,7 @@ struct World::State {
   std::vector<SpinningLidar> lidar;
   Scene scene;
   BasePose base;
+  std::vector<MoverReturn> mover_returns;
   size_t current = 0;
   std::vector<Overflow> over;
 };
@@ -119,11 +120,12 @@ DigForces World::step(double t, double dt, const JointState& now, const JointSta
 void World::scan(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
                  std::vector<berm_scan_packet>& out) {
   State& w = *state_;
+  w.mover_returns.clear();
   w.scene.place_site(w.terrain, w.truck, w.movers, w.config.boxes);
   w.scene.place_machine(w.shape, link_frames(w.shape, now), std::max(0.0, w.load.volume() - w.load.struck()));
   const BaseFrame base(w.base);
   for (size_t i = 0; i < w.scanner.size(); ++i) {
-    w.scanner[i].step(t, dt, {before.angle[0], pan_before.angle[i]}, {now.angle[0], pan_now.angle[i]}, w.scene, out, base);
+    w.scanner[i].step(t, dt, {before.angle[0], pan_before.angle[i]}, {now.angle[0], pan_now.angle[i]}, w.scene, out, base, &w.mover_returns);
   }
 }
 
@@ -136,7 +138,7 @@ void World::scan_lidars(double t, double dt, const JointState& before, const Joi
       if (f.lidar != i || t < f.at_s || t >= f.at_s + f.for_s) continue;
       (f.silent ? silent : blocked) = true;
     }
-    if (!silent) w.lidar[i].step(t, dt, before.angle[0], now.angle[0], blocked, w.scene, base, out);
+    if (!silent) w.lidar[i].step(t, dt, before.angle[0], now.angle[0], blocked, w.scene, base, out, &w.mover_returns);
   }
 }
 
@@ -153,6 +155,7 @@ oracle::Site World::State::site() const {
     s.blocks.push_back({b.name, b.x, b.y, 0, b.yaw, {-b.length / 2, -b.width / 2, b.z_low}, {b.length / 2, b.width / 2, b.z_high}});
   }
   for (size_t i = 0; i < movers.count(); ++i) {
+    if (!movers.present(i)) continue;
     const MoverConfig& c = movers.config(i);
     const MoverPose& p = movers.pose(i);
     if (c.vehicle) s.blocks.push_back({c.name, p.x, p.y, p.z, p.yaw, {-c.length / 2, -c.width / 2, 0}, {c.length / 2, c.width / 2, c.height}});
@@ -194,6 +197,10 @@ std::vector<MoverPose> World::movers() const {
   for (size_t i = 0; i < w.movers.count(); ++i) all.push_back(w.movers.pose(i));
   return all;
 }
+
+void World::bring_mover(std::size_t mover, double t) { state_->movers.bring(mover, t); }
+bool World::mover_present(std::size_t mover) const { return state_->movers.present(mover); }
+const std::vector<MoverReturn>& World::mover_returns() const { return state_->mover_returns; }
 
 void World::release_truck(double t) {
   if (state_->current < state_->truck.size()) state_->truck[state_->current].release(t);

@@ -39,6 +39,9 @@ struct OracleVerdict {
   bool by_upper_body = false;             // it is the upper body that touches it, or is nearest to it, and no implement
 };
 
+// A return of a sensor that a person or vehicle sent back, not noise: its place among those of movers() that are no trucks, and where it was met.
+struct MoverReturn { std::size_t mover = 0; double x = 0.0, y = 0.0, z = 0.0; };
+
 struct MoverPose { std::string name; double x = 0.0, y = 0.0, z = 0.0, yaw = 0.0; bool vehicle = false; };
 
 class World {
@@ -57,10 +60,14 @@ class World {
             std::vector<berm_scan_packet>& out);
   // Firings of the lidars on the upper body in (t - dt, t], after scan() of the same step: it has gathered what there is to see.
   void scan_lidars(double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out);
+  // Of people and vehicles, in the newest scan() and the scan_lidars() after it.
+  const std::vector<MoverReturn>& mover_returns() const;
   OracleVerdict judge(double t, const JointState& joints);  // independent oracle
   double payload_kg() const;
   Truth truth() const;
   std::vector<MoverPose> movers() const;  // the same names in the same order at every call: trucks first
+  void bring_mover(std::size_t mover, double t);  // of people and vehicles: appears at t and sets out, whatever the configuration says
+  bool mover_present(std::size_t mover) const;  // of people and vehicles: whether it is on the site yet
   void release_truck(double t);           // the horn: the full truck drives off, the next one comes if there is one
   bool truck_parked() const;
   bool truck_leaving() const;

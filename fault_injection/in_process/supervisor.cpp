@@ -1,11 +1,11 @@
-#include "validate/supervisor.hpp"
+#include "in_process/supervisor.hpp"
 
 #include <algorithm>
 #include <cstring>
 
 #include "io/cycle.hpp"
 
-namespace berm::validate {
+namespace berm::in_process {
 
 namespace {
 
@@ -29,7 +29,8 @@ class Kernel final : public Supervisor {
     for (const auto& packet : arrived.scans) {
       std::uint8_t bytes[BERM_SCAN_PACKET_MAX_BYTES];
       const std::size_t n = berm_scan_encode(&packet, bytes);
-      if (in_->packet_count < kernel::CycleInputs::kPackets && berm_scan_decode(bytes, n, &in_->packet[in_->packet_count]) == BERM_SCAN_OK) ++in_->packet_count;
+      if (in_->packet_count < kernel::CycleInputs::kPackets && berm_scan_decode(bytes, n, &in_->packet[in_->packet_count]) == BERM_SCAN_OK)
+        ++in_->packet_count;
     }
     for (const auto& packet : arrived.lidars) in_->take_lidar(packet.lidar, packet.bytes.data(), packet.bytes.size());
     if (request != nullptr) std::memcpy(in_->request, request, sizeof *request);
@@ -39,6 +40,7 @@ class Kernel final : public Supervisor {
   }
   const berm_state& state() const override { return out_->state; }
   bool needs_scans() const override { return true; }
+  const kernel::Cycle* cycle() const override { return cycle_.get(); }
 
  private:
   berm_parameters parameters_;
@@ -58,7 +60,8 @@ class Obedient final : public Supervisor {
       berm_front_angle angle{};
       berm_front_velocity velocity{};
       if (berm_decode_front_angle(&frame, &angle)) std::copy(angle.angle_urad, angle.angle_urad + 4, state_.joint_angle_urad);
-      if (berm_decode_front_velocity(&frame, &velocity)) std::copy(velocity.velocity_urad_s, velocity.velocity_urad_s + 4, state_.joint_velocity_urad_s);
+      if (berm_decode_front_velocity(&frame, &velocity))
+        std::copy(velocity.velocity_urad_s, velocity.velocity_urad_s + 4, state_.joint_velocity_urad_s);
     }
     for (const auto& packet : arrived.scans) state_.pan_angle_urad[packet.scanner] = packet.pan_end_urad;
     berm_velocity_cmd command{};
@@ -98,4 +101,4 @@ class Obedient final : public Supervisor {
 std::unique_ptr<Supervisor> make_kernel(const berm_parameters& parameters) { return std::make_unique<Kernel>(parameters); }
 std::unique_ptr<Supervisor> make_obedient() { return std::make_unique<Obedient>(); }
 
-}  // namespace berm::validate
+}  // namespace berm::in_process

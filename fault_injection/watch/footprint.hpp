@@ -1,0 +1,35 @@
+// The ground that a person or vehicle covers, and its place against the kernel's safety region. Base frame, metres, radians.
+#pragma once
+
+#include "core/monitor_rules.h"
+#include "plant/oracle/oracle.hpp"
+#include "plant/process/world_config.hpp"
+#include "plant/world/world.hpp"
+
+namespace berm::watch {
+
+struct Footprint {
+  double x = 0.0, y = 0.0, yaw = 0.0;
+  double radius = 0.0;                // of a person: a disc
+  double length = 0.0, width = 0.0;   // of a vehicle: a rectangle with its length along the yaw; 0 for a person
+};
+
+Footprint footprint_of(const plant::MoverConfig& shape, double x, double y, double yaw);
+// From a point to the footprint; 0 within it.
+double distance(const Footprint& footprint, double x, double y);
+// Whether it shares a point with the axis-aligned square that begins at (x, y).
+bool meets_square(const Footprint& footprint, double x, double y, double side);
+// Of the smallest circle about its middle that holds it.
+double outer_radius(const Footprint& footprint);
+
+// Whether the cell that holds a point is watched; no cell of the map is not.
+bool watched_at(const sk_monitor_rules& rules, double x, double y);
+// Whether the footprint covers some part of a watched cell.
+bool meets_region(const Footprint& footprint, const sk_monitor_rules& rules);
+// Whether a watched cell with its middle no farther from the footprint than within holds an obstacle of the monitor's.
+bool obstacle_near(const Footprint& footprint, double within, const sk_monitor& monitor, const sk_monitor_rules& rules);
+
+// The person or vehicle as a body of the oracle's, standing at (x, y, z).
+plant::oracle::Body body_of(const plant::MoverConfig& shape, const plant::MoverPose& pose);
+
+}  // namespace berm::watch

@@ -1,0 +1,218 @@
+#include "watch/intrusion_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+
+#include "config/compile_parameters.hpp"
+#include "in_process/machine_loop.hpp"
+#include "io/cycle.hpp"
+#include "plant/process/scenario.hpp"
+#include "run/parameter_file.hpp"
+#include "watch/swept_reach.hpp"
+
+namespace berm::watch {
+
+namespace {
+
+constexpr double longest_learning_s = 120.0;
+constexpr double not_yet_s = 1e9;
+constexpr double stays_s = 15.0;             // at the end of its way
+constexpr double after_it_left_s = 4.0;      // longer than the monitor lets what it saw wait
+constexpr double after_standstill_s = 1.0;
+constexpr double long_enough_inside_s = 1.0;
+constexpr double beyond_reach_m = 3.0, far_away_m = 1e3;
+constexpr std::uint64_t judge_reach_every = 5;  // cycles
+
+bool still(const plant::JointState& joints) {
+  return std::all_of(joints.velocity.begin(), joints.velocity.end(), [](double v) { return std::fabs(v) < standstill_rad_s; });
+}
+
+ReachBox box_of(const berm_state& state) {
+  ReachBox box;
+  for (std::size_t j = 0; j < 4; ++j) {
+    box.low[j] = state.reach_low_urad[j] * 1e-6;
+    box.high[j] = state.reach_high_urad[j] * 1e-6;
+  }
+  return box;
+}
+
+plant::WorldConfig with_intruder(plant::WorldConfig world, const Intrusion& intrusion) {
+  world.movers = {intrusion.mover};
+  world.movers[0].appears_s = world.movers[0].start_s = not_yet_s;
+  return world;
+}
+
+berm_parameters parameters_of(const Bench& bench, const Intrusion& intrusion) {
+  config::MachineFile machine = bench.machine;
+  machine.workspace.follows = intrusion.follows;
+  return config::compile_parameters(machine, bench.site);
+}
+
+class Trial {
+ public:
+  Trial(const Bench& bench, const Intrusion& intrusion, std::FILE* trace)
+      : bench_(bench), shape_(intrusion.mover), trace_(trace), motion_(bench.machine, bench.place), reach_(bench.profile.shape),
+        watch_({intrusion.mover.name}),
+        machine_(bench.profile, with_intruder(bench.world, intrusion), intrusion.seed * 1000003U + static_cast<std::uint64_t>(intrusion.run),
+                 {first_pose(bench.place), 0.0, 1, true}, in_process::make_kernel(parameters_of(bench, intrusion))) {
+    result_.intrusion = intrusion;
+  }
+
+  IntrusionResult run() {
+    while (!motion_.learned() && machine_.time_s() < longest_learning_s && watch_.alarms().empty()) step();
+    const double appears_s = machine_.time_s() + result_.intrusion.swing_phase_s;
+    while (motion_.learned() && machine_.time_s() < appears_s && watch_.alarms().empty()) step();
+    if (motion_.learned() && watch_.alarms().empty()) {
+      machine_.world().bring_mover(0, machine_.time_s() + in_process::MachineLoop::cycle_s);
+      result_.appeared_s = machine_.time_s();
+      while (!over()) step();
+    }
+    result_.record = watch_.records().front();
+    result_.alarms = watch_.alarms();
+    result_.false_alarms = watch_.false_alarms();
+    result_.ended_s = machine_.time_s();
+    judge_outcome();
+    return result_;
+  }
+
+ private:
+  void step() {
+    machine_.advance([this](const berm_state& state) { return motion_.answer(state); });
+    const plant::MoverPose pose = machine_.world().movers().back();
+    const bool present = machine_.world().mover_present(0);
+    const plant::oracle::Body body = body_of(shape_, pose);
+    const double implements_m = present ? reach_.distance(machine_.joints().angle, body) : far_away_m;
+    const berm_state& state = machine_.state();
+    const auto& workspace = machine_.supervisor().cycle()->workspace();
+    const bool stands = still(machine_.joints());
+    watch_.step({machine_.time_s(), state.kernel_state, state.stop_reason, state.blocked_x_mm * 1e-3, state.blocked_y_mm * 1e-3,
+                 state.blocked_height_mm * 1e-3, stands, &workspace.monitor(), &workspace.rules()},
+                {{present, footprint_of(shape_, pose.x, pose.y, pose.yaw), implements_m}});
+    if (present) judge_danger(state, body, implements_m, stands);
+    if (present) note_seen(workspace.rules());
+    if (watch_.records().front().detected_s && !result_.truck_distance_m)
+      result_.truck_distance_m =
+          std::max(0.0, distance_from_truck(bench_.intrusion_site.truck, pose.x, pose.y) - outer_radius(footprint_of(shape_, pose.x, pose.y, 0.0)));
+    if (trace_ != nullptr) write_row(pose, present, implements_m);
+  }
+
+  void judge_danger(const berm_state& state, const plant::oracle::Body& body, double implements_m, bool stands) {
+    if (stands) return;
+    const double t = machine_.time_s();
+    result_.closest_m = std::min(result_.closest_m, implements_m);
+    if (implements_m <= 0.0 && !result_.contact_s) result_.contact_s = t;
+    if (result_.unsafe_s) return;
+    const bool near = std::hypot(body.middle.x(), body.middle.y()) < bench_.intrusion_site.implements_reach + beyond_reach_m;
+    if (implements_m <= 0.0 || (near && machine_.cycle() % judge_reach_every == 0 && reach_.holds(box_of(state), body))) result_.unsafe_s = t;
+  }
+
+  void note_seen(const sk_monitor_rules& rules) {
+    if (result_.seen_s) return;
+    for (const auto& met : machine_.world().mover_returns())
+      if (watched_at(rules, met.x, met.y)) result_.seen_s = machine_.time_s();
+  }
+
+  bool over() const {
+    const double t = machine_.time_s(), walked_s = *result_.appeared_s + way_time(shape_);
+    const IntruderRecord& r = watch_.records().front();
+    if (result_.contact_s) return true;
+    if (r.detected_s && r.standstill_s && t > std::max(*r.standstill_s, *r.detected_s) + after_standstill_s) return true;
+    return t > walked_s + (r.inside ? stays_s : after_it_left_s);
+  }
+
+  void judge_outcome() {
+    const IntruderRecord& r = result_.record;
+    if (!result_.appeared_s) {
+      result_.outcome = watch_.alarms().empty() ? Outcome::not_judged : Outcome::false_alarm;
+    } else if (!r.entered_s || (r.stood_at_entry && !result_.failed())) {
+      result_.outcome = Outcome::not_judged;
+    } else if (r.detected_s) {
+      result_.outcome = Outcome::detected;
+    } else if (r.stopped_s) {
+      result_.outcome = Outcome::stopped;
+    } else {
+      result_.outcome = r.inside_s < long_enough_inside_s ? Outcome::brief : Outcome::undetected;
+    }
+  }
+
+  void write_row(const plant::MoverPose& pose, bool present, double implements_m) {
+    const berm_state& s = machine_.state();
+    const auto& q = machine_.joints();
+    const IntruderRecord& r = watch_.records().front();
+    fmt::print(trace_, "{:.2f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{},{},{},{},{},{:.4f},{:.4f},{},{:.4f},{},{},{},{}\n", machine_.time_s(),
+               q.angle[0], q.angle[1], q.angle[2], q.angle[3], q.velocity[0], s.kernel_state, s.stop_reason, s.blocked_x_mm, s.blocked_y_mm,
+               present ? 1 : 0, pose.x, pose.y, r.inside ? 1 : 0, implements_m, machine_.world().mover_returns().size(), s.pan_angle_urad[0],
+               s.pan_angle_urad[1], motion_.cycles());
+  }
+
+  const Bench& bench_;
+  plant::MoverConfig shape_;
+  std::FILE* trace_;
+  LoadingMotion motion_;
+  SweptReach reach_;
+  IntruderWatch watch_;
+  in_process::MachineLoop machine_;
+  IntrusionResult result_;
+};
+
+constexpr const char* trace_header =
+    "time_s,swing_rad,boom_rad,stick_rad,bucket_rad,swing_rad_s,kernel_state,stop_reason,blocked_x_mm,blocked_y_mm,present,x_m,y_m,in_region,"
+    "implements_m,returns,"
+    "pan_left_urad,pan_right_urad,passes\n";
+
+}  // namespace
+
+Bench make_bench(const std::string& machine, const std::string& profiles) {
+  Bench b;
+  b.machine = config::load_machine_file(run::find_machine(machine));
+  b.machine.workspace.watched = true;
+  b.site = config::load_site_file(run::find_site("bench"));
+  b.profile = plant::load_plant_profile(profiles + "/" + b.machine.name + "_plant.toml");
+  b.world = plant::load_scenario(run::find_scenario("bench"), profiles).world;
+  b.world.trucks.resize(1);
+  plant::TruckConfig& truck = b.world.trucks.front();
+  truck.place_stddev = truck.yaw_stddev = 0.0;  // the gap to its side is what was drawn
+  truck.wait_s = 0.0;                           // it stands there from the start
+  b.place = {0.5 * (b.site.dig.swing[0] + b.site.dig.swing[1]), std::atan2(truck.y, truck.x)};
+  IntrusionSite& s = b.intrusion_site;
+  s.truck = truck;
+  s.extent = {std::min(-b.world.terrain.x_low, b.world.terrain.x_high), std::min(-b.world.terrain.y_low, b.world.terrain.y_high)};
+  s.crest_x = b.world.terrain.crest_x;
+  s.half_face = b.site.dig_zone.front().y_high;
+  s.region_radius = b.machine.workspace.radius;
+  s.implements_reach = farthest_tip(b.machine);
+  s.own_radius = b.machine.own_body_radius;
+  s.swing_low = std::min(b.place.dig_bearing, b.place.truck_bearing);
+  s.swing_high = std::max(b.place.dig_bearing, b.place.truck_bearing);
+  return b;
+}
+
+const char* name_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::detected: return "detected";
+    case Outcome::stopped: return "stopped";
+    case Outcome::brief: return "brief";
+    case Outcome::undetected: return "undetected";
+    case Outcome::false_alarm: return "false_alarm";
+    default: return "not_judged";
+  }
+}
+
+IntrusionResult run_intrusion(const Bench& bench, const Intrusion& intrusion, const std::string& trace) {
+  std::FILE* file = nullptr;
+  if (!trace.empty()) {
+    file = std::fopen(trace.c_str(), "we");
+    if (file == nullptr) throw std::runtime_error("cannot write " + trace);
+    fmt::print(file, "{}", trace_header);
+  }
+  IntrusionResult result = Trial(bench, intrusion, file).run();
+  if (file != nullptr && std::fclose(file) != 0) throw std::runtime_error("cannot write " + trace);
+  return result;
+}
+
+}  // namespace berm::watch

@@ -1,0 +1,81 @@
+// berm watch: intruders against the Workspace Monitor.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <exception>
+
+#include "in_process/workers.hpp"
+#include "run/parameter_file.hpp"
+#include "run/svg.hpp"
+#include "watch/intrusion_report.hpp"
+#include "watch/options.hpp"
+#include "watch/quiet_hours.hpp"
+#include "watch/scenario_watch.hpp"
+
+namespace berm::watch {
+namespace {
+
+int watch_intrusions(const Options& options) {
+  Campaign campaign;
+  campaign.machine = options.machine.empty() ? "zx200" : options.machine;
+  campaign.seed = options.seed;
+  const Bench bench = make_bench(campaign.machine, BERM_PLANT_PROFILES);
+  const auto draw = [&](int run) { return draw_intrusion(options.seed, run, bench.intrusion_site); };
+  if (options.only >= 0) {
+    campaign.results.push_back(run_intrusion(bench, draw(options.only), options.trace));
+    fmt::print("{}", detail_text(campaign.results.front()));
+  } else {
+    const auto begin = std::chrono::steady_clock::now();
+    campaign.results.resize(static_cast<std::size_t>(options.intrusions));
+    const bool progress = isatty(STDERR_FILENO) != 0;
+    const auto do_one = [&](int run) { campaign.results[static_cast<std::size_t>(run)] = run_intrusion(bench, draw(run), {}); };
+    in_process::run_trials(options.intrusions, options.jobs, do_one, [&](int finished, int run) {
+      const IntrusionResult& r = campaign.results[static_cast<std::size_t>(run)];
+      if (r.failed()) fmt::print(stderr, "{}FAILED: {}\n", progress ? "\r" : "", command_of(campaign, r));
+      if (progress) fmt::print(stderr, "\r{} of {} intrusions", finished, options.intrusions);
+      else if (finished % 50 == 0) fmt::print(stderr, "{} of {} intrusions\n", finished, options.intrusions);
+    });
+    if (progress) fmt::print(stderr, "\n");
+    campaign.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    fmt::print("{}", summary_text(campaign));
+  }
+  const auto result = flat_json(campaign);
+  if (!options.json.empty()) run::write_text_file(options.json, result.dump(1) + "\n");
+  return result["unsafe"] == 0 && result["undetected"] == 0 ? 0 : 1;
+}
+
+int watch_one_scenario(const Options& o) {
+  const ScenarioResult result = watch_scenario({o.scenario, o.machine, o.out, o.picture, BERM_PLANT_PROFILES, o.seed, o.trucks, o.max_time_s});
+  fmt::print("{}", summary_text(result));
+  if (!o.json.empty()) run::write_text_file(o.json, flat_json(result).dump(1) + "\n");
+  return result.held() ? 0 : 1;
+}
+
+int watch_quietly(const Options& o) {
+  const QuietResult result = watch_quiet_hours({o.quiet_hours, o.seed, o.machine, BERM_PLANT_PROFILES, o.jobs});
+  fmt::print("{}", summary_text(result));
+  if (!o.json.empty()) run::write_text_file(o.json, flat_json(result).dump(1) + "\n");
+  return result.false_alarms() == 0 && result.contacts() == 0 ? 0 : 1;
+}
+
+int run(int argc, char** argv) {
+  Options options;
+  if (const auto status = read_options(argc, argv, options)) return *status;
+  if (options.intrusions > 0) return watch_intrusions(options);
+  return options.scenario.empty() ? watch_quietly(options) : watch_one_scenario(options);
+}
+
+}  // namespace
+}  // namespace berm::watch
+
+int main(int argc, char** argv) {
+  try {
+    return berm::watch::run(argc, argv);
+  } catch (const berm::run::ToldAlready&) {
+    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "berm watch: {}\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,26 @@
+// What `berm watch` was asked to do.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace berm::watch {
+
+struct Options {
+  std::string scenario;            // one of these three
+  int intrusions = 0;
+  double quiet_hours = 0.0;
+  std::uint64_t seed = 1;
+  int only = -1;                   // of the intrusions
+  int jobs = 0;
+  int trucks = 1;                  // of the scenario
+  std::optional<double> max_time_s;
+  std::string machine;             // empty: zx200, or the scenario's
+  std::string json, picture, out, trace;
+};
+
+// Reads the command line; the exit status when the program should end now.
+std::optional<int> read_options(int argc, char** argv, Options& options);
+
+}  // namespace berm::watch

@@ -1,0 +1,47 @@
+// Trucks loaded with nobody there, run after run of the whole stack, until so many hours are simulated: every alarm is false.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace berm::watch {
+
+struct QuietOptions {
+  double hours = 1.0;
+  std::uint64_t seed = 1;      // of the first run; the next has the next
+  std::string machine;         // empty: the scenario's
+  std::string profiles;
+  int jobs = 0;                // runs at a time; 0: one a core. The result does not depend on it
+};
+
+struct QuietAlarm {
+  std::uint64_t seed = 1;
+  double time_s = 0.0, for_s = 0.0;  // when it began, and how long the kernel said intruder
+  double x = 0.0, y = 0.0, height = 0.0;
+  std::string what;            // stood there, by the plant's truth
+};
+
+struct QuietRun {
+  std::uint64_t seed = 1;
+  double seconds = 0.0, held_s = 0.0;  // simulated; of them with the machine held by an alarm
+  int trucks_loaded = 0, contacts = 0, other_stops = 0;
+  std::string end_reason;
+  std::vector<QuietAlarm> alarms;
+};
+
+struct QuietResult {
+  QuietOptions options;
+  std::vector<QuietRun> runs;
+  double wall_seconds = 0.0;
+  double seconds() const;      // in which an alarm could begin: simulated, less those with the machine held by one
+  int false_alarms() const;
+  int contacts() const;
+};
+
+QuietResult watch_quiet_hours(const QuietOptions& options);
+nlohmann::ordered_json flat_json(const QuietResult& result);
+std::string summary_text(const QuietResult& result);
+
+}  // namespace berm::watch

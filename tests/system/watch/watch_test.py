@@ -1,0 +1,104 @@
+"""berm watch: drawn intrusions are judged the same again and named so that they can be repeated; a scenario's person is detected when the run's own trace
+says that he is near; quiet hours count what the journal has; bad input is refused. How good the monitor is this does not show: too few trials.
+
+verifies: SK-WM-51
+"""
+import csv
+import json
+import math
+import pathlib
+import tempfile
+
+from berm_command import main, one_clear_line, run
+
+SEED = 1
+TRIALS = 6
+scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-watch-"))
+
+
+def intrusions(name, *more):
+    out = scratch / f"{name}.json"
+    done = run("berm_watch", "--intrusions", TRIALS, "--seed", SEED, "--json", out, *more, timeout=400)
+    print(done.stdout[-3000:], done.stderr, flush=True)
+    result = json.loads(out.read_text())
+    held = result["unsafe"] == 0 and result["undetected"] == 0
+    assert done.returncode == (0 if held else 1), "the exit status does not say what the result says"
+    return result
+
+
+def trials_are_judged_the_same_again():
+    result = intrusions("first")
+    assert result["runs"] == TRIALS and result["seed"] == SEED
+    kinds = ("detected", "stopped_otherwise", "brief", "undetected", "false_alarm_runs", "not_judged")
+    assert sum(result[kind] for kind in kinds) == TRIALS, [result[kind] for kind in kinds]
+    assert result["contacts"] == 0, "somebody was touched"
+    assert result["detected"] >= 2, "hardly anybody was detected: the trials show nothing"
+    assert 0 < result["detect_ms_p50"] <= result["detect_ms_p95"]
+    assert 0 <= result["seen_to_stop_ms_p50"] <= result["seen_to_stop_ms_p95"] <= result["seen_to_stop_ms_max"]
+    # From a point to the stop: at most the monitor's wait and two periods (3 s) and some cycles, once its cell is judged at all.
+    for group in ("by_way", "by_size", "by_speed", "by_side", "by_merge"):
+        assert sum(part["runs"] for part in result[group].values()) == TRIALS, group
+    again = intrusions("again", "--jobs", 1)
+    for moment in (result, again):
+        del moment["wall_seconds"]
+    assert again == result, "the same seed gave another result"
+
+
+def one_trial_is_repeated_alone():
+    out, trace = scratch / "one.json", scratch / "one.csv"
+    done = run("berm_watch", "--intrusions", 1, "--seed", SEED, "--only", 1, "--json", out, "--trace", trace, timeout=100)
+    one = json.loads(out.read_text())
+    assert one["runs"] == 1 and one["detected"] == 1, done.stdout
+    rows = list(csv.DictReader(open(trace, newline="")))
+    entered = next(float(row["time_s"]) for row in rows if row["in_region"] == "1")
+    stopped = next(float(row["time_s"]) for row in rows if row["present"] == "1" and row["kernel_state"] != "2")
+    assert abs(1000 * (stopped - entered) - one["detect_ms_p50"]) < 15, (entered, stopped, one["detect_ms_p50"])
+    assert all(row["kernel_state"] == "2" for row in rows[200:] if row["present"] == "0"), "the machine was not at work while nobody was there"
+    assert max(abs(float(row["swing_rad_s"])) for row in rows) > 0.4, "the machine did not swing"
+
+
+def a_person_of_a_scenario_is_detected():
+    out, picture, folder = scratch / "person.json", scratch / "person.svg", scratch / "person"
+    done = run("berm_watch", "--scenario", "person", "--max-time", 28, "--seed", SEED, "--json", out, "--picture", picture, "--out", folder, timeout=300)
+    print(done.stdout[-2000:], done.stderr)
+    result = json.loads(out.read_text())
+    assert done.returncode == 0 and result["contacts"] == 0 and result["false_alarms"] == 0, result
+    (person,) = result["intruders"]
+    assert person["name"] == "person" and person["detected_by"] == "intruder"
+    assert 20 < person["entered_s"] < person["detected_s"] <= person["standstill_s"]
+    rows = {round(float(row["time_s"]), 2): row for row in csv.DictReader(open(folder / "trace.csv", newline=""))}
+    at = rows[round(person["detected_s"], 2)]
+    (alarm,) = result["alarms"]
+    away = math.hypot(float(at["person_x_m"]) - alarm["x_m"], float(at["person_y_m"]) - alarm["y_m"])
+    assert away < 1.25 + 1.4 * 3.0, f"the alarm's cell is {away:.1f} m from him"
+    assert int(at["stop_reason"]) == 0 and int(rows[round(person["detected_s"] + 0.01, 2)]["stop_reason"]) == 20, "the machine heard of it at another time"
+    # The oracle's clearance is to whatever is nearest, the truck too.
+    assert person["distance_at_detection_m"] >= float(at["clearance_m"]) - 1e-3
+    assert max(abs(float(rows[round(person["standstill_s"] + 0.1, 2)][f"{j}_rad_s"])) for j in ("swing", "boom", "stick", "bucket")) < 0.009
+    svg = picture.read_text()
+    assert "<svg" in svg and "OBSTACLE" in svg and "#d7263d" in svg and ">person<" in svg
+
+
+def quiet_hours_count_what_they_simulate():
+    out = scratch / "quiet.json"
+    done = run("berm_watch", "--quiet-hours", 0.015, "--seed", 3, "--json", out, timeout=300)
+    print(done.stdout[-2000:], done.stderr)
+    result = json.loads(out.read_text())
+    assert result["hours"] >= 0.015 and len(result["runs"]) >= 1
+    assert result["false_alarms"] == len(result["alarms"]) == sum(one["false_alarms"] for one in result["runs"])
+    assert done.returncode == (0 if result["false_alarms"] == 0 and result["contacts"] == 0 else 1)
+    for alarm in result["alarms"]:
+        assert f"--seed {alarm['seed']}" in alarm["command"] and alarm["what"]
+
+
+def bad_input_is_one_line():
+    for words, named in ((("--seed", 1), "exactly one"), (("--intrusions", 3, "--quiet-hours", 1), "exactly one"), (("--intrusions", 0), "--intrusions"),
+                         (("--quiet-hours", -1), "--quiet-hours"), (("--intrusions", 3, "--trace", "t.csv"), "--only"), (("--intrusions", 3, "--picture", "p.svg"), "--picture"),
+                         (("--scenario", "no_such"), "no_such"), (("--intrusions", 1, "--machine", "no_such"), "no_such"), (("--scenario", "bench", "--max-time", 0), "--max-time"),
+                         (("--surprise",), "--surprise")):
+        done = run("berm_watch", *words, timeout=30)
+        one_clear_line(done, named)
+        assert done.returncode == 2, done.returncode
+
+
+main([trials_are_judged_the_same_again, one_trial_is_repeated_alone, a_person_of_a_scenario_is_detected, quiet_hours_count_what_they_simulate, bad_input_is_one_line])
