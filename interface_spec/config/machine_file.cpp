@@ -143,6 +143,10 @@ WorkspaceFile read_workspace(StrictTable table, double own_body_radius) {
   w.period = table.number("period", 0.01, 1.0);
   w.dwell = table.number("dwell", 0.0, 60.0);
   w.follows = table.flag("follows");
+  const std::string separation = table.choice("separation", {"none", "reported", "enforced"});
+  w.separation = separation == "none" ? BERM_SEPARATION_NONE : separation == "reported" ? BERM_SEPARATION_REPORTED : BERM_SEPARATION_ENFORCED;
+  w.approach_speed = table.number("approach_speed", 0.5, 5.0);
+  w.intrusion_distance = table.number("intrusion_distance", 0.0, 3.0);
   table.finish();
   return w;
 }

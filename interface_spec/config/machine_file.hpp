@@ -62,6 +62,8 @@ struct WorkspaceFile {
   double rise, neighbour, slope;              // m
   double wait, period, dwell;                 // s
   bool follows;                               // the map that is compared with follows what is seen
+  int separation;                             // BERM_SEPARATION_*
+  double approach_speed, intrusion_distance;  // K, m/s, and C, m, of ISO 13855
 };
 
 struct MachineFile {
