@@ -117,6 +117,9 @@ void compile_workspace(const WorkspaceFile& w, const SiteFile& site, berm_parame
   p.workspace_learn_us = down(w.learn, kMicro);          // less is taken for ground
   p.workspace_foreign = w.foreign;
   p.workspace_follows = w.follows ? 1 : 0;
+  p.workspace_separation = w.separation;
+  p.workspace_approach_mm_s = up(w.approach_speed, kMilli);
+  p.workspace_intrusion_mm = up(w.intrusion_distance, kMilli);
   p.lanes = static_cast<std::int32_t>(site.truck_lane.size());
   for (std::size_t i = 0; i < site.truck_lane.size(); ++i) {  // inwards: while open it is not watched
     const auto& z = site.truck_lane[i];

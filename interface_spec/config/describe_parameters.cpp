@@ -130,6 +130,9 @@ void workspace(const berm_parameters& p, Listing& out) {
   out.row("workspace_learn_us", p.workspace_learn_us);
   out.row("workspace_foreign", p.workspace_foreign);
   out.row("workspace_follows", p.workspace_follows);
+  out.row("workspace_separation", p.workspace_separation);
+  out.row("workspace_approach_mm_s", p.workspace_approach_mm_s);
+  out.row("workspace_intrusion_mm", p.workspace_intrusion_mm);
   for (int i = 0; i < std::clamp(p.lanes, 0, BERM_LANES); ++i) {
     const berm_lane& z = p.lane[i];
     out.row(fmt::format("truck_lane[{}]", i), fmt::format("x {}..{} y {}..{} mm", z.x_low_mm, z.x_high_mm, z.y_low_mm, z.y_high_mm));

@@ -145,6 +145,10 @@ WorkspaceFile read_workspace(StrictTable table, double own_body_radius) {
   w.learn = table.number("learn", 0.0, 120.0);
   w.foreign = static_cast<int>(table.integer("foreign", 0, 100));
   w.follows = table.flag("follows");
+  const std::string separation = table.choice("separation", {"none", "reported", "enforced"});
+  w.separation = separation == "none" ? BERM_SEPARATION_NONE : separation == "reported" ? BERM_SEPARATION_REPORTED : BERM_SEPARATION_ENFORCED;
+  w.approach_speed = table.number("approach_speed", 0.5, 5.0);
+  w.intrusion_distance = table.number("intrusion_distance", 0.0, 3.0);
   table.finish();
   return w;
 }

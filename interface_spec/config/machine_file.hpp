@@ -63,6 +63,8 @@ struct WorkspaceFile {
   double wait, period, dwell, learn;          // s
   int foreign;                                // voxels of free space with something in them that are an intruder; 0: not kept
   bool follows;                               // the map that is compared with follows what is seen
+  int separation;                             // BERM_SEPARATION_*
+  double approach_speed, intrusion_distance;  // K, m/s, and C, m, of ISO 13855
 };
 
 struct MachineFile {

@@ -27,6 +27,8 @@ extern "C" {
 #define BERM_LANES 4
 #define BERM_LIDARS 2           /* VLP-16 on the upper body */
 
+enum { BERM_SEPARATION_NONE = 0, BERM_SEPARATION_REPORTED = 1, BERM_SEPARATION_ENFORCED = 2 };
+
 typedef struct berm_part {
   int32_t link;                                   /* 1 boom, 2 stick, 3 bucket */
   int32_t half_width_mm;                          /* lateral, about the swing plane */
@@ -119,6 +121,10 @@ typedef struct berm_parameters {
   int32_t workspace_learn_us;                     /* the ground is learned for so long from the begin, a lane's from when a truck has parked */
   int32_t workspace_foreign;                      /* so many voxels of free space with something in them are an intruder; 0: free space is not kept */
   int32_t workspace_follows;                      /* 1: the map that is compared with follows what is seen; 0: it stays as it was first seen */
+  /* ISO 13855's minimum distance: see safety_kernel/requirements/separation.md */
+  int32_t workspace_separation;                   /* BERM_SEPARATION_* */
+  int32_t workspace_approach_mm_s;                /* K: speed at which somebody approaches */
+  int32_t workspace_intrusion_mm;                 /* C: what of him may reach ahead before he is detected */
   int32_t lanes;
   berm_lane lane[BERM_LANES];                     /* where trucks come and go: not watched unless one is parked */
   int32_t crc32;                                  /* bit pattern of the CRC-32 */

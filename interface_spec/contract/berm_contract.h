@@ -80,7 +80,8 @@ enum {
   BERM_STOP_OVERPASS = 18,           /* the reach box passes over what is too high to be passed over: a person or a vehicle may stand there */
   BERM_STOP_TAIL = 19,               /* the upper body's tail would swing into what stands there: latched */
   BERM_STOP_INTRUDER = 20,           /* something moved into the safety region, and has not left it long enough */
-  BERM_STOP_REASONS = 21
+  BERM_STOP_SEPARATION = 21,         /* the distance of ISO 13855 is not kept: who comes into the safety region would be told of too late */
+  BERM_STOP_REASONS = 22
 };
 
 /* Whether a reason is a cell of the map's: then the blocked_* fields say which. */
@@ -160,6 +161,8 @@ typedef struct berm_state {
   uint32_t journal_lost;                             /* records that the journal lost before this cycle; stays at 2^32 - 1 */
   uint32_t terrain_confirmed_ms;                     /* since the scanned terrain last excluded a slip of the base; 2^32 - 1: not since the map was begun */
   uint32_t unwatched;                                /* BERM_UNWATCHED_*: what the kernel does not check, for no sensor sees it */
+  int16_t separation_bearing_deg;                    /* base frame, from x to y: where the distance of ISO 13855 leaves the least; -1: not evaluated */
+  int16_t separation_stop_ms;                        /* the most stopping time that keeps it there; -1: none */
 } berm_state;
 
 /* A block of consecutive samples of one scanline, as received. Range 0 means no return. */
@@ -243,7 +246,7 @@ typedef struct berm_state_segment {
 BERM_STATIC_ASSERT(sizeof(berm_request) == 64, "request layout");
 BERM_STATIC_ASSERT(offsetof(berm_request, crc32) == sizeof(berm_request) - 4, "the CRC is the last field");
 BERM_STATIC_ASSERT(sizeof(berm_request_segment) == 128, "request segment layout");
-BERM_STATIC_ASSERT(sizeof(berm_state) == 272, "state layout");
+BERM_STATIC_ASSERT(sizeof(berm_state) == 280, "state layout");
 BERM_STATIC_ASSERT(sizeof(berm_scan_block) == 40 + BERM_SCAN_BLOCK_SAMPLES * 18, "scan block layout");
 BERM_STATIC_ASSERT(sizeof(berm_decision) == 176, "decision layout");
 BERM_STATIC_ASSERT(sizeof(berm_slice) == 8 + BERM_SLICE_VERTICES * 12, "slice layout");

@@ -73,7 +73,8 @@ const char* stop_reason_name(std::uint8_t reason) {
   static constexpr const char* names[BERM_STOP_REASONS] = {"none", "collision predicted", "unknown ground", "stale ground", "dig floor",
                                                            "request hold", "app silent", "state frame", "scanner silent", "operator",
                                                            "emergency", "joint range", "braking", "machine fault", "internal", "clock",
-                                                           "base moved", "uncommanded", "overpass", "tail", "intruder"};
+                                                           "base moved", "uncommanded", "overpass", "tail", "intruder",
+                                                           "separation"};
   return reason < BERM_STOP_REASONS ? names[reason] : "unnamed";
 }
 

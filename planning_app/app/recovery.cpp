@@ -28,14 +28,15 @@ bool by_ground(std::uint8_t reason) {
   return (BERM_STOP_HAS_CELL(reason) && reason != BERM_STOP_INTRUDER) || reason == BERM_STOP_JOINT_RANGE;
 }
 
-// What another look may end: the same, and an intruder, who is waited for wherever the implements are.
-bool by_place(std::uint8_t reason) { return by_ground(reason) || reason == BERM_STOP_INTRUDER; }
+// What another look may end: the same, an intruder, who is waited for wherever the implements are, and a direction that was not seen for too long.
+bool by_place(std::uint8_t reason) { return by_ground(reason) || reason == BERM_STOP_INTRUDER || reason == BERM_STOP_SEPARATION; }
 
 const char* advice_for(const Observation& o) {
   switch (o.stop_reason) {
     case BERM_STOP_TAIL: return "send away who stands behind the machine, look all round it, beside the tracks too, then press reset";
     case BERM_STOP_JOINT_RANGE: return "move the joint back into its range by hand";
     case BERM_STOP_INTRUDER: return "send away who or what came; if nobody is there, press relearn";
+    case BERM_STOP_SEPARATION: return "make the sensors see all round the machine again, or take it out of where they cannot";
     case BERM_STOP_OVERPASS: return "send away who or what stands there, or admit the truck; if nothing stands there, press relearn";
     default: return o.latched ? "mend the cause, then press reset" : "clear the place; if nothing stands there, press relearn";
   }
@@ -66,7 +67,7 @@ bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
   if (called_ || !(o.latched || (by_place(o.stop_reason) && o.time_s - since_s_ > call_after))) return false;
   called_ = true;
   nlohmann::ordered_json fields{{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}, {"stopped_s", o.time_s - since_s_}};
-  if (!o.latched && o.stop_reason != BERM_STOP_JOINT_RANGE) fields.update({{"x_m", o.blocked_x}, {"y_m", o.blocked_y}, {"height_m", o.blocked_height}});
+  if (!o.latched && BERM_STOP_HAS_CELL(o.stop_reason)) fields.update({{"x_m", o.blocked_x}, {"y_m", o.blocked_y}, {"height_m", o.blocked_height}});
   fields["advice"] = advice_for(o);
   log.event("operator_needed", fields);
   return true;

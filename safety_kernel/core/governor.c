@@ -99,6 +99,50 @@ int32_t sk_governor_speed(const berm_parameters *p, int32_t joint, int32_t level
   return speed > creep ? speed : creep;
 }
 
+int64_t sk_governor_stop_time(const berm_parameters *p, int32_t joint, int32_t row, int32_t speed_urad_s)
+{
+  int32_t brake_us;
+  if (!sk_times_ok(p)) { return -1; }
+  brake_us = sk_brake_time(p, joint, row, speed_urad_s);
+  if (brake_us < 0) { return -1; }
+  return (int64_t)p->cycle_us + p->command_latency_us + brake_us;
+}
+
+int64_t sk_governor_level_time(const berm_parameters *p, int32_t joint, int32_t row, int32_t level)
+{
+  int32_t next;
+  int64_t next_us, column_us;
+  if (level < 0 || level >= SK_GOVERNOR_LEVELS || joint < 0 || joint >= SK_JOINTS || !sk_limits_ok(p, joint)) { return -1; }
+  next = level + 1 < SK_GOVERNOR_LEVELS ? level + 1 : SK_GOVERNOR_LEVELS - 1;
+  next_us = sk_governor_stop_time(p, joint, row, sk_level_speed(p->velocity_max_urad_s[joint], next));
+  column_us = sk_governor_stop_time(p, joint, row, sk_level_speed(p->velocity_max_urad_s[joint], SK_GOVERNOR_COLUMN));
+  if (next_us < 0 || column_us < 0) { return -1; }
+  return next > SK_GOVERNOR_COLUMN ? next_us + column_us : next_us;
+}
+
+int32_t sk_governor_timed_level(const berm_parameters *p, int32_t joint, int32_t row, int64_t stop_us)
+{
+  int32_t level;
+  /*@ loop invariant 1 <= level <= SK_GOVERNOR_LEVELS;
+    @ loop invariant \forall integer k; 1 <= k < level ==> sk_level_in_time(p, joint, row, k, stop_us);
+    @ loop assigns level;
+    @ loop variant SK_GOVERNOR_LEVELS - level;
+    @*/
+  for (level = 1; level < SK_GOVERNOR_LEVELS; level++) {
+    int64_t time_us = sk_governor_level_time(p, joint, row, level);
+    if (time_us < 0 || time_us > stop_us) { return level - 1; }
+    /*@ assert time: sk_level_time_is(p, joint, row, level, time_us) && time_us <= stop_us; */
+    /*@ assert in_time: sk_level_in_time(p, joint, row, level, stop_us); */
+  }
+  return SK_GOVERNOR_LEVELS - 1;
+}
+
+int32_t sk_governor_timed_speed(const berm_parameters *p, int32_t joint, int32_t level)
+{
+  if (joint < 0 || joint >= SK_JOINTS || level < 0 || level >= SK_GOVERNOR_LEVELS || !sk_limits_ok(p, joint)) { return 0; }
+  return sk_level_speed(p->velocity_max_urad_s[joint], level);
+}
+
 int32_t sk_governor_clamp(int32_t requested_urad_s, int32_t low_urad_s, int32_t high_urad_s)
 {
   int32_t cut = requested_urad_s;

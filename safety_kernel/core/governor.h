@@ -6,6 +6,7 @@
 SK_BEGIN
 
 #define SK_GOVERNOR_LEVELS (4 * (BERM_BRAKE_SPEEDS - 1) + 1) /* four to a column of the braking table; the last is unlimited */
+#define SK_GOVERNOR_COLUMN 4                 /* levels to a column */
 #define SK_COMMAND_STEP_URAD_S 500           /* commands on the bus have this step */
 
 /*@ logic integer sk_next_level(integer level) = level + 1 < SK_GOVERNOR_LEVELS ? level + 1 : SK_GOVERNOR_LEVELS - 1;
@@ -21,6 +22,21 @@ SK_BEGIN
   @   \exists integer room; sk_room_is{L}(p, joint, row, level, room) && room <= clear;
   @ predicate sk_governor_fits{L}(berm_parameters *p, integer joint, integer row) = 0 <= joint < SK_JOINTS && 0 <= row < BERM_BRAKE_REACHES &&
   @   sk_times_fit{L}(p) && sk_limits_fit{L}(p, joint) && sk_brake_row_fits{L}(p, joint, row);
+  @
+  @ // from the next cycle's order to standstill
+  @ predicate sk_stops_in{L}(berm_parameters *p, integer joint, integer row, integer speed, integer time) =
+  @   \exists integer brake; sk_brake_time_entry{L}(p, joint, row, speed, brake) &&
+  @     time == \at(p->cycle_us, L) + \at(p->command_latency_us, L) + brake;
+  @ // a level's stopping time: that of the next faster one; beyond the first column, that of a column more, in which the joint can be slowed down
+  @ predicate sk_level_time_is{L}(berm_parameters *p, integer joint, integer row, integer level, integer time) =
+  @   \exists integer next, column;
+  @     sk_stops_in{L}(p, joint, row, sk_level_speed_of(\at(p->velocity_max_urad_s[joint], L), sk_next_level(level)), next) &&
+  @     sk_stops_in{L}(p, joint, row, sk_level_speed_of(\at(p->velocity_max_urad_s[joint], L), SK_GOVERNOR_COLUMN), column) &&
+  @     time == next + (sk_next_level(level) > SK_GOVERNOR_COLUMN ? column : 0);
+  @ predicate sk_time_fits{L}(berm_parameters *p, integer joint, integer row) = 0 <= joint < SK_JOINTS && 0 <= row < BERM_BRAKE_REACHES &&
+  @   sk_times_fit{L}(p) && sk_limits_fit{L}(p, joint) && sk_brake_times_fit{L}(p, joint, row);
+  @ predicate sk_level_in_time{L}(berm_parameters *p, integer joint, integer row, integer level, integer stop) =
+  @   \exists integer time; sk_level_time_is{L}(p, joint, row, level, time) && time <= stop;
   @*/
 
 /* Room (urad, from the measured angle) that the level needs, so that a joint told to slow down when its room falls below it need not be
@@ -53,6 +69,47 @@ int32_t sk_governor_level(const berm_parameters *p, int32_t joint, int32_t row, 
   @ ensures invalid: !(0 <= joint < SK_JOINTS && 0 <= level < SK_GOVERNOR_LEVELS) || !sk_limits_fit(p, joint) ==> \result == 0;
   @*/
 int32_t sk_governor_speed(const berm_parameters *p, int32_t joint, int32_t level);
+
+/* Time (us) in which the joint stands, from any speed up to this, when a stop is ordered in the next cycle; -1 where speed, joint, row, latencies or
+ * the braking table's entry are out of range. */
+/*@ requires \valid_read(p);
+  @ assigns \nothing;
+  @ ensures range: -1 <= \result <= SK_BRAKE_TIME_MAX_US + 2 * SK_REACH_LATENCY_MAX_US;
+  @ ensures total: sk_time_fits(p, joint, row) && 0 <= speed_urad_s <= p->velocity_max_urad_s[joint] ==> 0 <= \result;
+  @ ensures time: 0 <= \result ==> 0 <= joint < SK_JOINTS && 0 <= row < BERM_BRAKE_REACHES && sk_times_fit(p) &&
+  @   sk_stops_in(p, joint, row, speed_urad_s, \result);
+  @*/
+int64_t sk_governor_stop_time(const berm_parameters *p, int32_t joint, int32_t row, int32_t speed_urad_s);
+
+/* Stopping time (us) that a level needs to be permitted; -1 where an argument or parameter is out of its range. */
+/*@ requires \valid_read(p);
+  @ assigns \nothing;
+  @ ensures range: -1 <= \result;
+  @ ensures total: sk_time_fits(p, joint, row) && 0 <= level < SK_GOVERNOR_LEVELS ==> 0 <= \result;
+  @ ensures time: 0 <= \result ==> 0 <= level < SK_GOVERNOR_LEVELS && 0 <= joint < SK_JOINTS && 0 <= row < BERM_BRAKE_REACHES &&
+  @   sk_level_time_is(p, joint, row, level, \result);
+  @*/
+int64_t sk_governor_level_time(const berm_parameters *p, int32_t joint, int32_t row, int32_t level);
+
+/* The highest level for which, and for all below it, the stopping time is enough; 0, at which the joint may not move, needs none. */
+/*@ requires \valid_read(p);
+  @ assigns \nothing;
+  @ ensures range: 0 <= \result < SK_GOVERNOR_LEVELS;
+  @ ensures in_time: \forall integer k; 1 <= k <= \result ==> sk_level_in_time(p, joint, row, k, stop_us);
+  @ ensures highest: \result + 1 < SK_GOVERNOR_LEVELS && sk_time_fits(p, joint, row) ==>
+  @   \exists integer time; sk_level_time_is(p, joint, row, \result + 1, time) && time > stop_us;
+  @*/
+int32_t sk_governor_timed_level(const berm_parameters *p, int32_t joint, int32_t row, int64_t stop_us);
+
+/* Speed (urad/s) that a level permits by time: its share of velocity_max; 0 where level, joint or parameters are out of range. */
+/*@ requires \valid_read(p);
+  @ assigns \nothing;
+  @ ensures share: 0 <= joint < SK_JOINTS && 0 <= level < SK_GOVERNOR_LEVELS && sk_limits_fit(p, joint) ==>
+  @   \result == sk_level_speed_of(p->velocity_max_urad_s[joint], level);
+  @ ensures range: 0 <= \result;
+  @ ensures invalid: !(0 <= joint < SK_JOINTS && 0 <= level < SK_GOVERNOR_LEVELS) || !sk_limits_fit(p, joint) ==> \result == 0;
+  @*/
+int32_t sk_governor_timed_speed(const berm_parameters *p, int32_t joint, int32_t level);
 
 /* The request cut to low..high (low <= 0 <= high, else 0) and to the bus's step towards zero: what is sent is never more than was checked. */
 /*@ assigns \nothing;

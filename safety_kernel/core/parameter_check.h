@@ -95,6 +95,9 @@ SK_BEGIN
   @ ensures why_workspace_follows: \result == SK_RULE_WORKSPACE_FOLLOWS ==> !sk_rule_workspace_follows(p);
   @ ensures why_lane_count: \result == SK_RULE_LANE_COUNT ==> !sk_rule_lane_count(p);
   @ ensures why_lane_bounds: \result == SK_RULE_LANE_BOUNDS ==> !sk_rule_lane_bounds(p);
+  @ ensures why_separation_mode: \result == SK_RULE_SEPARATION_MODE ==> !sk_rule_separation_mode(p);
+  @ ensures why_separation_approach: \result == SK_RULE_SEPARATION_APPROACH ==> !sk_rule_separation_approach(p);
+  @ ensures why_separation_intrusion: \result == SK_RULE_SEPARATION_INTRUSION ==> !sk_rule_separation_intrusion(p);
   @*/
 int32_t sk_parameters_check(const berm_parameters *p);
 

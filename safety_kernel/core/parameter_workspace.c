@@ -49,6 +49,22 @@ static bool lanes_ok(const berm_parameters *p)
   return true;
 }
 
+/*@ requires \valid_read(p);
+  @ assigns \nothing;
+  @ ensures codes: \result == SK_RULE_NONE || SK_RULE_SEPARATION_MODE <= \result <= SK_RULE_SEPARATION_INTRUSION;
+  @ ensures whole: \result == SK_RULE_NONE <==> sk_rule_separation_mode(p) && sk_rule_separation_approach(p) && sk_rule_separation_intrusion(p);
+  @ ensures mode: \result == SK_RULE_SEPARATION_MODE ==> !sk_rule_separation_mode(p);
+  @ ensures approach: \result == SK_RULE_SEPARATION_APPROACH ==> !sk_rule_separation_approach(p);
+  @ ensures intrusion: \result == SK_RULE_SEPARATION_INTRUSION ==> !sk_rule_separation_intrusion(p);
+  @*/
+static int32_t separation_rule(const berm_parameters *p)
+{
+  if (!sk_is_within(p->workspace_separation, BERM_SEPARATION_NONE, BERM_SEPARATION_ENFORCED)) { return SK_RULE_SEPARATION_MODE; }
+  if (!sk_is_within(p->workspace_approach_mm_s, 500, 5000)) { return SK_RULE_SEPARATION_APPROACH; }
+  if (!sk_is_within(p->workspace_intrusion_mm, 0, 3000)) { return SK_RULE_SEPARATION_INTRUSION; }
+  return SK_RULE_NONE;
+}
+
 int32_t sk_check_workspace(const berm_parameters *p)
 {
   if (!sk_is_within(p->workspace_watched, 0, 1)) { return SK_RULE_WORKSPACE_WATCHED; }
@@ -59,5 +75,5 @@ int32_t sk_check_workspace(const berm_parameters *p)
   if (!sk_is_within(p->workspace_follows, 0, 1)) { return SK_RULE_WORKSPACE_FOLLOWS; }
   if (!sk_is_within(p->lanes, 0, BERM_LANES)) { return SK_RULE_LANE_COUNT; }
   if (!lanes_ok(p)) { return SK_RULE_LANE_BOUNDS; }
-  return SK_RULE_NONE;
+  return separation_rule(p);
 }

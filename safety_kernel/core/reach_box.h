@@ -59,6 +59,8 @@ enum {
   @ predicate sk_brake_time_entry{L}(berm_parameters *p, integer joint, integer row, integer speed, integer time) =
   @   \exists integer column; sk_first_column(\at(p->velocity_max_urad_s[joint], L), speed, column) &&
   @     time == \at(p->brake_time_us[joint][row][column], L);
+  @ predicate sk_brake_times_fit{L}(berm_parameters *p, integer joint, integer row) =
+  @   \forall integer k; 0 <= k < BERM_BRAKE_SPEEDS ==> 0 <= \at(p->brake_time_us[joint][row][k], L) <= SK_BRAKE_TIME_MAX_US;
   @ // a faster joint never has the shorter stop angle
   @ lemma sk_column_monotone: \forall integer velocity_max, slow, fast, i, j;
   @   slow <= fast && sk_first_column(velocity_max, slow, i) && sk_first_column(velocity_max, fast, j) ==> i <= j;
@@ -155,6 +157,8 @@ int32_t sk_brake_angle(const berm_parameters *p, int32_t joint, int32_t row, int
 /*@ requires \valid_read(p);
   @ assigns \nothing;
   @ ensures range: -1 <= \result <= SK_BRAKE_TIME_MAX_US;
+  @ ensures total: 0 <= joint < SK_JOINTS && 0 <= row < BERM_BRAKE_REACHES && sk_brake_times_fit(p, joint, row) &&
+  @   0 <= speed_urad_s <= p->velocity_max_urad_s[joint] ==> 0 <= \result;
   @ ensures entry: \result >= 0 ==>
   @   0 <= joint < SK_JOINTS && 0 <= row < BERM_BRAKE_REACHES && sk_brake_time_entry(p, joint, row, speed_urad_s, \result);
   @ ensures within: \result >= 0 ==> speed_urad_s <= p->velocity_max_urad_s[joint];

@@ -17,7 +17,8 @@ Cycle::Cycle(const berm_parameters& parameters, bool map_only)
       motion_(parameters, own_cells_),
       motion_watch_(parameters),
       registration_(parameters),
-      workspace_(parameters) {
+      workspace_(parameters),
+      sectors_(parameters) {
   sk_map_clear(&map_);
   sk_stop_init(&stop_);
 }
@@ -116,11 +117,13 @@ void Cycle::begin_map() {
   sk_map_clear(&map_);
   registration_.begin();
   workspace_.begin();
+  sectors_.begin();
 }
 
 void Cycle::watch_workspace(const ScanBlocks& blocks, std::int64_t now_us) {
   if (frames_.base().moved) return;
   workspace_.take(blocks, joints_, now_us);
+  sectors_.take(blocks, now_us);
   workspace_.trucks(frames_.spotter_fresh(now_us), frames_.truck_admitted(now_us), now_us);
   intruder_ = workspace_.step(now_us);
 }
@@ -178,6 +181,7 @@ void Cycle::judge_motion(std::int64_t now_us) {
   std::copy(requested_urad_s_, requested_urad_s_ + SK_JOINTS, query.requested_urad_s);
   commands_.range(now_us, query.under_way_low_urad_s, query.under_way_high_urad_s);
   query.truck_admitted = frames_.truck_admitted(now_us);
+  query.sectors = sectors_.evaluated() ? &sectors_ : nullptr;
   motion_.check(query, map_, verdict_);
   motion_fault_ = motion_watch_.check(query, verdict_.box, frames_.angle_us(), frames_.velocity_us());
 }

@@ -22,6 +22,7 @@
 #include "io/motion_watch.hpp"
 #include "io/own_cells.hpp"
 #include "io/scan_intake.hpp"
+#include "io/sector_watch.hpp"
 #include "io/supervision.hpp"
 #include "io/vlp16.hpp"
 #include "io/workspace_watch.hpp"
@@ -85,6 +86,7 @@ class Cycle {
   const SliceSet& slices() const { return motion_.slices(); }
   const TerrainRegistration& registration() const { return registration_; }
   const WorkspaceWatch& workspace() const { return workspace_; }
+  const SectorWatch& sectors() const { return sectors_; }
   std::uint64_t frames_rejected() const { return frames_.rejected(); }
   std::uint64_t scans_rejected() const { return scans_rejected_; }
   std::uint64_t lidars_rejected() const { return lidars_rejected_; }
@@ -132,6 +134,7 @@ class Cycle {
   sk_height_map map_;
   TerrainRegistration registration_;
   WorkspaceWatch workspace_;
+  SectorWatch sectors_;
   sk_request_state request_state_{};
   sk_request request_{};            // newest accepted
   sk_stop_state stop_{};

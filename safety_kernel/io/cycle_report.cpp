@@ -77,6 +77,12 @@ void Cycle::report_state(const CycleInputs& in, berm_state& state) const {
   state.panel = panel_flags(in.now_us);
   state.journal_lost = in.journal_lost;
   state.unwatched = (parameters_.tail_watched == 0 ? BERM_UNWATCHED_TAIL : 0U) | (workspace_.watched() ? 0U : BERM_UNWATCHED_WORKSPACE);
+  state.separation_bearing_deg = state.separation_stop_ms = -1;
+  if (verdict_.separation_known) {
+    state.separation_bearing_deg = static_cast<std::int16_t>(verdict_.separation.sector * 360 / SK_SECTORS);
+    const std::int32_t stop_us = verdict_.separation.stop_us;
+    if (stop_us >= 0) state.separation_stop_ms = static_cast<std::int16_t>(std::min(stop_us / 1000, 32767));
+  }
   const std::int64_t confirmed_us = registration_.confirmed_us();
   state.terrain_confirmed_ms = UINT32_MAX;
   if (confirmed_us >= 0) state.terrain_confirmed_ms = static_cast<std::uint32_t>(std::clamp<std::int64_t>((in.now_us - confirmed_us) / 1000, 0, UINT32_MAX - 1));

@@ -211,6 +211,50 @@ bool MotionCheck::make_columns(const sk_height_map& map) {
   return sk_columns_of(&map, &rules_, &tail_columns_);
 }
 
+void MotionCheck::certify(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
+  verdict.permission = Permission::kFull;
+  verdict.reason = judge(query, map, commands(query, 100, false), request_slices_, false, verdict);
+  if (verdict.reason == BERM_STOP_NONE) {
+    govern_swing(query, map, verdict);
+  } else if (!slower(query, map, verdict)) {
+    verdict.permission = Permission::kHeld;
+  }
+}
+
+bool MotionCheck::separate(MotionQuery& query, MotionVerdict& verdict) const {
+  if (query.sectors == nullptr) return true;
+  sk_reach_box box{};
+  const bool bounded = reach(query, commands(query, 100, false), box);
+  const std::int32_t reach_mm = bounded ? max_reach_mm(parameters_, box) : SK_COORD_MAX_MM;
+  verdict.separation = query.sectors->left(reach_mm, query.now_us);
+  verdict.separation_known = true;
+  if (!bounded || !query.sectors->enforced()) return true;  // what is not bounded is held, or slowed until it is
+  const std::int32_t row = sk_brake_row(&parameters_, reach_mm);
+  bool may_move = false;
+  for (int j = 0; j < SK_JOINTS; ++j) {
+    const std::int32_t level = sk_governor_timed_level(&parameters_, j, row, verdict.separation.stop_us);
+    const std::int32_t speed = sk_governor_timed_speed(&parameters_, j, level);
+    query.requested_urad_s[j] = std::clamp(query.requested_urad_s[j], -speed, speed);
+    may_move = may_move || level > 0;
+  }
+  return may_move;
+}
+
+bool MotionCheck::stands_in_time(const MotionQuery& query, MotionVerdict& verdict) const {
+  const std::int32_t reach_mm = max_reach_mm(parameters_, verdict.box);
+  const std::int32_t row = reach_mm < 0 ? -1 : sk_brake_row(&parameters_, reach_mm);
+  if (row < 0) return false;
+  verdict.separation = query.sectors->left(reach_mm, query.now_us);
+  for (int j = 0; j < SK_JOINTS; ++j) {
+    const std::int32_t sent = verdict.command_urad_s[j];
+    const bool asked = std::min(query.under_way_low_urad_s[j], sent) != 0 || std::max(query.under_way_high_urad_s[j], sent) != 0;
+    if (!asked && std::abs(query.velocity_urad_s[j]) <= parameters_.standstill_urad_s) continue;
+    const std::int64_t time_us = sk_governor_stop_time(&parameters_, j, row, verdict.box.speed_urad_s[j]);
+    if (time_us < 0 || time_us > verdict.separation.stop_us) return false;
+  }
+  return true;
+}
+
 void MotionCheck::check(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
   verdict = MotionVerdict{};
   request_slices_.count = 0;
@@ -220,12 +264,14 @@ void MotionCheck::check(const MotionQuery& query, const sk_height_map& map, Moti
     verdict.reason = BERM_STOP_INTERNAL;
     return;
   }
-  verdict.permission = Permission::kFull;
-  verdict.reason = judge(query, map, commands(query, 100, false), request_slices_, false, verdict);
-  if (verdict.reason == BERM_STOP_NONE) {
-    govern_swing(query, map, verdict);
-  } else if (!slower(query, map, verdict)) {
+  MotionQuery cut = query;
+  const bool may_move = separate(cut, verdict);
+  certify(cut, map, verdict);
+  if (verdict.permission == Permission::kHeld) return;
+  if (query.sectors != nullptr && query.sectors->enforced() && !(may_move && stands_in_time(query, verdict))) {
     verdict.permission = Permission::kHeld;
+    verdict.reason = BERM_STOP_SEPARATION;
+    verdict.has_cell = false;
     return;
   }
   for (int j = 0; j < SK_JOINTS; ++j) {

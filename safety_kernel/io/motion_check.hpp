@@ -3,6 +3,8 @@
 // The box is that of the commands sent and perhaps still under way and of the one to be sent, and of a stop after it. Clear: the request goes
 // out, its swing cut to the speed for which there is room ahead. Else the same with the request slowed. Else recovery: a machine slower than
 // the creep speeds may creep, by the same rule. Else the machine is held, with what blocked.
+// Where ISO 13855's distance is enforced, the request is cut to the speeds from which the machine stands in the time left, and nothing goes out from
+// which it does not.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +17,7 @@
 #include "core/reach_box.h"
 #include "geometry/swept_slices.hpp"
 #include "io/own_cells.hpp"
+#include "io/sector_watch.hpp"
 
 namespace berm::kernel {
 
@@ -28,6 +31,7 @@ struct MotionQuery {
   std::int32_t under_way_low_urad_s[4];  // commands sent and perhaps not yet obeyed
   std::int32_t under_way_high_urad_s[4];
   bool truck_admitted;                   // by the spotter, now: trucks in the truck zones may be passed over
+  const SectorWatch* sectors;            // null: the separation is not evaluated
 };
 
 struct MotionVerdict {
@@ -40,6 +44,8 @@ struct MotionVerdict {
   bool has_cell;                      // the next five are set
   std::int32_t blocked_x_mm, blocked_y_mm, blocked_height_mm;
   std::uint32_t blocked_link;
+  bool separation_known;              // the next is set
+  sk_separation separation;           // for the box
 };
 
 class MotionCheck {
@@ -68,6 +74,11 @@ class MotionCheck {
   // Room (urad from the measured angle) that is clear in the swing's direction of the request, as far as the box and wanted reach.
   std::int64_t room_ahead(const MotionQuery& query, const sk_height_map& map, std::int64_t wanted_urad, MotionVerdict& verdict);
   void govern_swing(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
+  // What the separation leaves of the request; false where no joint may move at all.
+  bool separate(MotionQuery& query, MotionVerdict& verdict) const;
+  // Whether everything that moves, or may by the verdict's commands, stands in the time that the separation leaves over the verdict's box.
+  bool stands_in_time(const MotionQuery& query, MotionVerdict& verdict) const;
+  void certify(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
   bool limit_overpass(bool truck_admitted);
   bool make_columns(const sk_height_map& map);
   void note_cell(const sk_height_map& map, const sk_slice& slice, const sk_clearance_result& result, MotionVerdict& verdict) const;

@@ -94,6 +94,9 @@ constexpr const char* kText[] = {
     "workspace_follows: 0 or 1",
     "lanes: 0 to 4",
     "lane: low below high, within +-15000 mm",
+    "workspace_separation: 0 none, 1 reported, 2 enforced",
+    "workspace_approach_mm_s: within 500..5000",
+    "workspace_intrusion_mm: within 0..3000",
 };
 static_assert(sizeof kText / sizeof kText[0] == SK_RULES, "one text a rule");
 

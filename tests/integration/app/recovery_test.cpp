@@ -86,6 +86,25 @@ TEST(Recovery, WaitsForAnIntruderWithoutMoving) {
   EXPECT_FALSE(advice.moved);
 }
 
+// A direction that was not seen for too long: both scanners look, nothing is asked for, and the plan goes on from where it was.
+TEST(Recovery, WaitsUntilTheSeparationIsKeptAgain) {
+  Recovery recovery(berm::app_bench::zx200());
+  const ProgressLog log(-1);
+  int rescans = 0, calls = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const auto advice = recovery.step(stopped(0.01 * k, BERM_STOP_SEPARATION), log);
+    ASSERT_TRUE(advice.in_charge);
+    ASSERT_EQ(advice.velocity, Joints{}) << "at " << 0.01 * k << " s";
+    rescans += advice.rescan;
+    calls += advice.operator_called;
+  }
+  EXPECT_GE(rescans, 6);
+  EXPECT_EQ(calls, 1);
+  const auto advice = recovery.step(permitted(40.0), log);
+  EXPECT_TRUE(advice.resumed);
+  EXPECT_FALSE(advice.moved);
+}
+
 // Standing is permitted, moving is not: no more than a few attempts, and in the end the operator.
 TEST(Recovery, AttemptsThatFailAtOnceFollowAtGrowingPauses) {
   Recovery recovery(berm::app_bench::zx200());

@@ -127,6 +127,9 @@ void expect_workspace_safe(const WorkspaceFile& w, const SiteFile& site, const b
   expect_up(w.dwell * 1e6, p.workspace_dwell_us, "workspace dwell");
   expect_down(w.learn * 1e6, p.workspace_learn_us, "workspace learn");
   EXPECT_EQ(p.workspace_foreign, w.foreign);
+  EXPECT_EQ(p.workspace_separation, w.separation);
+  expect_up(w.approach_speed * 1e3, p.workspace_approach_mm_s, "workspace approach_speed");
+  expect_up(w.intrusion_distance * 1e3, p.workspace_intrusion_mm, "workspace intrusion_distance");
   ASSERT_EQ(p.lanes, static_cast<std::int32_t>(site.truck_lane.size()));
   for (std::size_t i = 0; i < site.truck_lane.size(); ++i) {
     expect_up(site.truck_lane[i].x_low * 1e3, p.lane[i].x_low_mm, "lane x_low");
@@ -201,9 +204,10 @@ void disturb(MachineFile& m, SiteFile& site, std::mt19937_64& random) {
   for (GroundZoneFile& zone : site.ground_zone) shake(zone.x_low, zone.x_high, zone.y_low, zone.y_high, zone.pass_over);
   for (TruckZoneFile& zone : site.truck_zone) shake(zone.x_low, zone.x_high, zone.y_low, zone.y_high, zone.ceiling);
   WorkspaceFile& w = m.workspace;
-  shake(w.radius, w.rise, w.neighbour, w.slope, w.wait, w.period, w.dwell, w.learn);
+  shake(w.radius, w.rise, w.neighbour, w.slope, w.wait, w.period, w.dwell, w.learn, w.approach_speed, w.intrusion_distance);
   w.watched = random() % 2 == 0;
   w.follows = random() % 2 == 0;
+  w.separation = static_cast<int>(random() % 3);
   for (LaneFile& lane : site.truck_lane) shake(lane.x_low, lane.x_high, lane.y_low, lane.y_high);
 }
 
