@@ -32,6 +32,9 @@ struct ScannerMount {
 struct LidarMount {                    // VLP-16: sensor's frame in the upper body's, turned by yaw, then pitch (front down), then roll (left up)
   std::array<double, 3> position{};
   double roll = 0.0, pitch = 0.0, yaw = 0.0;
+  double sector_deg = 80.0;            // half field of view about azimuth 0, degrees; what looks elsewhere is blanked, as the sensor can be told
+  bool dual = false;                   // dual return packets, with dust; else the strongest return alone
+  bool outliers = false;               // ranges that are none, with the scanners' probability
 };
 
 struct ImplementShape {

@@ -78,6 +78,9 @@ LidarMount read_lidar(StrictTable t) {
   mount.roll = t.degrees("roll_deg", -180.0, 180.0);
   mount.pitch = t.degrees("pitch_deg", -180.0, 180.0);
   mount.yaw = t.degrees("yaw_deg", -180.0, 180.0);
+  mount.sector_deg = t.number("sector_deg", 1.0, 180.0);
+  mount.dual = t.choice("returns", {"strongest", "dual"}) == "dual";
+  mount.outliers = t.flag("outliers");
   t.finish();
   return mount;
 }

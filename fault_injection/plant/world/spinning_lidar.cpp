@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 namespace berm::plant {
 namespace {
@@ -11,11 +10,10 @@ namespace {
 constexpr std::int64_t firing_ns = 55296;       // of all sixteen lasers, one after the other
 constexpr double turns_per_s = 10.0;
 constexpr double range_least = 0.5, range_most = 100.0, range_lsb = 0.002;
-constexpr int lasers = 16, firings_a_packet = 24;
+constexpr int lasers = 16, blocks = 12;
 constexpr std::size_t block_bytes = 100, record_bytes = 3;
 constexpr std::int64_t hour_us = 3'600'000'000;
-constexpr double half_sector = 80.0 / 180.0 * std::numbers::pi;  // about azimuth 0; what looks elsewhere is blanked, as the sensor can be told
-constexpr std::uint8_t strongest = 0x37, product = 0x22, reflectivity = 30;
+constexpr std::uint8_t strongest = 0x37, dual = 0x39, product = 0x22, reflectivity = 30;
 
 // Of laser k in firing order, degrees.
 constexpr double elevation_deg(int laser) { return laser % 2 == 0 ? -15.0 + laser : laser; }
@@ -30,6 +28,12 @@ void put16(std::uint8_t* to, unsigned v) {
   to[1] = static_cast<std::uint8_t>(v >> 8);
 }
 
+void put_return(std::uint8_t* to, double range) {
+  if (range <= 0.0) return;
+  put16(to, static_cast<unsigned>(std::clamp<long>(std::lround(range / range_lsb), 1, 65535)));
+  to[2] = reflectivity;
+}
+
 }  // namespace
 
 SpinningLidar::SpinningLidar(const ScannerConfig& noise, const LidarMount& mount, std::uint8_t number, std::uint64_t seed)
@@ -42,28 +46,47 @@ SpinningLidar::SpinningLidar(const ScannerConfig& noise, const LidarMount& mount
 
 Vec3 SpinningLidar::turned(const Vec3& v) const { return v.x * x_ + v.y * y_ + v.z * z_; }
 
+// What is drawn does not depend on what is hit. Dust sends back less than the target behind it: the target is the last and the strongest, and the
+// strongest but that is the dust (VLP-16 manual, dual return mode).
+SpinningLidar::Returns SpinningLidar::received(const std::optional<double>& hit, double noise) {
+  Returns back;
+  const bool hits = hit && *hit >= range_least;
+  back.met = hits;
+  if (hits) back.last = back.other = std::max(range_least, *hit + noise_.range_stddev * noise);
+  if (!mount_.dual && !mount_.outliers) return back;
+  const double what = random_.uniform(), where = random_.uniform();
+  const double outlier = mount_.outliers ? noise_.outlier_probability : 0.0;
+  const double between = range_least + where * std::max(0.0, hit.value_or(range_most) - range_least);
+  if (what < outlier) {
+    back.last = back.other = between;
+    back.met = false;
+  } else if (hits && mount_.dual && what < outlier + noise_.dust_probability) {
+    back.other = std::min(between, back.last);
+  }
+  return back;
+}
+
 void SpinningLidar::fire(std::int64_t firing, double swing, bool blocked, const Scene& scene, const BaseFrame& stand, std::uint8_t* records,
-                         std::vector<MoverReturn>* returns) {
+                         std::uint8_t* others, std::vector<MoverReturn>* returns) {
   const double at = azimuth(firing);
-  const bool in_sector = std::min(at, 2 * std::numbers::pi - at) <= half_sector;
+  const bool in_sector = std::min(at, 2 * std::numbers::pi - at) <= mount_.sector_deg / 180.0 * std::numbers::pi;
   const PlanarFrame body(0, 0, 0, swing);
+  std::fill(records, records + record_bytes * lasers, std::uint8_t{0});
+  if (others != nullptr) std::fill(others, others + record_bytes * lasers, std::uint8_t{0});
+  if (!in_sector) return;
   for (int laser = 0; laser < lasers; ++laser) {
-    std::uint8_t* to = records + record_bytes * static_cast<std::size_t>(laser);
-    std::fill(to, to + record_bytes, std::uint8_t{0});
-    if (!in_sector) continue;
     const double noise = random_.normal(), lost = random_.uniform();  // drawn whatever is hit
-    if (blocked || lost < noise_.dropout_probability) continue;
     const double e = elevation_deg(laser) * std::numbers::pi / 180, turn = at + turns_per_s * 2 * std::numbers::pi * laser * 2304e-9;
     const Vec3 direction = turned({std::cos(e) * std::cos(turn), -std::cos(e) * std::sin(turn), std::sin(e)});
     const Ray upper{{mount_.position[0], mount_.position[1], mount_.position[2]}, direction};
     const Ray base{body.out(upper.origin), body.out(upper.direction)};
     const Ray world = stand.out(base);
     const std::optional<SceneHit> hit = scene.meet(world, base, upper, range_most);
-    if (!hit || hit->range < range_least) continue;
-    note(*hit, world, returns);
-    const double range = std::max(range_least, hit->range + noise_.range_stddev * noise);
-    put16(to, static_cast<unsigned>(std::clamp<long>(std::lround(range / range_lsb), 1, 65535)));
-    to[2] = reflectivity;
+    const Returns back = received(hit ? std::optional<double>(hit->range) : std::nullopt, noise);
+    if (blocked || lost < noise_.dropout_probability) continue;
+    if (back.met) note(*hit, world, returns);
+    put_return(records + record_bytes * static_cast<std::size_t>(laser), back.last);
+    if (others != nullptr) put_return(others + record_bytes * static_cast<std::size_t>(laser), back.other);
   }
 }
 
@@ -73,19 +96,27 @@ void SpinningLidar::step(double t, double dt, double swing_before, double swing_
   const auto time_ns = [](std::int64_t firing) { return (firing + 1) * firing_ns; };
   if (time_ns(next_) <= begin) next_ = begin / firing_ns;  // a caller that left a span of time out gets no firings of it
   while (time_ns(next_) <= begin) ++next_;
+  const std::int64_t firings_a_packet = mount_.dual ? blocks : 2 * blocks;
+  const std::size_t blocks_a_pair = mount_.dual ? 2 : 1;
   for (; time_ns(next_) <= end; ++next_) {
     const double f = static_cast<double>(time_ns(next_) - begin) / static_cast<double>(end - begin);
-    const auto place = static_cast<std::size_t>(next_ % firings_a_packet);
-    std::uint8_t* block = packet_.bytes.data() + block_bytes * (place / 2);
+    const std::int64_t place = next_ % firings_a_packet;
+    std::uint8_t* block = packet_.bytes.data() + block_bytes * blocks_a_pair * static_cast<std::size_t>(place / 2);
+    std::uint8_t* other = mount_.dual ? block + block_bytes : nullptr;
     if (place % 2 == 0) {
-      put16(block, 0xEEFF);
-      put16(block + 2, static_cast<unsigned>(azimuth(next_) * 18000 / std::numbers::pi) % 36000);
+      const unsigned at = static_cast<unsigned>(azimuth(next_) * 18000 / std::numbers::pi) % 36000;
+      for (std::uint8_t* head : {block, other}) {
+        if (head == nullptr) continue;
+        put16(head, 0xEEFF);
+        put16(head + 2, at);
+      }
     }
-    fire(next_, swing_before + f * (swing_now - swing_before), blocked, scene, stand, block + 4 + (place % 2) * lasers * record_bytes, returns);
+    const std::size_t to = 4 + (place % 2) * lasers * record_bytes;
+    fire(next_, swing_before + f * (swing_now - swing_before), blocked, scene, stand, block + to, other == nullptr ? nullptr : other + to, returns);
     if (place + 1 < firings_a_packet) continue;
     const auto stamp = static_cast<std::uint32_t>((time_ns(next_) / 1000) % hour_us);
     for (std::size_t i = 0; i < 4; ++i) packet_.bytes[1200 + i] = static_cast<std::uint8_t>(stamp >> (8 * i));
-    packet_.bytes[1204] = strongest;
+    packet_.bytes[1204] = mount_.dual ? dual : strongest;
     packet_.bytes[1205] = product;
     packet_.lidar = number_;
     out.push_back(packet_);

@@ -1,8 +1,9 @@
-// A VLP-16 on the upper body: which lasers fire in a step, where they look, what comes back, and the sensor's native packets (single return).
+// A VLP-16 on the upper body: which lasers fire in a step, where they look, what comes back, and the sensor's native packets (single or dual return).
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "plant/machine/implement_shape.hpp"
@@ -22,13 +23,20 @@ struct LidarPacket {
 class SpinningLidar {
  public:
   SpinningLidar(const ScannerConfig& noise, const LidarMount& mount, std::uint8_t number, std::uint64_t seed);
-  // The firings in (t - dt, t], appended as packets when twelve blocks of two firings are full. blocked: something lies on the window, and nothing
-  // comes back. returns: takes what people and vehicles sent back, or null.
+  // The firings in (t - dt, t], appended as packets when twelve blocks are full: of two firings each, or, dual return, each two of two.
+  // blocked: something lies on the window, and nothing comes back. returns: takes what people and vehicles sent back, or null.
   void step(double t, double dt, double swing_before, double swing_now, bool blocked, const Scene& scene, const BaseFrame& stand,
             std::vector<LidarPacket>& out, std::vector<MoverReturn>* returns = nullptr);
 
  private:
-  void fire(std::int64_t firing, double swing, bool blocked, const Scene& scene, const BaseFrame& stand, std::uint8_t* records,
+  struct Returns {
+    bool met = false;                // the last is of what was hit
+    double last = 0.0, other = 0.0;  // m; 0: none. other: the strongest but the last, or the last again
+  };
+  // What comes back of a laser's shot that something did, or nothing (hit), with what was drawn for it.
+  [[nodiscard]] Returns received(const std::optional<double>& hit, double noise);
+  // records: of the last returns; others: of the strongest, or null.
+  void fire(std::int64_t firing, double swing, bool blocked, const Scene& scene, const BaseFrame& stand, std::uint8_t* records, std::uint8_t* others,
             std::vector<MoverReturn>* returns);
   [[nodiscard]] Vec3 turned(const Vec3& v) const;
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "bench.hpp"
 
@@ -99,6 +100,99 @@ TEST(SpinningLidar, FaultsBlockOrSilenceItForTheirTime) {
   EXPECT_EQ(returns({blocked.begin() + 1, blocked.end()}), 0);
   EXPECT_GT(returns(again), 10000);
   EXPECT_TRUE(none.empty());
+}
+
+// A level lidar 1.2 m over level ground: from bearing to bearing it sees the same rings.
+ImplementShape level_lidar(double sector_deg, bool dual, bool outliers) {
+  ImplementShape s = one_lidar();
+  s.lidar = {{{0.0, 0.0, 1.2}, 0.0, 0.0, 0.0, sector_deg, dual, outliers}};
+  return s;
+}
+
+// Ranges of laser 0, which meets level ground at 4.64 m, in the blocks that begin at `first` and are `step` apart.
+std::vector<double> lowest(const std::vector<LidarPacket>& packets, std::size_t first, std::size_t step) {
+  std::vector<double> all;
+  for (const LidarPacket& p : packets)
+    for (std::size_t block = first; block < 12; block += step)
+      for (const std::size_t firing : {4u, 52u}) all.push_back(u16(&p.bytes[100 * block + firing]) * 0.002);
+  return all;
+}
+
+TEST(SpinningLidar, TheSectorIsTheProfiles) {
+  World narrow(level_site(), level_lidar(30, false, false), 1, 0), all_round(level_site(), level_lidar(180, false, false), 1, 0);
+  std::set<int> seen_narrow, seen_round;
+  const auto note = [](const std::vector<LidarPacket>& packets, std::set<int>& seen) {
+    for (const LidarPacket& p : packets)
+      for (std::size_t block = 0; block < 12; ++block)
+        if (u16(&p.bytes[100 * block + 4]) != 0) seen.insert(static_cast<int>(u16(&p.bytes[100 * block + 2]) / 100));
+  };
+  note(steps(narrow, 30), seen_narrow);
+  note(steps(all_round, 30), seen_round);
+  EXPECT_EQ(seen_round.size(), 360u);
+  EXPECT_EQ(seen_narrow.size(), 61u) << "0 to 30 and 329.9 to 359 degrees";
+  EXPECT_EQ(seen_narrow.count(100), 0u);
+}
+
+TEST(SpinningLidar, DualReturnHoldsTheLastInEvenBlocksAndDustBeforeItInOddOnes) {
+  WorldConfig config = level_site();
+  config.scanner.dust_probability = 0.2;
+  World world(config, level_lidar(180, true, false), 1, 0);
+  const auto packets = steps(world, 50);
+  EXPECT_NEAR(static_cast<double>(packets.size()), 753.0, 1.0) << "twice as many";
+  for (const LidarPacket& p : packets) {
+    ASSERT_EQ(p.bytes[1204], 0x39);
+    for (std::size_t pair = 0; pair < 6; ++pair) ASSERT_EQ(u16(&p.bytes[200 * pair + 2]), u16(&p.bytes[200 * pair + 102]));
+  }
+  const auto last = lowest(packets, 0, 2), other = lowest(packets, 1, 2);
+  long nearer = 0;
+  for (std::size_t i = 0; i < last.size(); ++i) {
+    ASSERT_NEAR(last[i], 1.2 / std::sin(15 * std::numbers::pi / 180), 0.006) << "dust hides nothing";
+    ASSERT_LE(other[i], last[i]);
+    ASSERT_GE(other[i], 0.498);
+    nearer += other[i] < last[i] ? 1 : 0;
+  }
+  EXPECT_NEAR(static_cast<double>(nearer) / static_cast<double>(last.size()), 0.2, 0.02);
+}
+
+TEST(SpinningLidar, OutliersAreBetweenItAndWhatItWouldHaveHitInEitherMode) {
+  for (const bool dual : {false, true}) {
+    WorldConfig config = level_site();
+    config.scanner.outlier_probability = 0.1;
+    World world(config, level_lidar(180, dual, true), 1, 0), without(config, level_lidar(180, dual, false), 1, 0);
+    const auto packets = steps(world, 30);
+    const auto last = lowest(packets, 0, dual ? 2 : 1);
+    long wrong = 0;
+    for (const double range : last) {
+      ASSERT_LE(range, 4.643);
+      ASSERT_GE(range, 0.498);
+      wrong += range < 4.62 ? 1 : 0;
+    }
+    EXPECT_NEAR(static_cast<double>(wrong) / static_cast<double>(last.size()), 0.1, 0.02) << dual;
+    if (dual) EXPECT_EQ(lowest(packets, 1, 2), last) << "nothing is behind it";
+    for (const double range : lowest(steps(without, 30), 0, dual ? 2 : 1)) ASSERT_NEAR(range, 4.636, 0.006) << "only where the profile asks for them";
+  }
+}
+
+// Noise of later shots must not change with what is hit: a campaign compares runs that differ in one thing.
+TEST(SpinningLidar, WhatIsDrawnDoesNotDependOnWhatIsHit) {
+  WorldConfig config = level_site();
+  config.scanner.range_stddev = 0.03;
+  config.scanner.outlier_probability = config.scanner.dust_probability = 0.05;
+  WorldConfig with_box = config;
+  with_box.boxes.push_back({"box", 6.0, 0.0, 0.0, 2.0, 1.0, 4.0, 0.0});
+  World one(config, level_lidar(180, true, true), 1, 0), other(with_box, level_lidar(180, true, true), 1, 0);
+  const auto a = steps(one, 20), b = steps(other, 20);
+  ASSERT_EQ(a.size(), b.size());
+  long same = 0, different = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t block = 0; block < 12; ++block) {
+      const double azimuth = u16(&a[i].bytes[100 * block + 2]) / 100.0, off = std::min(azimuth, 360 - azimuth);
+      const bool equal = std::equal(&a[i].bytes[100 * block], &a[i].bytes[100 * block] + 100, &b[i].bytes[100 * block]);
+      if (off > 30) ASSERT_TRUE(equal) << azimuth;
+      (equal ? same : different) += 1;
+    }
+  EXPECT_GT(same, 1000);
+  EXPECT_GT(different, 50);
 }
 
 }  // namespace
