@@ -32,8 +32,10 @@ bool still(const plant::JointState& joints) {
   return std::all_of(joints.velocity.begin(), joints.velocity.end(), [](double v) { return std::fabs(v) < standstill_rad_s; });
 }
 
-ReachBox box_of(const berm_state& state) {
-  ReachBox box;
+// Of a cycle without fresh joint angles the kernel publishes none.
+ReachBox box_of(const berm_state& state, const std::array<double, 4>& joints) {
+  ReachBox box{joints, joints};
+  if (std::equal(state.reach_low_urad, state.reach_low_urad + 4, state.reach_high_urad)) return box;
   for (std::size_t j = 0; j < 4; ++j) {
     box.low[j] = state.reach_low_urad[j] * 1e-6;
     box.high[j] = state.reach_high_urad[j] * 1e-6;
@@ -108,7 +110,8 @@ class Trial {
     if (implements_m <= 0.0 && !result_.contact_s) result_.contact_s = t;
     if (result_.unsafe_s) return;
     const bool near = std::hypot(body.middle.x(), body.middle.y()) < bench_.intrusion_site.implements_reach + beyond_reach_m;
-    if (implements_m <= 0.0 || (near && machine_.cycle() % judge_reach_every == 0 && reach_.holds(box_of(state), body))) result_.unsafe_s = t;
+    const bool due = near && machine_.cycle() % judge_reach_every == 0;
+    if (implements_m <= 0.0 || (due && reach_.holds(box_of(state, machine_.joints().angle), body))) result_.unsafe_s = t;
   }
 
   void note_seen(const sk_monitor_rules& rules) {

@@ -13,6 +13,7 @@ from berm_command import main, one_clear_line, run
 
 SEED = 1
 TRIALS = 6
+STOP_INTRUDER = 20  # BERM_STOP_INTRUDER
 scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-watch-"))
 
 
@@ -71,7 +72,8 @@ def a_person_of_a_scenario_is_detected():
     (alarm,) = result["alarms"]
     away = math.hypot(float(at["person_x_m"]) - alarm["x_m"], float(at["person_y_m"]) - alarm["y_m"])
     assert away < 1.25 + 1.4 * 3.0, f"the alarm's cell is {away:.1f} m from him"
-    assert int(at["stop_reason"]) == 0 and int(rows[round(person["detected_s"] + 0.01, 2)]["stop_reason"]) == 20, "the machine heard of it at another time"
+    before = rows[round(person["detected_s"] - 0.01, 2)]
+    assert int(before["stop_reason"]) == 0 and int(at["stop_reason"]) == STOP_INTRUDER, "the machine heard of it at another time"
     # The oracle's clearance is to whatever is nearest, the truck too.
     assert person["distance_at_detection_m"] >= float(at["clearance_m"]) - 1e-3
     assert max(abs(float(rows[round(person["standstill_s"] + 0.1, 2)][f"{j}_rad_s"])) for j in ("swing", "boom", "stick", "bucket")) < 0.009

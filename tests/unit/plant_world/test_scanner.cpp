@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -211,6 +212,38 @@ TEST(Scanner, SeesPeopleAndTrucks) {
     }
   }
   EXPECT_GT(hits, 50);
+}
+
+TEST(Scanner, TheWorldKnowsWhatPeopleSentBackAndWhoIsNotThereSendsNothing) {
+  WorldConfig c = open_site();
+  MoverConfig p;
+  p.name = "first";
+  p.height = 1.8, p.radius = 0.25;
+  p.waypoints = {{6.0, 0.0, 0.0}};
+  c.movers = {p, p};
+  c.movers[1].name = "second";
+  c.movers[1].waypoints = {{0.0, 6.0, 0.0}};
+  c.movers[1].appears_s = 1e9;
+  c.boxes.push_back({"box", -6.0, 0.0, 0.0, 2.0, 1.0, 1.0, 0.0});
+  ScanRun run(c, heads_only());
+  std::array<int, 2> returns{};
+  const auto look = [&](double pan, double rate) {
+    run.steps(1, tucked, 0, pan, rate);
+    for (const MoverReturn& r : run.world.mover_returns()) {
+      const double x = r.mover == 0 ? 6.0 : 0.0, y = r.mover == 0 ? 0.0 : 6.0;
+      EXPECT_NEAR(std::hypot(r.x - x, r.y - y), 0.25, r.z > 1.79 ? 0.25 : 1e-6) << "not on it";
+      EXPECT_TRUE(r.z > -0.01 && r.z < 1.81) << r.z;
+      ++returns[r.mover];
+    }
+  };
+  for (int i = 0; i < 300; ++i) look(0.0, 0.8);
+  EXPECT_GT(returns[0], 20);
+  EXPECT_EQ(returns[1], 0);
+  EXPECT_FALSE(run.world.mover_present(1));
+  run.world.bring_mover(1, run.t);
+  for (int i = 0; i < 300; ++i) look(4.8, -0.8);
+  EXPECT_GT(returns[1], 20);
+  EXPECT_TRUE(run.world.mover_present(1));
 }
 
 TEST(Scanner, NoiseOutliersDropoutsAndDustHaveTheirShares) {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstring>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 #include "bench.hpp"
@@ -133,6 +134,24 @@ TEST(World, JudgesContacts) {
 }
 
 // The tail swings over someone who stands behind the machine.
+TEST(World, WhoIsNotThereIsNotJudgedUntilBrought) {
+  WorldConfig c;
+  MoverConfig p;
+  p.name = "late";
+  p.height = 1.8, p.radius = 0.25;
+  p.waypoints = {{0.0, 6.0, 0.0}};
+  p.appears_s = 1e9;
+  c.movers = {p};
+  World world(c, bench::machine(), 1, 0);
+  const JointState over_it = {{std::numbers::pi / 2, 0.4, -1.0, -1.0}, {}};
+  world.step(0.01, 0.01, over_it, over_it);
+  EXPECT_GT(world.judge(0.01, over_it).closest_m, 1e8);
+  world.bring_mover(0, 0.02);
+  world.step(0.02, 0.01, over_it, over_it);
+  EXPECT_LT(world.judge(0.02, over_it).closest_m, 5.0);
+  EXPECT_EQ(world.judge(0.02, over_it).what, "late");
+}
+
 TEST(World, TailHitsWhoStandsBehind) {
   WorldConfig c = bench::site();
   c.trucks.clear();

@@ -34,8 +34,12 @@ TEST(footprint, meets_a_square_as_its_points_say) {
     for (int a = 0; a <= n; ++a)
       for (int b = 0; b <= n; ++b) least = std::min(least, distance(f, x + side * a / n, y + side * b / n));
     const bool meets = meets_square(f, x, y, side);
-    if (least <= 0.0) EXPECT_TRUE(meets) << i;
-    if (least > side / n) EXPECT_FALSE(meets) << i;
+    if (least <= 0.0) {
+      EXPECT_TRUE(meets) << i;
+    }
+    if (least > side / n) {
+      EXPECT_FALSE(meets) << i;
+    }
     (meets ? met : missed)++;
   }
   EXPECT_GT(met, 10);
