@@ -122,6 +122,8 @@ TEST_F(SectorWatchTest, TheTailIsAHazardWhereTheImplementsReachLess) {
 TEST_F(SectorWatchTest, TheMonitorTellsOfSomebodyWithinItsLatency) {
   std::mt19937_64 random(11);
   const auto one_of = [&random](std::initializer_list<std::int32_t> of) { return of.begin()[random() % of.size()]; };
+  const JointHistory joints{};
+  parameters.workspace_foreign = 0;  // free space tells sooner
   double latest_share = 0.0;
   for (int trial = 0; trial < 400; ++trial) {
     parameters.workspace_wait_us = one_of({0, 100'000, 200'000, 730'000, 2'000'000});
@@ -140,7 +142,7 @@ TEST_F(SectorWatchTest, TheMonitorTellsOfSomebodyWithinItsLatency) {
         block.used[i] = 1;
       }
       block.scanline = static_cast<std::uint32_t>(random());
-      monitor.take(*blocks, now_us);
+      monitor.take(*blocks, joints, now_us);
     };
     std::int64_t now_us = 1'000'000;
     const std::int64_t learned_us = now_us + 3 * (parameters.workspace_wait_us + parameters.workspace_period_us);

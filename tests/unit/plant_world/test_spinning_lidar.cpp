@@ -129,8 +129,10 @@ TEST(SpinningLidar, TheSectorIsTheProfiles) {
   note(steps(narrow, 30), seen_narrow);
   note(steps(all_round, 30), seen_round);
   EXPECT_EQ(seen_round.size(), 360u);
-  EXPECT_EQ(seen_narrow.size(), 61u) << "0 to 30 and 329.9 to 359 degrees";
-  EXPECT_EQ(seen_narrow.count(100), 0u);
+  for (int bearing = 0; bearing < 360; ++bearing) {
+    if (bearing == 30 || bearing == 329) continue;  // the block that the sector's edge is in
+    EXPECT_EQ(seen_narrow.count(bearing), bearing < 30 || bearing > 329 ? 1u : 0u) << bearing;
+  }
 }
 
 TEST(SpinningLidar, DualReturnHoldsTheLastInEvenBlocksAndDustBeforeItInOddOnes) {
@@ -168,7 +170,9 @@ TEST(SpinningLidar, OutliersAreBetweenItAndWhatItWouldHaveHitInEitherMode) {
       wrong += range < 4.62 ? 1 : 0;
     }
     EXPECT_NEAR(static_cast<double>(wrong) / static_cast<double>(last.size()), 0.1, 0.02) << dual;
-    if (dual) EXPECT_EQ(lowest(packets, 1, 2), last) << "nothing is behind it";
+    if (dual) {
+      EXPECT_EQ(lowest(packets, 1, 2), last) << "nothing is behind it";
+    }
     for (const double range : lowest(steps(without, 30), 0, dual ? 2 : 1)) ASSERT_NEAR(range, 4.636, 0.006) << "only where the profile asks for them";
   }
 }
@@ -188,7 +192,7 @@ TEST(SpinningLidar, WhatIsDrawnDoesNotDependOnWhatIsHit) {
     for (std::size_t block = 0; block < 12; ++block) {
       const double azimuth = u16(&a[i].bytes[100 * block + 2]) / 100.0, off = std::min(azimuth, 360 - azimuth);
       const bool equal = std::equal(&a[i].bytes[100 * block], &a[i].bytes[100 * block] + 100, &b[i].bytes[100 * block]);
-      if (off > 30) ASSERT_TRUE(equal) << azimuth;
+      ASSERT_TRUE(equal || off <= 45) << azimuth << ": beside the box";
       (equal ? same : different) += 1;
     }
   EXPECT_GT(same, 1000);
