@@ -114,6 +114,8 @@ void compile_workspace(const WorkspaceFile& w, const SiteFile& site, berm_parame
   p.workspace_wait_us = down(w.wait, kMicro);
   p.workspace_period_us = down(w.period, kMicro);
   p.workspace_dwell_us = up(w.dwell, kMicro);
+  p.workspace_lidar_wait_us = down(w.lidar_wait, kMicro);
+  p.workspace_lidar_period_us = down(w.lidar_period, kMicro);
   p.workspace_follows = w.follows ? 1 : 0;
   p.lanes = static_cast<std::int32_t>(site.truck_lane.size());
   for (std::size_t i = 0; i < site.truck_lane.size(); ++i) {  // inwards: while open it is not watched

@@ -127,6 +127,8 @@ void workspace(const berm_parameters& p, Listing& out) {
   out.row("workspace_wait_us", p.workspace_wait_us);
   out.row("workspace_period_us", p.workspace_period_us);
   out.row("workspace_dwell_us", p.workspace_dwell_us);
+  out.row("workspace_lidar_wait_us", p.workspace_lidar_wait_us);
+  out.row("workspace_lidar_period_us", p.workspace_lidar_period_us);
   out.row("workspace_follows", p.workspace_follows);
   for (int i = 0; i < std::clamp(p.lanes, 0, BERM_LANES); ++i) {
     const berm_lane& z = p.lane[i];

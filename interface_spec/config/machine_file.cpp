@@ -142,6 +142,8 @@ WorkspaceFile read_workspace(StrictTable table, double own_body_radius) {
   w.wait = table.number("wait", 0.0, 10.0);
   w.period = table.number("period", 0.01, 1.0);
   w.dwell = table.number("dwell", 0.0, 60.0);
+  w.lidar_wait = table.number("lidar_wait", 0.0, 10.0);
+  w.lidar_period = table.number("lidar_period", 0.01, 1.0);
   w.follows = table.flag("follows");
   table.finish();
   return w;

@@ -61,6 +61,7 @@ struct WorkspaceFile {
   double radius;                              // m, of the safety region about the swing axis
   double rise, neighbour, slope;              // m
   double wait, period, dwell;                 // s
+  double lidar_wait, lidar_period;            // s, of what the lidars see
   bool follows;                               // the map that is compared with follows what is seen
 };
 

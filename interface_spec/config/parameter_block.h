@@ -116,6 +116,8 @@ typedef struct berm_parameters {
   int32_t workspace_wait_us;                      /* a cell that gets data without end is judged when it is so old */
   int32_t workspace_period_us;                    /* between comparisons */
   int32_t workspace_dwell_us;                     /* the region is clear for so long before the machine may go on */
+  int32_t workspace_lidar_wait_us;                /* the same two of what a lidar on the upper body sees: it sees all round, ten times a second */
+  int32_t workspace_lidar_period_us;
   int32_t workspace_follows;                      /* 1: the map that is compared with follows what is seen; 0: it stays as it was first seen */
   int32_t lanes;
   berm_lane lane[BERM_LANES];                     /* where trucks come and go: not watched unless one is parked */

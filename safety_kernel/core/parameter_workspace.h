@@ -6,7 +6,7 @@ SK_BEGIN
 
 /*@ requires \valid_read(p);
   @ assigns \nothing;
-  @ ensures codes: \result == SK_RULE_NONE || SK_RULE_WORKSPACE_WATCHED <= \result <= SK_RULE_LANE_BOUNDS;
+  @ ensures codes: \result == SK_RULE_NONE || SK_RULE_WORKSPACE_WATCHED <= \result <= SK_RULE_WORKSPACE_LIDAR_TIMES;
   @ ensures whole: \result == SK_RULE_NONE <==> sk_workspace_ok(p);
   @ ensures why_workspace_watched: \result == SK_RULE_WORKSPACE_WATCHED ==> !sk_rule_workspace_watched(p);
   @ ensures why_workspace_radius: \result == SK_RULE_WORKSPACE_RADIUS ==> !sk_rule_workspace_radius(p);
@@ -15,6 +15,7 @@ SK_BEGIN
   @ ensures why_workspace_follows: \result == SK_RULE_WORKSPACE_FOLLOWS ==> !sk_rule_workspace_follows(p);
   @ ensures why_lane_count: \result == SK_RULE_LANE_COUNT ==> !sk_rule_lane_count(p);
   @ ensures why_lane_bounds: \result == SK_RULE_LANE_BOUNDS ==> !sk_rule_lane_bounds(p);
+  @ ensures why_workspace_lidar_times: \result == SK_RULE_WORKSPACE_LIDAR_TIMES ==> !sk_rule_workspace_lidar_times(p);
   @*/
 int32_t sk_check_workspace(const berm_parameters *p);
 

@@ -92,6 +92,7 @@ constexpr const char* kText[] = {
     "workspace_follows: 0 or 1",
     "lanes: 0 to 4",
     "lane: low below high, within +-15000 mm",
+    "workspace_lidar_wait_us: within 0..10000000; workspace_lidar_period_us: within 1..1000000",
 };
 static_assert(sizeof kText / sizeof kText[0] == SK_RULES, "one text a rule");
 

@@ -83,6 +83,8 @@ std::vector<Limit> limits(const berm_parameters& ok) {
       limit(SK_RULE_WORKSPACE_TIMES, 0, 10000000, FIELD(workspace_wait_us)),
       limit(SK_RULE_WORKSPACE_TIMES, 1, 1000000, FIELD(workspace_period_us)),
       limit(SK_RULE_WORKSPACE_TIMES, 0, 60000000, FIELD(workspace_dwell_us)),
+      limit(SK_RULE_WORKSPACE_LIDAR_TIMES, 0, 10000000, FIELD(workspace_lidar_wait_us)),
+      limit(SK_RULE_WORKSPACE_LIDAR_TIMES, 1, 1000000, FIELD(workspace_lidar_period_us)),
       limit(SK_RULE_WORKSPACE_FOLLOWS, 0, 1, FIELD(workspace_follows)),
       limit(SK_RULE_LANE_COUNT, 0, BERM_LANES, FIELD(lanes)),
   };
@@ -125,7 +127,7 @@ TEST(ParameterCheck, AcceptsTheDemonstrationMachine) {
 // verifies: SK-PC-16, SK-PC-17, SK-PC-18, SK-PC-19, SK-PC-28, SK-PC-35, SK-PC-36, SK-PC-37, SK-PC-38, SK-PC-39, SK-PC-40, SK-PC-41, SK-PC-42
 // verifies: SK-PC-43, SK-PC-44, SK-PC-45, SK-PC-46, SK-PC-49, SK-PC-50, SK-PC-51, SK-PC-52, SK-PC-53, SK-PC-54, SK-PC-55, SK-PC-56, SK-PC-57
 // verifies: SK-PC-58, SK-PC-59, SK-PC-60, SK-PC-61, SK-PC-62, SK-PC-63, SK-PC-66
-// verifies: SK-PC-69, SK-PC-70, SK-PC-71, SK-PC-72, SK-PC-73, SK-PC-74, SK-PC-75
+// verifies: SK-PC-69, SK-PC-70, SK-PC-71, SK-PC-72, SK-PC-73, SK-PC-74, SK-PC-75, SK-PC-85
 // verifies: SK-PC-101
 TEST(ParameterCheck, EachFieldBeyondEachLimit) {
   const berm_parameters ok = valid_parameters();
