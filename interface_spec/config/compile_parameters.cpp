@@ -116,6 +116,8 @@ void compile_workspace(const WorkspaceFile& w, const SiteFile& site, berm_parame
   p.workspace_dwell_us = up(w.dwell, kMicro);
   p.workspace_learn_us = down(w.learn, kMicro);          // less is taken for ground
   p.workspace_foreign = w.foreign;
+  p.workspace_lidar_wait_us = down(w.lidar_wait, kMicro);
+  p.workspace_lidar_period_us = down(w.lidar_period, kMicro);
   p.workspace_follows = w.follows ? 1 : 0;
   p.workspace_separation = w.separation;
   p.workspace_approach_mm_s = up(w.approach_speed, kMilli);

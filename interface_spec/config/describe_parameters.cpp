@@ -129,6 +129,8 @@ void workspace(const berm_parameters& p, Listing& out) {
   out.row("workspace_dwell_us", p.workspace_dwell_us);
   out.row("workspace_learn_us", p.workspace_learn_us);
   out.row("workspace_foreign", p.workspace_foreign);
+  out.row("workspace_lidar_wait_us", p.workspace_lidar_wait_us);
+  out.row("workspace_lidar_period_us", p.workspace_lidar_period_us);
   out.row("workspace_follows", p.workspace_follows);
   out.row("workspace_separation", p.workspace_separation);
   out.row("workspace_approach_mm_s", p.workspace_approach_mm_s);

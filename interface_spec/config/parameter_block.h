@@ -120,6 +120,8 @@ typedef struct berm_parameters {
   int32_t workspace_dwell_us;                     /* the region is clear for so long before the machine may go on */
   int32_t workspace_learn_us;                     /* the ground is learned for so long from the begin, a lane's from when a truck has parked */
   int32_t workspace_foreign;                      /* so many voxels of free space with something in them are an intruder; 0: free space is not kept */
+  int32_t workspace_lidar_wait_us;                /* the same two of what a lidar on the upper body sees: it sees all round, ten times a second */
+  int32_t workspace_lidar_period_us;
   int32_t workspace_follows;                      /* 1: the map that is compared with follows what is seen; 0: it stays as it was first seen */
   /* ISO 13855's minimum distance: see safety_kernel/requirements/separation.md */
   int32_t workspace_separation;                   /* BERM_SEPARATION_* */

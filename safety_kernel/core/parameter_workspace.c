@@ -22,6 +22,15 @@ static bool times_ok(const berm_parameters *p)
          sk_is_within(p->workspace_dwell_us, 0, 60000000) && sk_is_within(p->workspace_learn_us, 0, 120000000);
 }
 
+/*@ requires \valid_read(p);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_rule_workspace_lidar_times(p);
+  @*/
+static bool lidar_times_ok(const berm_parameters *p)
+{
+  return sk_is_within(p->workspace_lidar_wait_us, 0, 10000000) && sk_is_within(p->workspace_lidar_period_us, 1, 1000000);
+}
+
 /*@ requires \valid_read(z);
   @ assigns \nothing;
   @ ensures \result == true <==> sk_lane_ok(z);
@@ -75,5 +84,6 @@ int32_t sk_check_workspace(const berm_parameters *p)
   if (!sk_is_within(p->workspace_follows, 0, 1)) { return SK_RULE_WORKSPACE_FOLLOWS; }
   if (!sk_is_within(p->lanes, 0, BERM_LANES)) { return SK_RULE_LANE_COUNT; }
   if (!lanes_ok(p)) { return SK_RULE_LANE_BOUNDS; }
+  if (!lidar_times_ok(p)) { return SK_RULE_WORKSPACE_LIDAR_TIMES; }
   return separation_rule(p);
 }

@@ -100,9 +100,16 @@ void Cycle::take_points(const CycleInputs& in) {
 void Cycle::take_lidars(const CycleInputs& in) {
   if (map_only_ || joints_.size() == 0) return;
   const std::uint32_t before = lidars_.points();
-  for (int i = 0; i < in.lidar_count; ++i)
-    if (!lidars_.take(in.lidar[i].lidar, in.lidar[i].bytes, kVlp16PacketBytes, joints_, in.now_us, map_, scans_.shadow())) ++lidars_rejected_;
+  for (int i = 0; i < in.lidar_count; ++i) {
+    const CycleInputs::LidarPacket& packet = in.lidar[i];
+    if (lidars_.take(packet.lidar, packet.bytes, kVlp16PacketBytes, joints_, in.now_us, map_, scans_.shadow())) watch_lidar(packet.lidar, in.now_us);
+    else ++lidars_rejected_;
+  }
   map_points_ += lidars_.points() - before;
+}
+
+void Cycle::watch_lidar(int lidar, std::int64_t now_us) {
+  if (!frames_.base().moved) workspace_.take(lidar, lidars_.packet(), joints_.at(lidars_.middle_us(lidar)).angles, now_us);
 }
 
 void Cycle::learn_base(std::int64_t now_us) {

@@ -1,6 +1,5 @@
 #include "io/lidar_intake.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -8,36 +7,24 @@
 
 namespace berm::kernel {
 
-namespace {
-
-constexpr std::uint32_t kHourUs = 3600000000U;
-
-sk_point base_point(const Eigen::Vector3d& upper, double cosine, double sine) {
-  const auto mm = [](double m) { return static_cast<std::int32_t>(std::lround(m * 1e3)); };
-  const auto z = static_cast<std::int32_t>(std::ceil(upper.z() * 1e3));
-  return {mm(cosine * upper.x() - sine * upper.y()), mm(sine * upper.x() + cosine * upper.y()), std::clamp(z, -SK_HEIGHT_MAX_MM, SK_HEIGHT_MAX_MM)};
-}
-
-}  // namespace
-
 LidarIntake::LidarIntake(const berm_parameters& parameters)
     : parameters_(parameters), self_(parameters), lidars_(std::clamp<int>(parameters.lidars, 0, BERM_LIDARS)) {
   for (int i = 0; i < lidars_; ++i) {
-    const berm_lidar_mount& from = parameters.lidar[i];
-    mount_[i].place = Eigen::Vector3d(from.x_mm, from.y_mm, from.z_mm) * 1e-3;
-    const Eigen::AngleAxisd yaw(from.yaw_urad * 1e-6, Eigen::Vector3d::UnitZ()), pitch(from.pitch_urad * 1e-6, Eigen::Vector3d::UnitY());
-    mount_[i].turn = (yaw * pitch * Eigen::AngleAxisd(from.roll_urad * 1e-6, Eigen::Vector3d::UnitX())).toRotationMatrix();
+    const LidarMount mount = lidar_mount(parameters.lidar[i]);
+    mount_[i].place = mount.place;
+    mount_[i].turn = mount.turn;
   }
 }
 
 bool LidarIntake::accept(Mount& mount, const std::uint8_t* bytes, std::int64_t now_us) const {
   const std::uint32_t clock_us = vlp16_clock_us(bytes);
-  if (clock_us >= kHourUs) return false;
-  const std::uint32_t ahead_us = clock_us >= mount.clock_us ? clock_us - mount.clock_us : clock_us + (kHourUs - mount.clock_us);
+  if (clock_us >= SensorClock::kHourUs) return false;
+  const std::uint32_t ahead_us = SensorClock::ahead_us(mount.clock.clock_us(), clock_us);
   // After a silence the sensor may have counted on: then it is heard anew.
   const bool anew = mount.heard_us < 0 || now_us - mount.heard_us > parameters_.scanner_silent_us;
   if (!anew && (ahead_us == 0 || ahead_us > kAheadMaxUs)) return false;
-  mount.clock_us = clock_us;
+  if (anew) mount.clock.begin(clock_us, now_us);
+  else mount.clock.advance(clock_us, now_us);
   mount.heard_us = now_us;
   return true;
 }
@@ -51,11 +38,11 @@ void LidarIntake::insert(const Mount& mount, const Vlp16Return& hit, const Swung
   const Eigen::Vector3d beside = mount.turn * Eigen::Vector3d(beam.beside_x, beam.beside_y, 0.0);
   const Eigen::Vector3d edge[2] = {middle + beside, middle - beside};
   if (!(middle.head<2>().squaredNorm() <= kFarthestM * kFarthestM)) return;
-  const sk_point from = base_point(edge[0], swung.cosine, swung.sine), to = base_point(edge[1], swung.cosine, swung.sine);
+  const sk_point from = lidar_base_point(edge[0], swung.cosine, swung.sine), to = lidar_base_point(edge[1], swung.cosine, swung.sine);
   if (self_.is_own(edge[0], swung.pose) && self_.is_own(edge[1], swung.pose)) {
     // What the implements hide keeps its height. Behind ground or tracks within the own body's circle nothing is hidden that this beam could have seen.
     if (!self_.is_implement(edge[0], swung.pose)) return;
-    shadow.keep(OwnShadow::kLidar, base_point(mount.place, swung.cosine, swung.sine), from, now_us, map);
+    shadow.keep(OwnShadow::kLidar, lidar_base_point(mount.place, swung.cosine, swung.sine), from, now_us, map);
     return;
   }
   if (sk_raster_segment(&map, &from, &to, now_us, parameters_.generation_us) > 0) ++points_;

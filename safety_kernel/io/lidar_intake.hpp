@@ -10,7 +10,9 @@
 #include "core/height_map.h"
 #include "geometry/joint_history.hpp"
 #include "geometry/self_filter.hpp"
+#include "io/lidar_mount.hpp"
 #include "io/own_shadow.hpp"
+#include "io/sensor_clock.hpp"
 #include "io/vlp16.hpp"
 
 namespace berm::kernel {
@@ -32,13 +34,14 @@ class LidarIntake {
   // No usable packet of some lidar for longer than the limit, once all were heard.
   bool silent(std::int64_t now_us, std::int32_t limit_us) const;
   std::uint32_t points() const { return points_; }  // into the map since start, wrapping
+  // Of the packet that was taken last, of this lidar: its returns, and the middle of the time in which they were made, on the kernel's clock.
+  const Vlp16Packet& packet() const { return packet_; }
+  std::int64_t middle_us(int lidar) const { return mount_[lidar].clock.time_us() - packet_.firings * kVlp16FiringNs / 2000; }
 
  private:
-  struct Mount {
-    Eigen::Vector3d place;    // upper body's frame, m
-    Eigen::Matrix3d turn;     // from the sensor's frame
+  struct Mount : LidarMount {
     std::int64_t heard_us = -1;
-    std::uint32_t clock_us = 0;  // the sensor's, of the newest packet
+    SensorClock clock;
   };
   struct Swung {
     ImplementPose pose;

@@ -97,6 +97,7 @@ constexpr const char* kText[] = {
     "workspace_separation: 0 none, 1 reported, 2 enforced",
     "workspace_approach_mm_s: within 500..5000",
     "workspace_intrusion_mm: within 0..3000",
+    "workspace_lidar_wait_us: within 0..10000000; workspace_lidar_period_us: within 1..1000000",
 };
 static_assert(sizeof kText / sizeof kText[0] == SK_RULES, "one text a rule");
 

@@ -17,7 +17,7 @@ constexpr std::uint32_t kGapMaxCdeg = 200;  // between blocks; 0.1 to 0.4 degree
 constexpr std::uint32_t kGapDefaultCdeg = 20;
 constexpr std::uint32_t kHalfDivergenceMdeg = 86;  // 1.5 mrad: a beam is 3 mrad wide (VLP-16 manual, specifications)
 // Firing times in nanoseconds: a sequence fires its 16 lasers one by one; a block holds two sequences.
-constexpr std::uint32_t kSequenceNs = 55296, kLaserNs = 2304;
+constexpr std::uint32_t kSequenceNs = kVlp16FiringNs, kLaserNs = 2304;
 
 // Elevation rank of each laser in firing order: -15, 1, -13, 3, -11, 5, -9, 7, -7, 9, -5, 11, -3, 13, -1, 15 degrees.
 constexpr std::uint8_t kChannelOfLaser[kVlp16Channels] = {0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15};
@@ -72,6 +72,7 @@ Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packe
   // return is the farther of the two.
   const int step = bytes[kModeOffset] == kModeDual ? 2 : 1;
   packet.count = 0;
+  packet.firings = 2 * kBlocks / step;
   for (int block = 0; block < kBlocks; block += step) {
     const std::uint8_t* p = bytes + kBlockBytes * static_cast<std::size_t>(block);
     const std::uint32_t azimuth_mdeg = u16(p + 2) * 10U;
@@ -85,7 +86,9 @@ Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packe
       const int laser = shot % kVlp16Channels;
       const std::uint32_t fired_ns = kSequenceNs * static_cast<std::uint32_t>(shot / kVlp16Channels) + kLaserNs * static_cast<std::uint32_t>(laser);
       const std::uint32_t turned_mdeg = gap * 10U * fired_ns / (2U * kSequenceNs);
-      packet.point[packet.count] = {kChannelOfLaser[laser], record[2], (azimuth_mdeg + turned_mdeg) % (kTurnCdeg * 10U), spread_mdeg, range_mm};
+      const auto firing = static_cast<std::uint8_t>(2 * block / step + shot / kVlp16Channels);
+      const std::uint32_t at_mdeg = (azimuth_mdeg + turned_mdeg) % (kTurnCdeg * 10U);
+      packet.point[packet.count] = {kChannelOfLaser[laser], record[2], at_mdeg, spread_mdeg, range_mm, firing};
       ++packet.count;
     }
   }

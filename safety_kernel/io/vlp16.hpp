@@ -14,6 +14,7 @@ constexpr std::size_t kVlp16PacketBytes = 1206;
 constexpr int kVlp16Channels = 16;
 constexpr int kVlp16MaxPoints = 12 * 2 * kVlp16Channels;  // of one packet, single return
 constexpr std::uint32_t kVlp16FiringMdeg = 200;           // a firing's share of the turn at 10 Hz
+constexpr std::int64_t kVlp16FiringNs = 55296;            // from a firing to the next
 constexpr double kVlp16RadPerMdeg = 3.14159265358979323846 / 180000.0;
 constexpr std::int32_t kVlp16RangeMinMm = 400;            // nearer returns are the sensor's own housing and mount
 
@@ -26,10 +27,12 @@ struct Vlp16Return {
   std::uint32_t azimuth_mdeg;  // 0..359999, interpolated to the channel's firing
   std::uint32_t spread_mdeg;   // the return came from within +- this about azimuth_mdeg: half the beam's divergence and one firing's turn
   std::int32_t range_mm;
+  std::uint8_t firing = 0;     // of the packet, from 0: all sixteen lasers once
 };
 
 struct Vlp16Packet {
   int count;
+  int firings;  // 24, of dual return 12; also those without a return
   Vlp16Return point[kVlp16MaxPoints];
 };
 

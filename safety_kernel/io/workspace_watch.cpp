@@ -2,33 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-
-#include "core/monitor_forget.h"
-#include "core/monitor_settle.h"
 
 namespace berm::kernel {
 
-WorkspaceWatch::WorkspaceWatch(const berm_parameters& parameters) : parameters_(parameters), space_(parameters) {
-  rules_.height_threshold_mm = parameters.workspace_rise_mm;
-  rules_.neighbour_threshold_mm = parameters.workspace_neighbour_mm;
-  rules_.slope_threshold_mm = parameters.workspace_slope_mm;
-  rules_.wait_us = parameters.workspace_wait_us;
-  rules_.period_us = parameters.workspace_period_us;
-  rules_.dwell_us = parameters.workspace_dwell_us;
-  rules_.continuous = parameters.workspace_follows != 0;
-  sk_watch_region(&rules_, &parameters_, lanes_open_);
-  begin();
+WorkspaceWatch::WorkspaceWatch(const berm_parameters& parameters)
+    : parameters_(parameters),
+      lidars_(std::clamp<int>(parameters.lidars, 0, BERM_LIDARS)),
+      scanners_(parameters, parameters.workspace_wait_us, parameters.workspace_period_us),
+      lidar_{{parameters, 0}, {parameters, 1}},
+      space_(parameters) {
+  static_assert(BERM_LIDARS == 2);
 }
 
 void WorkspaceWatch::begin() {
-  sk_monitor_begin(&monitor_);
+  scanners_.begin();
+  for (int i = 0; i < lidars_; ++i) lidar_[i].begin();
+  for (Last& last : last_) last = Last{};
   space_.begin();
   space_.watch(lanes_open_, false);
-  for (Last& last : last_) last = Last{};
-  where_ = {-1, -1};
-  in_space_ = begun_ = false;
+  in_space_ = {-1, -1};
   in_space_us_ = -1;
+  begun_ = false;
   learned_us_ = lane_learned_us_ = kNotLearning;
 }
 
@@ -56,81 +50,64 @@ void WorkspaceWatch::take(const ScanBlocks& blocks, const JointHistory& joints, 
       const sk_point point{block.point_mm[i][0], block.point_mm[i][1], block.point_mm[i][2]};
       const std::int32_t index = block.first_index + i;
       if (block.used[i] == 0) continue;
-      if (last.scanline == block.scanline && last.index + 1 == index) interpolate(last.point, point, now_us);
-      insert(point, false, now_us);
+      const bool follows = last.scanline == block.scanline && last.index + 1 == index;
+      if (follows) scanners_.interpolate(last.point, point, MonitorWatch::Over::kEverything, now_us);
+      scanners_.insert(point, now_us);
       if (space_.kept()) space_.take(from, point, learning(point));
       last = {block.scanline, index, point};
     }
   }
 }
 
-void WorkspaceWatch::insert(const sk_point& point, bool interpolated, std::int64_t now_us) {
-  sk_monitor_insert(&monitor_, sk_map_index(point.y_mm), sk_map_index(point.x_mm), point.z_mm, interpolated, now_us);
-}
-
-// In steps of half a cell: what a corner of the line cuts off stays EMPTY.
-void WorkspaceWatch::interpolate(const sk_point& from, const sk_point& to, std::int64_t now_us) {
-  const std::int64_t dx = std::int64_t{to.x_mm} - from.x_mm, dy = std::int64_t{to.y_mm} - from.y_mm, dz = std::int64_t{to.z_mm} - from.z_mm;
-  const std::int64_t steps = std::min<std::int64_t>(std::max(std::abs(dx), std::abs(dy)) / (SK_CELL_MM / 2), kStepsMost);
-  for (std::int64_t k = 1; k < steps; ++k) {
-    const auto along = [k, steps](std::int32_t start, std::int64_t change) { return static_cast<std::int32_t>(start + change * k / steps); };
-    insert({along(from.x_mm, dx), along(from.y_mm, dy), along(from.z_mm, dz)}, true, now_us);
-  }
+void WorkspaceWatch::take(int lidar, const Vlp16Packet& packet, const JointAngles& joints, std::int64_t now_us) {
+  if (watched() && lidar >= 0 && lidar < lidars_) lidar_[lidar].take(packet, joints, now_us);
 }
 
 void WorkspaceWatch::trucks(bool spotter_fresh, bool parked, std::int64_t now_us) {
   if (!watched() || !spotter_fresh || parked != lanes_open_) return;
   lanes_open_ = !parked;
-  for (int i = 0; i < parameters_.lanes; ++i) {
-    const berm_lane& lane = parameters_.lane[i];
-    sk_forget_rectangle(&monitor_, lane.x_low_mm, lane.y_low_mm, lane.x_high_mm, lane.y_high_mm);
-    space_.forget(lane);
-  }
+  for (int number = 0; number < monitors(); ++number) of(number).change_lanes(parameters_, lanes_open_);
+  for (int i = 0; i < parameters_.lanes; ++i) space_.forget(parameters_.lane[i]);
   lane_learned_us_ = now_us + parameters_.workspace_learn_us;
-  sk_watch_region(&rules_, &parameters_, lanes_open_);
   space_.watch(lanes_open_, false);
 }
 
-// What is CHANGED by now belongs to the ground: it explains what is seen beside it.
+void WorkspaceWatch::settle(const berm_lane& rectangle) {
+  for (int number = 0; number < monitors(); ++number) of(number).settle(rectangle);
+}
+
 void WorkspaceWatch::end_learning(std::int64_t now_us) {
-  constexpr std::int32_t kSide = -SK_MAP_ORIGIN_MM;
   if (!begun_) learned_us_ = now_us + parameters_.workspace_learn_us;
   begun_ = true;
   const bool all = learned_us_ != kNotLearning && now_us >= learned_us_, lanes = lane_learned_us_ != kNotLearning && now_us >= lane_learned_us_;
-  if (all) sk_settle_rectangle(&monitor_, rules_.continuous, -kSide, -kSide, kSide, kSide);
-  for (int i = 0; lanes && i < parameters_.lanes; ++i) {
-    const berm_lane& lane = parameters_.lane[i];
-    sk_settle_rectangle(&monitor_, rules_.continuous, lane.x_low_mm, lane.y_low_mm, lane.x_high_mm, lane.y_high_mm);
-  }
+  if (all) settle({SK_MAP_ORIGIN_MM, SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM});
+  for (int i = 0; lanes && i < parameters_.lanes; ++i) settle(parameters_.lane[i]);
   if (all) learned_us_ = kNotLearning;
   if (lanes) lane_learned_us_ = kNotLearning;
   if (all || lanes) space_.watch(lanes_open_, !lanes_open_ && learned_us_ == kNotLearning && lane_learned_us_ == kNotLearning);
 }
 
-bool WorkspaceWatch::intruder(std::int64_t now_us) {
-  where_ = {-1, -1};
-  if (space_.find(where_)) in_space_us_ = now_us;
-  in_space_ = where_.iy >= 0;
-  return in_space_us_ >= 0 && now_us - in_space_us_ < rules_.dwell_us;
+bool WorkspaceWatch::foreign(std::int64_t now_us) {
+  in_space_ = {-1, -1};
+  if (space_.find(in_space_)) in_space_us_ = now_us;
+  return in_space_us_ >= 0 && now_us - in_space_us_ < parameters_.workspace_dwell_us;
 }
 
 bool WorkspaceWatch::step(std::int64_t now_us) {
   if (!watched()) return false;
   end_learning(now_us);
-  sk_monitor_cell risen{-1, -1};
-  const bool rises = sk_monitor_step(&monitor_, &rules_, now_us, &risen), foreign = intruder(now_us);
-  if (risen.iy >= 0) {
-    where_ = risen;
-    in_space_ = false;
-  }
-  return rises || foreign;
+  bool stop = foreign(now_us);
+  for (int number = 0; number < monitors(); ++number) stop = of(number).step(now_us) || stop;
+  return stop;
 }
 
 bool WorkspaceWatch::place(std::int32_t& x_mm, std::int32_t& y_mm, std::int32_t& height_mm) const {
-  if (where_.iy < 0) return false;
-  x_mm = SK_MAP_ORIGIN_MM + SK_CELL_MM * where_.ix + SK_CELL_MM / 2;
-  y_mm = SK_MAP_ORIGIN_MM + SK_CELL_MM * where_.iy + SK_CELL_MM / 2;
-  height_mm = in_space_ ? space_.foreign_height_mm(where_) : monitor_.obstacle_height_mm[where_.iy][where_.ix];
+  for (int number = 0; number < monitors(); ++number)
+    if (of(number).place(x_mm, y_mm, height_mm)) return true;
+  if (in_space_.iy < 0) return false;
+  x_mm = SK_MAP_ORIGIN_MM + SK_CELL_MM * in_space_.ix + SK_CELL_MM / 2;
+  y_mm = SK_MAP_ORIGIN_MM + SK_CELL_MM * in_space_.iy + SK_CELL_MM / 2;
+  height_mm = space_.foreign_height_mm(in_space_);
   return true;
 }
 

@@ -1,11 +1,15 @@
-// The Workspace Monitor in the kernel's cycle (SG-6): the scanners' returns into its maps, the trucks' lanes, and whether the machine must stand.
+// The Workspace Monitor in the kernel's cycle (SG-6): the sensors' returns into its maps, the trucks' lanes, and whether the machine must stand.
+//
+// The panning scanners have one monitor, each lidar on the upper body has its own: they see from other places and again after another time, and what
+// one of them sees of a cell explains or excuses nothing that another sees.
 #pragma once
 
 #include <cstdint>
 
 #include "config/parameter_block.h"
-#include "core/workspace_monitor.h"
 #include "geometry/joint_history.hpp"
+#include "io/lidar_watch.hpp"
+#include "io/monitor_watch.hpp"
 #include "io/scan_intake.hpp"
 #include "io/space_watch.hpp"
 
@@ -13,6 +17,8 @@ namespace berm::kernel {
 
 class WorkspaceWatch {
  public:
+  static constexpr int kScanners = 0;  // number of the panning scanners' monitor; that of lidar i is i + 1
+
   explicit WorkspaceWatch(const berm_parameters& parameters);
 
   // What is seen from now on is what later heights are compared with: the base stands, and nobody is in the region. For workspace_learn_us after the
@@ -22,6 +28,8 @@ class WorkspaceWatch {
   // one to the other passes over (leger-1998, section 3.1; it counts in EMPTY cells only).
   // Their rays tell of free space; the swing at the block's time places the scanner.
   void take(const ScanBlocks& blocks, const JointHistory& joints, std::int64_t now_us);
+  // A packet of a lidar. joints: at the time of the packet.
+  void take(int lidar, const Vlp16Packet& packet, const JointAngles& joints, std::int64_t now_us);
   // Once a cycle. With no fresh word of the spotter the lanes stay as they were. A truck that has parked is learned with its lane; until it leaves the
   // lane is watched.
   void trucks(bool spotter_fresh, bool parked, std::int64_t now_us);
@@ -29,14 +37,17 @@ class WorkspaceWatch {
   bool step(std::int64_t now_us);
 
   bool watched() const { return parameters_.workspace_watched != 0; }
-  // Of the newest step: a cell with somebody in it, its centre and what is seen there; false when there is none (any more).
+  // Of the newest step, of a monitor that says stop: a cell with somebody in it, its centre and what is seen there; false when there is none (any
+  // more).
   bool place(std::int32_t& x_mm, std::int32_t& y_mm, std::int32_t& height_mm) const;
-  const sk_monitor& monitor() const { return monitor_; }
+  int monitors() const { return 1 + lidars_; }
+  // Of a monitor: the cycle in which it was last given a return; -1: none since begin().
+  std::int64_t newest_us(int number) const { return of(number).newest_us(); }
   const SpaceWatch& space() const { return space_; }
-  const sk_monitor_rules& rules() const { return rules_; }
+  const sk_monitor& monitor(int number = kScanners) const { return of(number).monitor(); }
+  const sk_monitor_rules& rules(int number = kScanners) const { return of(number).rules(); }
 
  private:
-  static constexpr std::int64_t kStepsMost = 250;  // across the whole map
   static constexpr std::int64_t kNotLearning = -1;
 
   struct Last {  // return of a scanner
@@ -44,23 +55,24 @@ class WorkspaceWatch {
     std::int32_t index = -2;
     sk_point point{};
   };
+  MonitorWatch& of(int number) { return number == kScanners ? scanners_ : lidar_[number - 1].monitor(); }
+  const MonitorWatch& of(int number) const { return number == kScanners ? scanners_ : lidar_[number - 1].monitor(); }
   sk_point head(int scanner, std::int64_t time_us, const JointHistory& joints) const;
   bool learning(const sk_point& point) const;
+  void settle(const berm_lane& rectangle);
   void end_learning(std::int64_t now_us);
-  bool intruder(std::int64_t now_us);
-  void insert(const sk_point& point, bool interpolated, std::int64_t now_us);
-  void interpolate(const sk_point& from, const sk_point& to, std::int64_t now_us);
+  bool foreign(std::int64_t now_us);
 
   const berm_parameters& parameters_;
-  sk_monitor_rules rules_{};
-  sk_monitor monitor_;
+  const int lidars_;
+  MonitorWatch scanners_;
+  LidarWatch lidar_[BERM_LIDARS];
   SpaceWatch space_;
-  sk_monitor_cell where_{-1, -1};
-  bool in_space_ = false;                       // where_ is of free space
-  std::int64_t in_space_us_ = -1;               // when somebody was last in it; -1 never
+  sk_monitor_cell in_space_{-1, -1};             // a cell with somebody in free space
+  std::int64_t in_space_us_ = -1;                // when somebody was last there; -1 never
   bool begun_ = false;
-  std::int64_t learned_us_ = kNotLearning;      // when the whole region's ground will have been learned
-  std::int64_t lane_learned_us_ = kNotLearning; // the same of the lanes
+  std::int64_t learned_us_ = kNotLearning;       // when the whole region's ground will have been learned
+  std::int64_t lane_learned_us_ = kNotLearning;  // the same of the lanes
   Last last_[BERM_SCANNERS];
   bool lanes_open_ = true;
 };

@@ -17,9 +17,11 @@ namespace {
 TEST(LimitsAgree, TheDefaultsPassTheKernelsCheck) {
   const berm_parameters p = compile_parameters(load_machine_file(machine_path()), load_site_file(site_path()));
   EXPECT_EQ(sk_parameters_check(&p), SK_RULE_NONE);
-  const berm_parameters rear = compile_parameters(load_machine_file(BERM_CONFIG_FILES "/machines/zx200_rear.toml"), load_site_file(site_path()));
-  EXPECT_EQ(sk_parameters_check(&rear), SK_RULE_NONE);
-  EXPECT_EQ(rear.lidars, 2);
+  for (const char* name : {"/machines/zx200_rear.toml", "/machines/zx200_ring.toml"}) {
+    const berm_parameters with_lidars = compile_parameters(load_machine_file(std::string(BERM_CONFIG_FILES) + name), load_site_file(site_path()));
+    EXPECT_EQ(sk_parameters_check(&with_lidars), SK_RULE_NONE) << name;
+    EXPECT_EQ(with_lidars.lidars, 2) << name;
+  }
 }
 
 // Replaces the number at a place by one that is near, far, at a round limit, or nonsense.

@@ -70,4 +70,32 @@ def who_walks_in_stops_it():
     shutil.rmtree(out)
 
 
-main([a_truck_is_loaded, who_walks_in_stops_it])
+def who_comes_from_behind_is_seen_by_the_lidars():
+    """verifies: SK-WM-56, SK-WM-57"""
+    text = (SCENARIOS / "person_ring.toml").read_text()
+    assert "max_time_s = 1800.0" in text
+    path = scratch / "person_ring.toml"
+    path.write_text(text.replace("max_time_s = 1800.0", "max_time_s = 36.0", 1))
+    _, result, out, text = load("--scenario", path, "--seed", 1)
+    assert result is not None, text[-800:]
+    assert result["contacts"] == 0, result["contacts"]
+    with open(out / "trace.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    away = {float(row["time_s"]): math.hypot(float(row["person_x_m"]), float(row["person_y_m"])) for row in rows}
+    came = min(t for t, d in away.items() if d < 15.0)
+    stops = [float(line.split()[0]) for line in text.splitlines() if "the kernel stopped the machine" in line and "intruder" in line]
+    seen = [t for t in stops if t > came - 0.5]
+    assert seen, text[-1500:]
+    # From the first return at the region's rim: 0.25 s, in which he walks 0.4 m; the trace's rows and the log are 0.1 s apart.
+    assert seen[0] < came + 0.5, f"came in at {came} s, stopped at {seen[0]} s"
+    speed = {float(row["time_s"]): max(abs(float(row[f"{joint}_rad_s"])) for joint in JOINTS) for row in rows}
+    assert max(v for t, v in speed.items() if t < seen[0]) > 0.3, "the machine was not at work"
+    late = [t for t, v in speed.items() if seen[0] + 2.5 < t < seen[0] + 3.0 and v > STILL_RAD_S]
+    assert not late, f"moves at {late[:3]} s after the stop at {seen[0]} s"
+    print(f"came in at {came} s, stopped at {seen[0]} s; stops before: {len(stops) - len(seen)}")
+    replayed = run("berm_replay", out / "journal.mcap")
+    assert replayed.returncode == 0, replayed.stdout[-500:]
+    shutil.rmtree(out)
+
+
+main([a_truck_is_loaded, who_walks_in_stops_it, who_comes_from_behind_is_seen_by_the_lidars])

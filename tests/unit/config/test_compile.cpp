@@ -130,6 +130,8 @@ void expect_workspace_safe(const WorkspaceFile& w, const SiteFile& site, const b
   EXPECT_EQ(p.workspace_separation, w.separation);
   expect_up(w.approach_speed * 1e3, p.workspace_approach_mm_s, "workspace approach_speed");
   expect_up(w.intrusion_distance * 1e3, p.workspace_intrusion_mm, "workspace intrusion_distance");
+  expect_down(w.lidar_wait * 1e6, p.workspace_lidar_wait_us, "workspace lidar_wait");
+  expect_down(w.lidar_period * 1e6, p.workspace_lidar_period_us, "workspace lidar_period");
   ASSERT_EQ(p.lanes, static_cast<std::int32_t>(site.truck_lane.size()));
   for (std::size_t i = 0; i < site.truck_lane.size(); ++i) {
     expect_up(site.truck_lane[i].x_low * 1e3, p.lane[i].x_low_mm, "lane x_low");
@@ -204,7 +206,7 @@ void disturb(MachineFile& m, SiteFile& site, std::mt19937_64& random) {
   for (GroundZoneFile& zone : site.ground_zone) shake(zone.x_low, zone.x_high, zone.y_low, zone.y_high, zone.pass_over);
   for (TruckZoneFile& zone : site.truck_zone) shake(zone.x_low, zone.x_high, zone.y_low, zone.y_high, zone.ceiling);
   WorkspaceFile& w = m.workspace;
-  shake(w.radius, w.rise, w.neighbour, w.slope, w.wait, w.period, w.dwell, w.learn, w.approach_speed, w.intrusion_distance);
+  shake(w.radius, w.rise, w.neighbour, w.slope, w.wait, w.period, w.dwell, w.learn, w.lidar_wait, w.lidar_period, w.approach_speed, w.intrusion_distance);
   w.watched = random() % 2 == 0;
   w.follows = random() % 2 == 0;
   w.separation = static_cast<int>(random() % 3);
@@ -228,18 +230,25 @@ TEST(Compile, EveryFieldIsRoundedToTheSafeSide) {
   }
 }
 
-// So that a table measured anew reaches both files. verifies: IF-CF-17
-TEST(Compile, TheMachineWithLidarsIsTheSameButForThemAndTheTail) {
+// So that a table measured anew reaches all files. verifies: IF-CF-17, IF-CF-18
+TEST(Compile, TheMachinesWithLidarsAreTheSameButForThemAndWhatTheyWatch) {
   const Default d;
   const berm_parameters plain = compile_parameters(d.machine, d.site);
   berm_parameters rear = compile_parameters(load_machine_file(BERM_CONFIG_FILES "/machines/zx200_rear.toml"), d.site);
-  ASSERT_EQ(rear.lidars, 2);
+  berm_parameters ring = compile_parameters(load_machine_file(BERM_CONFIG_FILES "/machines/zx200_ring.toml"), d.site);
   EXPECT_EQ(rear.tail_watched, 1);
   rear.tail_watched = plain.tail_watched;
-  rear.lidars = plain.lidars;
-  std::copy(std::begin(plain.lidar), std::end(plain.lidar), rear.lidar);
-  rear.crc32 = plain.crc32;
-  EXPECT_EQ(std::memcmp(&rear, &plain, sizeof plain), 0);
+  EXPECT_EQ(ring.workspace_watched, 1);
+  EXPECT_EQ(ring.workspace_radius_mm, 15000);
+  ring.workspace_watched = plain.workspace_watched;
+  ring.workspace_radius_mm = plain.workspace_radius_mm;
+  for (berm_parameters* with : {&rear, &ring}) {
+    ASSERT_EQ(with->lidars, 2);
+    with->lidars = plain.lidars;
+    std::copy(std::begin(plain.lidar), std::end(plain.lidar), with->lidar);
+    with->crc32 = plain.crc32;
+    EXPECT_EQ(std::memcmp(with, &plain, sizeof plain), 0);
+  }
 }
 
 }  // namespace

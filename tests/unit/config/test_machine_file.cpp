@@ -1,6 +1,8 @@
 // The machine file: what the default says, and every kind of bad input.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "config/machine_file.hpp"
 #include "config/strict_table.hpp"
 #include "edited_file.hpp"
@@ -42,6 +44,23 @@ TEST(MachineFileTest, TheOneWithLidarsWatchesItsTail) {
   EXPECT_DOUBLE_EQ(m.lidar[1].position[1], -1.40);
   EXPECT_DOUBLE_EQ(m.lidar[0].pitch, 80.0 * kPi / 180.0);
   EXPECT_DOUBLE_EQ(m.lidar[1].yaw, -145.0 * kPi / 180.0);
+}
+
+// verifies: IF-CF-5, IF-CF-18
+TEST(MachineFileTest, TheOneWithLidarsAllRoundWatchesItsWorkspace) {
+  EXPECT_FALSE(load_machine_file(machine_path()).workspace.watched);
+  const MachineFile m = load_machine_file(BERM_CONFIG_FILES "/machines/zx200_ring.toml");
+  EXPECT_TRUE(m.workspace.watched);
+  EXPECT_FALSE(m.tail.watched);
+  EXPECT_DOUBLE_EQ(m.workspace.radius, 15.0);
+  EXPECT_DOUBLE_EQ(m.workspace.lidar_wait, 0.10);
+  EXPECT_DOUBLE_EQ(m.workspace.lidar_period, 0.05);
+  ASSERT_EQ(m.lidar.size(), 2u);
+  for (const LidarFile& lidar : m.lidar) {
+    EXPECT_EQ(lidar.roll, 0.0) << "level";
+    EXPECT_EQ(lidar.pitch, 0.0);
+    EXPECT_LT(std::hypot(lidar.position[0], lidar.position[1]), m.own_body_radius);
+  }
 }
 
 // verifies: IF-CF-1, IF-CF-2, IF-CF-6, IF-CF-7

@@ -46,13 +46,32 @@ TEST(PlantProfile, ShippedProfileLoads) {
   EXPECT_EQ(refusal(shipped()), "accepted");
 }
 
-// So that what is true of the one is true of the other.
-TEST(PlantProfile, TheMachineWithLidarsIsTheSameButForThem) {
+// So that what is true of the one is true of the others.
+TEST(PlantProfile, TheMachinesWithLidarsAreTheSameButForThem) {
   const auto body = [](const std::string& text) { return text.substr(text.find("[kinematics]"), text.find("\n[[lidar]]") - text.find("[kinematics]")); };
-  const std::string rear = text_of(replaced(BERM_PLANT_PROFILE, "zx200_plant", "zx200_rear_plant"));
-  EXPECT_EQ(body(rear), body(shipped()));
-  EXPECT_EQ(refusal(rear), "accepted");
-  EXPECT_NE(rear.find("\n[[lidar]]"), std::string::npos);
+  for (const char* name : {"zx200_rear_plant", "zx200_ring_plant"}) {
+    const std::string with = text_of(replaced(BERM_PLANT_PROFILE, "zx200_plant", name));
+    EXPECT_EQ(body(with), body(shipped())) << name;
+    EXPECT_EQ(refusal(with), "accepted") << name;
+    EXPECT_NE(with.find("\n[[lidar]]"), std::string::npos) << name;
+  }
+}
+
+// What the kernel is told of them is what is true.
+TEST(PlantProfile, TheLidarsStandWhereTheKernelsMachineFileSays) {
+  for (const char* name : {"zx200_rear", "zx200_ring"}) {
+    const PlantProfile p = load_plant_profile(replaced(BERM_PLANT_PROFILE, "zx200_plant", std::string(name) + "_plant"));
+    const toml::value file = toml::parse(replaced(BERM_MACHINE_FILE, "zx200.toml", std::string(name) + ".toml"));
+    const auto& told = file.at("lidar").as_array();
+    ASSERT_EQ(p.shape.lidar.size(), told.size()) << name;
+    for (std::size_t i = 0; i < told.size(); ++i) {
+      const LidarMount& mount = p.shape.lidar[i];
+      for (std::size_t a = 0; a < 3; ++a) EXPECT_EQ(mount.position[a], as_number(told[i].at("position").at(a))) << name;
+      EXPECT_EQ(mount.roll, radians(as_number(told[i].at("roll_deg")))) << name;
+      EXPECT_EQ(mount.pitch, radians(as_number(told[i].at("pitch_deg")))) << name;
+      EXPECT_EQ(mount.yaw, radians(as_number(told[i].at("yaw_deg")))) << name;
+    }
+  }
 }
 
 TEST(PlantProfile, EveryKindOfMistakeIsNamed) {
@@ -67,7 +86,15 @@ TEST(PlantProfile, EveryKindOfMistakeIsNamed) {
   EXPECT_EQ(refusal(replaced(good, "range_deg = [-180.0, 180.0]", "range_deg = [180.0, -180.0]")), "joint.swing.range_deg: low must be below high");
   EXPECT_EQ(refusal(replaced(good, "[-0.20, -0.25], [0.40, -0.25]", "[0.40, -0.25], [-0.20, -0.25]")),
             "part[0].outline: must be strictly convex and counter-clockwise (x towards z)");
-  EXPECT_EQ(refusal(good + "\n[[lidar]]\nposition = [0.0, 0.0, 3.0]\nroll_deg = 0.0\npitch_deg = 200.0\nyaw_deg = 0.0\n"), "lidar[0].pitch_deg: 200 is outside -180 .. 180");
+  const std::string lidar =
+      "\n[[lidar]]\nposition = [0.0, 0.0, 3.0]\nroll_deg = 0.0\npitch_deg = 0.0\nyaw_deg = 0.0\n"
+      "sector_deg = 180.0\nreturns = \"dual\"\noutliers = true\n";
+  EXPECT_EQ(refusal(good + lidar), "accepted");
+  EXPECT_EQ(refusal(good + replaced(lidar, "pitch_deg = 0.0", "pitch_deg = 200.0")), "lidar[0].pitch_deg: 200 is outside -180 .. 180");
+  EXPECT_EQ(refusal(good + replaced(lidar, "sector_deg = 180.0", "sector_deg = 181.0")), "lidar[0].sector_deg: 181 is outside 1 .. 180");
+  EXPECT_EQ(refusal(good + replaced(lidar, "sector_deg = 180.0\n", "")), "lidar[0].sector_deg: is missing");
+  EXPECT_EQ(refusal(good + replaced(lidar, "\"dual\"", "\"last\"")), "lidar[0].returns: 'last' is not one of strongest, dual");
+  EXPECT_EQ(refusal(good + replaced(lidar, "outliers = true", "outliers = 1")), "lidar[0].outliers: must be true or false");
   EXPECT_EQ(refusal("schema = = 1"), "line 1: not valid TOML");
 }
 

@@ -1,0 +1,67 @@
+#include "io/monitor_watch.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/monitor_forget.h"
+#include "core/monitor_settle.h"
+
+namespace berm::kernel {
+
+MonitorWatch::MonitorWatch(const berm_parameters& parameters, std::int32_t wait_us, std::int32_t period_us) {
+  rules_.height_threshold_mm = parameters.workspace_rise_mm;
+  rules_.neighbour_threshold_mm = parameters.workspace_neighbour_mm;
+  rules_.slope_threshold_mm = parameters.workspace_slope_mm;
+  rules_.wait_us = wait_us;
+  rules_.period_us = period_us;
+  rules_.dwell_us = parameters.workspace_dwell_us;
+  rules_.continuous = parameters.workspace_follows != 0;
+  sk_watch_region(&rules_, &parameters, true);
+  begin();
+}
+
+void MonitorWatch::begin() {
+  sk_monitor_begin(&monitor_);
+  where_ = {-1, -1};
+  newest_us_ = -1;
+}
+
+void MonitorWatch::insert(const sk_point& point, std::int64_t now_us) {
+  newest_us_ = now_us;
+  sk_monitor_insert(&monitor_, sk_map_index(point.y_mm), sk_map_index(point.x_mm), point.z_mm, false, now_us);
+}
+
+void MonitorWatch::interpolate(const sk_point& from, const sk_point& to, Over over, std::int64_t now_us) {
+  const std::int64_t dx = std::int64_t{to.x_mm} - from.x_mm, dy = std::int64_t{to.y_mm} - from.y_mm, dz = std::int64_t{to.z_mm} - from.z_mm;
+  const std::int64_t steps = std::min<std::int64_t>(std::max(std::abs(dx), std::abs(dy)) / (SK_CELL_MM / 2), kStepsMost);
+  for (std::int64_t k = 1; k < steps; ++k) {
+    const auto along = [k, steps](std::int32_t start, std::int64_t change) { return static_cast<std::int32_t>(start + change * k / steps); };
+    const std::int32_t iy = sk_map_index(along(from.y_mm, dy)), ix = sk_map_index(along(from.x_mm, dx));
+    if (over == Over::kUnmeasured && sk_is_in_map(iy, ix) && monitor_.accumulated_flag[iy][ix] == SK_FLAG_SET) continue;
+    sk_monitor_insert(&monitor_, iy, ix, along(from.z_mm, dz), true, now_us);
+  }
+}
+
+void MonitorWatch::change_lanes(const berm_parameters& parameters, bool open) {
+  for (int i = 0; i < parameters.lanes; ++i) {
+    const berm_lane& lane = parameters.lane[i];
+    sk_forget_rectangle(&monitor_, lane.x_low_mm, lane.y_low_mm, lane.x_high_mm, lane.y_high_mm);
+  }
+  sk_watch_region(&rules_, &parameters, open);
+}
+
+void MonitorWatch::settle(const berm_lane& rectangle) {
+  sk_settle_rectangle(&monitor_, rules_.continuous, rectangle.x_low_mm, rectangle.y_low_mm, rectangle.x_high_mm, rectangle.y_high_mm);
+}
+
+bool MonitorWatch::step(std::int64_t now_us) { return sk_monitor_step(&monitor_, &rules_, now_us, &where_); }
+
+bool MonitorWatch::place(std::int32_t& x_mm, std::int32_t& y_mm, std::int32_t& height_mm) const {
+  if (where_.iy < 0) return false;
+  x_mm = SK_MAP_ORIGIN_MM + SK_CELL_MM * where_.ix + SK_CELL_MM / 2;
+  y_mm = SK_MAP_ORIGIN_MM + SK_CELL_MM * where_.iy + SK_CELL_MM / 2;
+  height_mm = monitor_.obstacle_height_mm[where_.iy][where_.ix];
+  return true;
+}
+
+}  // namespace berm::kernel

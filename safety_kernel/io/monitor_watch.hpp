@@ -1,0 +1,45 @@
+// One Workspace Monitor with what it is told: of all panning scanners, or of one lidar, so that what is compared was seen by the same sensors.
+#pragma once
+
+#include <cstdint>
+
+#include "config/parameter_block.h"
+#include "core/scanline_raster.h"
+#include "core/workspace_monitor.h"
+
+namespace berm::kernel {
+
+class MonitorWatch {
+ public:
+  // Thresholds are the parameter block's; wait and period this monitor's own.
+  MonitorWatch(const berm_parameters& parameters, std::int32_t wait_us, std::int32_t period_us);
+
+  void begin();
+  // A return, base frame.
+  void insert(const sk_point& point, std::int64_t now_us);
+  enum class Over { kEverything, kUnmeasured };  // kUnmeasured: not where the accumulated map has a measured height
+  // The line from one return to the next, in steps of half a cell: what a corner of it cuts off stays EMPTY. It counts in EMPTY cells only.
+  void interpolate(const sk_point& from, const sk_point& to, Over over, std::int64_t now_us);
+  // The trucks' lanes are another ground from now on, and watched or not.
+  void change_lanes(const berm_parameters& parameters, bool open);
+  // What has CHANGED in the rectangle by now belongs to the ground: it explains what is seen beside it.
+  void settle(const berm_lane& rectangle);
+  // Once a cycle: whether the machine must stand for what this monitor holds.
+  bool step(std::int64_t now_us);
+
+  // Of the newest step: a cell with somebody in it, its centre and what is seen there; false when there is none (any more).
+  bool place(std::int32_t& x_mm, std::int32_t& y_mm, std::int32_t& height_mm) const;
+  std::int64_t newest_us() const { return newest_us_; }  // when a return was last inserted; -1: never since begin()
+  const sk_monitor& monitor() const { return monitor_; }
+  const sk_monitor_rules& rules() const { return rules_; }
+
+ private:
+  static constexpr std::int64_t kStepsMost = 250;  // across the whole map
+
+  sk_monitor_rules rules_{};
+  sk_monitor monitor_;
+  sk_monitor_cell where_{-1, -1};
+  std::int64_t newest_us_ = -1;
+};
+
+}  // namespace berm::kernel
