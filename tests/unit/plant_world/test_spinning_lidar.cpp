@@ -129,7 +129,7 @@ TEST(SpinningLidar, TheSectorIsTheProfiles) {
   note(steps(narrow, 30), seen_narrow);
   note(steps(all_round, 30), seen_round);
   EXPECT_EQ(seen_round.size(), 360u);
-  EXPECT_EQ(seen_narrow.size(), 61u) << "0 to 30 and 329.9 to 359 degrees";
+  EXPECT_EQ(seen_narrow.size(), 60u) << "0 to 29 and 330 to 359 degrees";
   EXPECT_EQ(seen_narrow.count(100), 0u);
 }
 
@@ -168,7 +168,9 @@ TEST(SpinningLidar, OutliersAreBetweenItAndWhatItWouldHaveHitInEitherMode) {
       wrong += range < 4.62 ? 1 : 0;
     }
     EXPECT_NEAR(static_cast<double>(wrong) / static_cast<double>(last.size()), 0.1, 0.02) << dual;
-    if (dual) EXPECT_EQ(lowest(packets, 1, 2), last) << "nothing is behind it";
+    if (dual) {
+      EXPECT_EQ(lowest(packets, 1, 2), last) << "nothing is behind it";
+    }
     for (const double range : lowest(steps(without, 30), 0, dual ? 2 : 1)) ASSERT_NEAR(range, 4.636, 0.006) << "only where the profile asks for them";
   }
 }
@@ -188,7 +190,9 @@ TEST(SpinningLidar, WhatIsDrawnDoesNotDependOnWhatIsHit) {
     for (std::size_t block = 0; block < 12; ++block) {
       const double azimuth = u16(&a[i].bytes[100 * block + 2]) / 100.0, off = std::min(azimuth, 360 - azimuth);
       const bool equal = std::equal(&a[i].bytes[100 * block], &a[i].bytes[100 * block] + 100, &b[i].bytes[100 * block]);
-      if (off > 30) ASSERT_TRUE(equal) << azimuth;
+      if (off > 40) {  // the box is seen up to 37 degrees off: 20 to either side of the base frame's x, the upper body swung by 17
+        ASSERT_TRUE(equal) << azimuth;
+      }
       (equal ? same : different) += 1;
     }
   EXPECT_GT(same, 1000);
