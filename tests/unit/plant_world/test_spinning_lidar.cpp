@@ -129,10 +129,8 @@ TEST(SpinningLidar, TheSectorIsTheProfiles) {
   note(steps(narrow, 30), seen_narrow);
   note(steps(all_round, 30), seen_round);
   EXPECT_EQ(seen_round.size(), 360u);
-  for (int bearing = 0; bearing < 360; ++bearing) {
-    if (bearing == 30 || bearing == 329) continue;  // the block that the sector's edge is in
-    EXPECT_EQ(seen_narrow.count(bearing), bearing < 30 || bearing > 329 ? 1u : 0u) << bearing;
-  }
+  EXPECT_EQ(seen_narrow.size(), 60u) << "0 to 29 and 330 to 359 degrees";
+  EXPECT_EQ(seen_narrow.count(100), 0u);
 }
 
 TEST(SpinningLidar, DualReturnHoldsTheLastInEvenBlocksAndDustBeforeItInOddOnes) {
@@ -192,7 +190,9 @@ TEST(SpinningLidar, WhatIsDrawnDoesNotDependOnWhatIsHit) {
     for (std::size_t block = 0; block < 12; ++block) {
       const double azimuth = u16(&a[i].bytes[100 * block + 2]) / 100.0, off = std::min(azimuth, 360 - azimuth);
       const bool equal = std::equal(&a[i].bytes[100 * block], &a[i].bytes[100 * block] + 100, &b[i].bytes[100 * block]);
-      ASSERT_TRUE(equal || off <= 45) << azimuth << ": beside the box";
+      if (off > 40) {  // the box is seen up to 37 degrees off: 20 to either side of the base frame's x, the upper body swung by 17
+        ASSERT_TRUE(equal) << azimuth;
+      }
       (equal ? same : different) += 1;
     }
   EXPECT_GT(same, 1000);
