@@ -134,11 +134,7 @@ static bool sk_is_threshold(int32_t v_mm)
   return v_mm >= 1 && v_mm <= SK_HEIGHT_MAX_MM;
 }
 
-/*@ requires \valid_read(r);
-  @ assigns \nothing;
-  @ ensures \result == true <==> sk_monitor_rules_fit(r);
-  @*/
-static bool sk_are_monitor_rules_ok(const sk_monitor_rules *r)
+bool sk_do_monitor_rules_fit(const sk_monitor_rules *r)
 {
   if (!sk_is_threshold(r->height_threshold_mm) || !sk_is_threshold(r->neighbour_threshold_mm) || !sk_is_threshold(r->slope_threshold_mm)) { return false; }
   if (r->wait_us < 0 || r->wait_us > SK_MONITOR_WAIT_MOST_US || r->period_us < 1 || r->period_us > SK_MONITOR_PERIOD_MOST_US) { return false; }
@@ -155,11 +151,7 @@ static bool sk_is_update_due(const sk_monitor *m, const sk_monitor_rules *r, int
   return now_us - m->updated_us >= r->period_us;
 }
 
-/*@ requires now_us >= 0;
-  @ assigns \nothing;
-  @ ensures \result == true <==> sk_dwelling(obstacle_us, dwell_us, now_us);
-  @*/
-static bool sk_is_dwelling(int64_t obstacle_us, int32_t dwell_us, int64_t now_us)
+bool sk_is_monitor_dwelling(int64_t obstacle_us, int32_t dwell_us, int64_t now_us)
 {
   if (obstacle_us < 0) { return false; }
   return obstacle_us > now_us || now_us - obstacle_us < dwell_us;
@@ -182,7 +174,7 @@ static void sk_update_when_due(sk_monitor *m, const sk_monitor_rules *r, int64_t
 bool sk_monitor_step(sk_monitor *m, const sk_monitor_rules *r, int64_t now_us, sk_monitor_cell *where)
 {
   int32_t dwell_us = r->dwell_us;
-  if (now_us < 0 || !sk_are_monitor_rules_ok(r)) {
+  if (now_us < 0 || !sk_do_monitor_rules_fit(r)) {
     where->iy = -1;
     where->ix = -1;
     return true;
@@ -192,5 +184,5 @@ bool sk_monitor_step(sk_monitor *m, const sk_monitor_rules *r, int64_t now_us, s
     m->obstacle_us = now_us;
     return true;
   }
-  return sk_is_dwelling(m->obstacle_us, dwell_us, now_us);
+  return sk_is_monitor_dwelling(m->obstacle_us, dwell_us, now_us);
 }

@@ -107,5 +107,18 @@ void sk_monitor_update(sk_monitor *m, const sk_monitor_rules *r, int64_t now_us)
   @*/
 bool sk_monitor_step(sk_monitor *m, const sk_monitor_rules *r, int64_t now_us, sk_monitor_cell *where);
 
+/*@ requires \valid_read(r);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_monitor_rules_fit(r);
+  @*/
+bool sk_do_monitor_rules_fit(const sk_monitor_rules *r);
+
+/* Whether the region has not been clear for dwell_us since obstacle_us. */
+/*@ requires now_us >= 0;
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_dwelling(obstacle_us, dwell_us, now_us);
+  @*/
+bool sk_is_monitor_dwelling(int64_t obstacle_us, int32_t dwell_us, int64_t now_us);
+
 SK_END
 #endif

@@ -8,7 +8,8 @@
 
 namespace berm::kernel {
 
-MonitorWatch::MonitorWatch(const berm_parameters& parameters, std::int32_t wait_us, std::int32_t period_us) {
+MonitorWatch::MonitorWatch(const berm_parameters& parameters, std::int32_t wait_us, std::int32_t period_us, Compare compare)
+    : histogram_(compare == Compare::kHistograms ? 1 : 0) {
   rules_.height_threshold_mm = parameters.workspace_rise_mm;
   rules_.neighbour_threshold_mm = parameters.workspace_neighbour_mm;
   rules_.slope_threshold_mm = parameters.workspace_slope_mm;
@@ -22,13 +23,16 @@ MonitorWatch::MonitorWatch(const berm_parameters& parameters, std::int32_t wait_
 
 void MonitorWatch::begin() {
   sk_monitor_begin(&monitor_);
+  for (sk_monitor_histogram& h : histogram_) sk_histogram_begin(&h);
   where_ = {-1, -1};
   newest_us_ = -1;
 }
 
 void MonitorWatch::insert(const sk_point& point, std::int64_t now_us) {
   newest_us_ = now_us;
-  sk_monitor_insert(&monitor_, sk_map_index(point.y_mm), sk_map_index(point.x_mm), point.z_mm, false, now_us);
+  const std::int32_t iy = sk_map_index(point.y_mm), ix = sk_map_index(point.x_mm);
+  if (histogram_.empty()) sk_monitor_insert(&monitor_, iy, ix, point.z_mm, false, now_us);
+  else sk_histogram_insert(histogram_.data(), &rules_, iy, ix, point.z_mm, now_us);
 }
 
 void MonitorWatch::interpolate(const sk_point& from, const sk_point& to, Over over, std::int64_t now_us) {
@@ -37,6 +41,10 @@ void MonitorWatch::interpolate(const sk_point& from, const sk_point& to, Over ov
   for (std::int64_t k = 1; k < steps; ++k) {
     const auto along = [k, steps](std::int32_t start, std::int64_t change) { return static_cast<std::int32_t>(start + change * k / steps); };
     const std::int32_t iy = sk_map_index(along(from.y_mm, dy)), ix = sk_map_index(along(from.x_mm, dx));
+    if (!histogram_.empty()) {
+      sk_histogram_line(histogram_.data(), iy, ix, along(from.z_mm, dz));
+      continue;
+    }
     if (over == Over::kUnmeasured && sk_is_in_map(iy, ix) && monitor_.accumulated_flag[iy][ix] == SK_FLAG_SET) continue;
     sk_monitor_insert(&monitor_, iy, ix, along(from.z_mm, dz), true, now_us);
   }
@@ -46,21 +54,26 @@ void MonitorWatch::change_lanes(const berm_parameters& parameters, bool open) {
   for (int i = 0; i < parameters.lanes; ++i) {
     const berm_lane& lane = parameters.lane[i];
     sk_forget_rectangle(&monitor_, lane.x_low_mm, lane.y_low_mm, lane.x_high_mm, lane.y_high_mm);
+    for (sk_monitor_histogram& h : histogram_) sk_histogram_forget(&h, lane.x_low_mm, lane.y_low_mm, lane.x_high_mm, lane.y_high_mm);
   }
   sk_watch_region(&rules_, &parameters, open);
 }
 
-void MonitorWatch::settle(const berm_lane& rectangle) {
-  sk_settle_rectangle(&monitor_, rules_.continuous, rectangle.x_low_mm, rectangle.y_low_mm, rectangle.x_high_mm, rectangle.y_high_mm);
+void MonitorWatch::settle(const berm_lane& at) {
+  sk_settle_rectangle(&monitor_, rules_.continuous, at.x_low_mm, at.y_low_mm, at.x_high_mm, at.y_high_mm);
+  for (sk_monitor_histogram& h : histogram_) sk_histogram_settle(&h, at.x_low_mm, at.y_low_mm, at.x_high_mm, at.y_high_mm);
 }
 
-bool MonitorWatch::step(std::int64_t now_us) { return sk_monitor_step(&monitor_, &rules_, now_us, &where_); }
+bool MonitorWatch::step(std::int64_t now_us) {
+  if (histogram_.empty()) return sk_monitor_step(&monitor_, &rules_, now_us, &where_);
+  return sk_histogram_step(histogram_.data(), &rules_, now_us, &where_);
+}
 
 bool MonitorWatch::place(std::int32_t& x_mm, std::int32_t& y_mm, std::int32_t& height_mm) const {
   if (where_.iy < 0) return false;
   x_mm = SK_MAP_ORIGIN_MM + SK_CELL_MM * where_.ix + SK_CELL_MM / 2;
   y_mm = SK_MAP_ORIGIN_MM + SK_CELL_MM * where_.iy + SK_CELL_MM / 2;
-  height_mm = monitor_.obstacle_height_mm[where_.iy][where_.ix];
+  height_mm = histogram_.empty() ? monitor_.obstacle_height_mm[where_.iy][where_.ix] : histogram_[0].departed_mm[where_.iy][where_.ix];
   return true;
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "config/parameter_block.h"
+#include "core/monitor_histogram.h"
 #include "core/scanline_raster.h"
 #include "core/workspace_monitor.h"
 
@@ -11,8 +13,10 @@ namespace berm::kernel {
 
 class MonitorWatch {
  public:
+  enum class Compare { kHeights, kHistograms };  // with the accumulated map's heights (leger-1998, section 3.2), or with a histogram per cell (4.2)
+
   // Thresholds are the parameter block's; wait and period this monitor's own.
-  MonitorWatch(const berm_parameters& parameters, std::int32_t wait_us, std::int32_t period_us);
+  MonitorWatch(const berm_parameters& parameters, std::int32_t wait_us, std::int32_t period_us, Compare compare = Compare::kHeights);
 
   void begin();
   // A return, base frame.
@@ -22,15 +26,16 @@ class MonitorWatch {
   void interpolate(const sk_point& from, const sk_point& to, Over over, std::int64_t now_us);
   // The trucks' lanes are another ground from now on, and watched or not.
   void change_lanes(const berm_parameters& parameters, bool open);
-  // What has CHANGED in the rectangle by now belongs to the ground: it explains what is seen beside it.
-  void settle(const berm_lane& rectangle);
+  // The rectangle is learned: what has CHANGED in it by now belongs to the ground and explains what is seen beside it.
+  void settle(const berm_lane& at);
   // Once a cycle: whether the machine must stand for what this monitor holds.
   bool step(std::int64_t now_us);
 
   // Of the newest step: a cell with somebody in it, its centre and what is seen there; false when there is none (any more).
   bool place(std::int32_t& x_mm, std::int32_t& y_mm, std::int32_t& height_mm) const;
   std::int64_t newest_us() const { return newest_us_; }  // when a return was last inserted; -1: never since begin()
-  const sk_monitor& monitor() const { return monitor_; }
+  const sk_monitor& monitor() const { return monitor_; }  // empty when histograms are compared with
+  const sk_monitor_histogram* histogram() const { return histogram_.empty() ? nullptr : histogram_.data(); }
   const sk_monitor_rules& rules() const { return rules_; }
 
  private:
@@ -38,6 +43,7 @@ class MonitorWatch {
 
   sk_monitor_rules rules_{};
   sk_monitor monitor_;
+  std::vector<sk_monitor_histogram> histogram_;  // one, where it is compared with; from the start, so that no cycle allocates
   sk_monitor_cell where_{-1, -1};
   std::int64_t newest_us_ = -1;
 };

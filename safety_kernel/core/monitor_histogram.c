@@ -1,0 +1,397 @@
+#include "monitor_histogram.h"
+
+/*@ assigns \nothing;
+  @ ensures sk_is_bin(\result, z_mm);
+  @*/
+static int32_t sk_bin_of(int32_t z_mm)
+{
+  if (z_mm < SK_HISTOGRAM_FLOOR_MM) { return 0; }
+  if (z_mm >= SK_HISTOGRAM_FLOOR_MM + SK_HISTOGRAM_BIN_MM * SK_HISTOGRAM_BINS) { return SK_HISTOGRAM_BINS - 1; }
+  return (z_mm - SK_HISTOGRAM_FLOOR_MM) / SK_HISTOGRAM_BIN_MM;
+}
+
+/*@ assigns \nothing;
+  @ ensures sk_lowest_bin(\result, z_mm, rise_mm);
+  @*/
+static int32_t sk_lowest_bin_of(int32_t z_mm, int32_t rise_mm)
+{
+  int64_t over_floor_mm = (int64_t)z_mm - rise_mm - SK_HISTOGRAM_FLOOR_MM;
+  int32_t own = sk_bin_of(z_mm);
+  int64_t lowest = 0;
+  if (over_floor_mm > 0) { lowest = (over_floor_mm + SK_HISTOGRAM_BIN_MM - 1) / SK_HISTOGRAM_BIN_MM; }
+  return lowest < own ? (int32_t)lowest : own;
+}
+
+/* How many points, up to two, were seen in bins from `low` on. */
+/*@ requires \valid_read(h) && sk_in_map(iy, ix) && sk_in_bins(low);
+  @ assigns \nothing;
+  @ ensures range: 0 <= \result <= 2;
+  @ ensures two: \result == 2 <==> sk_seen_twice_in(h, iy, ix, low, SK_HISTOGRAM_BINS);
+  @ ensures none: \result == 0 <==> !sk_seen_in(h, iy, ix, low, SK_HISTOGRAM_BINS);
+  @*/
+static int32_t sk_seen_from(const sk_monitor_histogram *h, int32_t iy, int32_t ix, int32_t low)
+{
+  int32_t seen = 0;
+  int32_t b;
+  /*@ loop invariant low <= b <= SK_HISTOGRAM_BINS && 0 <= seen <= 1;
+    @ loop invariant not_twice: !sk_seen_twice_in(h, iy, ix, low, b);
+    @ loop invariant one: seen == 1 <==> sk_seen_in(h, iy, ix, low, b);
+    @ loop assigns b, seen;
+    @ loop variant SK_HISTOGRAM_BINS - b;
+    @*/
+  for (b = low; b < SK_HISTOGRAM_BINS; b++) {
+    if (h->seen[iy][ix][b] == 0U) { continue; }
+    if (h->seen[iy][ix][b] > 1U || seen > 0) { return 2; }
+    seen = 1;
+  }
+  return seen;
+}
+
+/*@ requires \valid_read(h) && \valid_read(r) && sk_in_map(iy, ix);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_departs(h, r, iy, ix, z_mm);
+  @*/
+static bool sk_is_departing(const sk_monitor_histogram *h, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm)
+{
+  int32_t low = sk_lowest_bin_of(z_mm, r->height_threshold_mm);
+  /*@ assert only: \forall integer k; sk_lowest_bin(k, z_mm, r->height_threshold_mm) ==> k == low; */
+  if (h->state[iy][ix] == SK_CELL_LEARNING) { return false; }
+  if (h->observed[iy][ix] >= SK_HISTOGRAM_ENOUGH) { return sk_seen_from(h, iy, ix, low) < 2; }
+  if (h->lines[iy][ix] < SK_LINES_ENOUGH || (int64_t)z_mm - h->line_mm[iy][ix] <= r->height_threshold_mm) { return false; }
+  return sk_seen_from(h, iy, ix, low) < 1;
+}
+
+/*@ requires \valid_read(h) && now_us >= 0;
+  @ assigns \nothing;
+  @ ensures \result == sk_recent_at(h, window_us, now_us, iy, ix);
+  @*/
+static int32_t sk_recent(const sk_monitor_histogram *h, int64_t window_us, int64_t now_us, int32_t iy, int32_t ix)
+{
+  if (!sk_is_in_map(iy, ix)) { return 0; }
+  if (h->departed_us[iy][ix] < 0) { return 0; }
+  return now_us - h->departed_us[iy][ix] <= window_us ? 1 : 0;
+}
+
+/*@ requires \valid_read(h) && now_us >= 0 && 0 <= ix < SK_MAP_CELLS;
+  @ assigns \nothing;
+  @ ensures \result == sk_recent_in_row(h, window_us, now_us, iy, ix) && 0 <= \result <= 3;
+  @*/
+static int32_t sk_recent_row(const sk_monitor_histogram *h, int64_t window_us, int64_t now_us, int32_t iy, int32_t ix)
+{
+  return sk_recent(h, window_us, now_us, iy, ix - 1) + sk_recent(h, window_us, now_us, iy, ix) + sk_recent(h, window_us, now_us, iy, ix + 1);
+}
+
+/*@ requires \valid_read(h) && now_us >= 0 && sk_in_map(iy, ix);
+  @ assigns \nothing;
+  @ ensures \result == sk_recent_beside(h, window_us, now_us, iy, ix) && 0 <= \result <= 8;
+  @*/
+static int32_t sk_recent_neighbours(const sk_monitor_histogram *h, int64_t window_us, int64_t now_us, int32_t iy, int32_t ix)
+{
+  return sk_recent_row(h, window_us, now_us, iy - 1, ix) + sk_recent_row(h, window_us, now_us, iy + 1, ix) +
+         sk_recent(h, window_us, now_us, iy, ix - 1) + sk_recent(h, window_us, now_us, iy, ix + 1);
+}
+
+/*@ requires \valid(h) && sk_in_map(iy, ix);
+  @ assigns h->seen[iy][ix][0 .. SK_HISTOGRAM_BINS - 1];
+  @ ensures \forall integer b; sk_in_bins(b) ==> h->seen[iy][ix][b] == \old(h->seen[iy][ix][b]) / 2;
+  @*/
+static void sk_halve_bins(sk_monitor_histogram *h, int32_t iy, int32_t ix)
+{
+  int32_t b;
+  /*@ loop invariant 0 <= b <= SK_HISTOGRAM_BINS;
+    @ loop invariant done: \forall integer c; 0 <= c < b ==> h->seen[iy][ix][c] == \at(h->seen[iy][ix][c], Pre) / 2;
+    @ loop invariant rest: \forall integer c; b <= c < SK_HISTOGRAM_BINS ==> h->seen[iy][ix][c] == \at(h->seen[iy][ix][c], Pre);
+    @ loop assigns b, h->seen[iy][ix][0 .. SK_HISTOGRAM_BINS - 1];
+    @ loop variant SK_HISTOGRAM_BINS - b;
+    @*/
+  for (b = 0; b < SK_HISTOGRAM_BINS; b++) { h->seen[iy][ix][b] = (uint8_t)(h->seen[iy][ix][b] / 2U); }
+}
+
+/*@ requires \valid(h) && sk_in_map(iy, ix) && sk_in_bins(b);
+  @ assigns h->seen[iy][ix][0 .. SK_HISTOGRAM_BINS - 1];
+  @ ensures sk_counted{Pre, Post}(h, iy, ix, b);
+  @*/
+static void sk_count_point(sk_monitor_histogram *h, int32_t iy, int32_t ix, int32_t b)
+{
+  if (h->seen[iy][ix][b] == SK_HISTOGRAM_FULL) { sk_halve_bins(h, iy, ix); }
+  h->seen[iy][ix][b] = (uint8_t)(h->seen[iy][ix][b] + 1U);
+}
+
+/*@ requires \valid(h) && \valid_read(r) && \separated(h, r) && sk_in_map(iy, ix) && now_us >= 0;
+  @ assigns h->state[iy][ix], h->ground_us[iy][ix];
+  @ ensures leaves: sk_somebody_at{Pre}(h, iy, ix) && sk_ground_is_back{Pre}(h, r, now_us, iy, ix) ==> !sk_somebody_at(h, iy, ix);
+  @ ensures stays: sk_somebody_at{Pre}(h, iy, ix) && !sk_ground_is_back{Pre}(h, r, now_us, iy, ix) ==> sk_somebody_at(h, iy, ix);
+  @ ensures nobody: !sk_somebody_at{Pre}(h, iy, ix) ==> h->state[iy][ix] == \old(h->state[iy][ix]);
+  @*/
+static void sk_see_ground_again(sk_monitor_histogram *h, const sk_monitor_rules *r, int32_t iy, int32_t ix, int64_t now_us)
+{
+  int64_t window_us = 2 * (int64_t)r->period_us;
+  if (h->state[iy][ix] == SK_CELL_LEARNING || h->state[iy][ix] == SK_CELL_CLEAR) { return; }
+  if (sk_recent(h, window_us, now_us, iy, ix) > 0 || sk_recent_neighbours(h, window_us, now_us, iy, ix) > 0) { return; }
+  if (h->ground_us[iy][ix] > (uint64_t)now_us) {
+    h->ground_us[iy][ix] = (uint64_t)now_us;
+    return;
+  }
+  if (now_us - (int64_t)h->ground_us[iy][ix] >= r->wait_us) { h->state[iy][ix] = SK_CELL_CLEAR; }
+}
+
+/*@ requires \valid(h) && \valid_read(r) && \separated(h, r) && sk_in_map(iy, ix) && now_us >= 0;
+  @ assigns h->seen[iy][ix][0 .. SK_HISTOGRAM_BINS - 1], h->observed[iy][ix], h->state[iy][ix], h->ground_us[iy][ix];
+  @ ensures counted: \exists integer b; sk_is_bin(b, z_mm) && sk_counted{Pre, Post}(h, iy, ix, b);
+  @ ensures observed: h->observed[iy][ix] ==
+  @   (\old(h->observed[iy][ix]) < SK_HISTOGRAM_ENOUGH ? \old(h->observed[iy][ix]) + 1 : \old(h->observed[iy][ix]));
+  @ ensures stays: sk_somebody_at{Pre}(h, iy, ix) && !sk_ground_is_back{Pre}(h, r, now_us, iy, ix) ==> sk_somebody_at(h, iy, ix);
+  @ ensures nobody: !sk_somebody_at{Pre}(h, iy, ix) ==> h->state[iy][ix] == \old(h->state[iy][ix]);
+  @*/
+static void sk_take_ground(sk_monitor_histogram *h, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us)
+{
+  sk_see_ground_again(h, r, iy, ix, now_us);
+  sk_count_point(h, iy, ix, sk_bin_of(z_mm));
+  if (h->observed[iy][ix] < SK_HISTOGRAM_ENOUGH) { h->observed[iy][ix] = h->observed[iy][ix] + 1U; }
+}
+
+/*@ requires \valid(h) && \valid_read(r) && \separated(h, r) && sk_in_map(iy, ix) && now_us >= 0;
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_joined_by_others(h, r, now_us, iy, ix);
+  @*/
+static bool sk_is_joined(const sk_monitor_histogram *h, const sk_monitor_rules *r, int32_t iy, int32_t ix, int64_t now_us)
+{
+  int64_t window_us = 2 * (int64_t)r->period_us;
+  if (sk_recent(h, window_us, now_us, iy, ix) > 0) { return true; }
+  return sk_recent_neighbours(h, window_us, now_us, iy, ix) >= SK_HISTOGRAM_BESIDE;
+}
+
+/*@ assigns \nothing;
+  @ ensures \result == sk_clamped(z_mm);
+  @*/
+static int16_t sk_clamp_height(int32_t z_mm)
+{
+  if (z_mm > SK_HEIGHT_MAX_MM) { return SK_HEIGHT_MAX_MM; }
+  if (z_mm < -SK_HEIGHT_MAX_MM) { return -SK_HEIGHT_MAX_MM; }
+  return (int16_t)z_mm;
+}
+
+/*@ requires \valid(h) && \valid_read(r) && \separated(h, r) && sk_in_map(iy, ix) && now_us >= 0;
+  @ assigns h->state[iy][ix], h->departed_mm[iy][ix], h->departed_us[iy][ix], h->ground_us[iy][ix];
+  @ ensures appears: sk_joined_by_others{Pre}(h, r, now_us, iy, ix) ==> sk_somebody_at(h, iy, ix);
+  @ ensures alone: !sk_joined_by_others{Pre}(h, r, now_us, iy, ix) ==> h->state[iy][ix] == \old(h->state[iy][ix]);
+  @ ensures time: h->departed_us[iy][ix] == now_us && h->ground_us[iy][ix] == SK_NO_GROUND;
+  @*/
+static void sk_take_departing(sk_monitor_histogram *h, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us)
+{
+  if (sk_is_joined(h, r, iy, ix, now_us)) { h->state[iy][ix] = SK_CELL_SOMEBODY; }
+  h->departed_mm[iy][ix] = sk_clamp_height(z_mm);
+  h->departed_us[iy][ix] = now_us;
+  h->ground_us[iy][ix] = SK_NO_GROUND;
+}
+
+bool sk_histogram_insert(sk_monitor_histogram *h, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us)
+{
+  if (now_us < 0 || !sk_is_in_map(iy, ix)) { return false; }
+  if (!sk_is_departing(h, r, iy, ix, z_mm)) {
+    sk_take_ground(h, r, iy, ix, z_mm, now_us);
+    return false;
+  }
+  sk_take_departing(h, r, iy, ix, z_mm, now_us);
+  return true;
+}
+
+/*@ assigns \nothing;
+  @ ensures \result == true <==> sk_lines_agree(line_mm, z_mm);
+  @*/
+static bool sk_do_lines_agree(int32_t line_mm, int32_t z_mm)
+{
+  int64_t over_mm = (int64_t)z_mm - line_mm;
+  return over_mm >= -SK_LINE_NEAR_MM && over_mm <= SK_LINE_NEAR_MM;
+}
+
+void sk_histogram_line(sk_monitor_histogram *h, int32_t iy, int32_t ix, int32_t z_mm)
+{
+  if (!sk_is_in_map(iy, ix)) { return; }
+  if (h->lines[iy][ix] > 0 && !sk_do_lines_agree(h->line_mm[iy][ix], z_mm)) {
+    h->lines[iy][ix] = (int8_t)(h->lines[iy][ix] - 1);
+    return;
+  }
+  h->line_mm[iy][ix] = z_mm;
+  if (h->lines[iy][ix] <= 0) { h->lines[iy][ix] = 1; }
+  else if (h->lines[iy][ix] < SK_LINES_MOST) { h->lines[iy][ix] = (int8_t)(h->lines[iy][ix] + 1); }
+}
+
+/*@ requires \valid(h) && sk_in_map(iy, ix);
+  @ assigns h->seen[iy][ix][0 .. SK_HISTOGRAM_BINS - 1];
+  @ ensures sk_bins_blank(h, iy, ix);
+  @*/
+static void sk_blank_bins(sk_monitor_histogram *h, int32_t iy, int32_t ix)
+{
+  int32_t b;
+  /*@ loop invariant 0 <= b <= SK_HISTOGRAM_BINS;
+    @ loop invariant \forall integer c; 0 <= c < b ==> h->seen[iy][ix][c] == 0;
+    @ loop assigns b, h->seen[iy][ix][0 .. SK_HISTOGRAM_BINS - 1];
+    @ loop variant SK_HISTOGRAM_BINS - b;
+    @*/
+  for (b = 0; b < SK_HISTOGRAM_BINS; b++) { h->seen[iy][ix][b] = 0U; }
+}
+
+/*@ requires \valid(h) && sk_in_map(iy, ix);
+  @ assigns h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->line_mm[..][..], h->lines[..][..], h->departed_mm[..][..],
+  @   h->departed_us[..][..], h->ground_us[..][..];
+  @ ensures blank: sk_histogram_blank(h, iy, ix);
+  @ ensures others: \forall integer j, i; sk_in_map(j, i) && !(j == iy && i == ix) ==> sk_cell_kept{Pre, Post}(h, j, i);
+  @*/
+static void sk_blank_histogram(sk_monitor_histogram *h, int32_t iy, int32_t ix)
+{
+  sk_blank_bins(h, iy, ix);
+  h->state[iy][ix] = SK_CELL_LEARNING;
+  h->observed[iy][ix] = 0U;
+  h->line_mm[iy][ix] = 0;
+  h->lines[iy][ix] = 0;
+  h->departed_mm[iy][ix] = 0;
+  h->departed_us[iy][ix] = -1;
+  h->ground_us[iy][ix] = SK_NO_GROUND;
+}
+
+/*@ requires \valid(h) && 0 <= iy < SK_MAP_CELLS;
+  @ assigns h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->line_mm[..][..], h->lines[..][..], h->departed_mm[..][..],
+  @   h->departed_us[..][..], h->ground_us[..][..];
+  @ ensures forgotten: \forall integer ix; 0 <= ix < SK_MAP_CELLS && sk_touches(iy, ix, x_low_mm, y_low_mm, x_high_mm, y_high_mm) ==>
+  @   sk_histogram_blank(h, iy, ix);
+  @ ensures others: \forall integer j, i; sk_in_map(j, i) && !(j == iy && sk_touches(j, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) ==>
+  @   sk_cell_kept{Pre, Post}(h, j, i);
+  @*/
+static void sk_forget_histograms(sk_monitor_histogram *h, int32_t iy, int32_t x_low_mm, int32_t y_low_mm, int32_t x_high_mm, int32_t y_high_mm)
+{
+  int32_t ix;
+  /*@ loop invariant 0 <= ix <= SK_MAP_CELLS;
+    @ loop invariant forgotten: \forall integer i; 0 <= i < ix && sk_touches(iy, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm) ==>
+    @   sk_histogram_blank(h, iy, i);
+    @ loop invariant others: \forall integer j, i; sk_in_map(j, i) &&
+    @   !(j == iy && i < ix && sk_touches(j, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) ==> sk_cell_kept{Pre, Here}(h, j, i);
+    @ loop assigns ix, h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->line_mm[..][..], h->lines[..][..], h->departed_mm[..][..],
+    @   h->departed_us[..][..], h->ground_us[..][..];
+    @ loop variant SK_MAP_CELLS - ix;
+    @*/
+  for (ix = 0; ix < SK_MAP_CELLS; ix++) {
+    if (sk_is_touched(iy, ix, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) { sk_blank_histogram(h, iy, ix); }
+  }
+}
+
+void sk_histogram_forget(sk_monitor_histogram *h, int32_t x_low_mm, int32_t y_low_mm, int32_t x_high_mm, int32_t y_high_mm)
+{
+  int32_t iy;
+  /*@ loop invariant 0 <= iy <= SK_MAP_CELLS;
+    @ loop invariant forgotten: \forall integer j, i; 0 <= j < iy && 0 <= i < SK_MAP_CELLS &&
+    @   sk_touches(j, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm) ==> sk_histogram_blank(h, j, i);
+    @ loop invariant others: \forall integer j, i; sk_in_map(j, i) && !(j < iy && sk_touches(j, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) ==>
+    @   sk_cell_kept{Pre, Here}(h, j, i);
+    @ loop assigns iy, h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->line_mm[..][..], h->lines[..][..], h->departed_mm[..][..],
+    @   h->departed_us[..][..], h->ground_us[..][..];
+    @ loop variant SK_MAP_CELLS - iy;
+    @*/
+  for (iy = 0; iy < SK_MAP_CELLS; iy++) { sk_forget_histograms(h, iy, x_low_mm, y_low_mm, x_high_mm, y_high_mm); }
+}
+
+void sk_histogram_begin(sk_monitor_histogram *h)
+{
+  sk_histogram_forget(h, SK_MAP_ORIGIN_MM, SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM);
+  h->somebody_us = -1;
+}
+
+/*@ requires \valid(h) && 0 <= iy < SK_MAP_CELLS;
+  @ assigns h->state[iy][0 .. SK_MAP_CELLS - 1];
+  @ ensures settled: \forall integer i; 0 <= i < SK_MAP_CELLS && sk_touches(iy, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm) &&
+  @   \old(h->state[iy][i]) == SK_CELL_LEARNING ==> h->state[iy][i] == SK_CELL_CLEAR;
+  @ ensures others: \forall integer i; 0 <= i < SK_MAP_CELLS && !(sk_touches(iy, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm) &&
+  @   \old(h->state[iy][i]) == SK_CELL_LEARNING) ==> h->state[iy][i] == \old(h->state[iy][i]);
+  @*/
+static void sk_settle_histograms(sk_monitor_histogram *h, int32_t iy, int32_t x_low_mm, int32_t y_low_mm, int32_t x_high_mm, int32_t y_high_mm)
+{
+  int32_t ix;
+  /*@ loop invariant 0 <= ix <= SK_MAP_CELLS;
+    @ loop invariant settled: \forall integer i; 0 <= i < ix && sk_touches(iy, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm) &&
+    @   \at(h->state[iy][i], Pre) == SK_CELL_LEARNING ==> h->state[iy][i] == SK_CELL_CLEAR;
+    @ loop invariant others: \forall integer i; 0 <= i < SK_MAP_CELLS && !(i < ix && sk_touches(iy, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm) &&
+    @   \at(h->state[iy][i], Pre) == SK_CELL_LEARNING) ==> h->state[iy][i] == \at(h->state[iy][i], Pre);
+    @ loop assigns ix, h->state[iy][0 .. SK_MAP_CELLS - 1];
+    @ loop variant SK_MAP_CELLS - ix;
+    @*/
+  for (ix = 0; ix < SK_MAP_CELLS; ix++) {
+    if (h->state[iy][ix] == SK_CELL_LEARNING && sk_is_touched(iy, ix, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) { h->state[iy][ix] = SK_CELL_CLEAR; }
+  }
+}
+
+void sk_histogram_settle(sk_monitor_histogram *h, int32_t x_low_mm, int32_t y_low_mm, int32_t x_high_mm, int32_t y_high_mm)
+{
+  int32_t iy;
+  /*@ loop invariant 0 <= iy <= SK_MAP_CELLS;
+    @ loop invariant settled: \forall integer j, i; 0 <= j < iy && 0 <= i < SK_MAP_CELLS && \at(h->state[j][i], Pre) == SK_CELL_LEARNING &&
+    @   sk_touches(j, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm) ==> h->state[j][i] == SK_CELL_CLEAR;
+    @ loop invariant others: \forall integer j, i; sk_in_map(j, i) && !(j < iy && sk_touches(j, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm) &&
+    @   \at(h->state[j][i], Pre) == SK_CELL_LEARNING) ==> h->state[j][i] == \at(h->state[j][i], Pre);
+    @ loop assigns iy, h->state[..][..];
+    @ loop variant SK_MAP_CELLS - iy;
+    @*/
+  for (iy = 0; iy < SK_MAP_CELLS; iy++) { sk_settle_histograms(h, iy, x_low_mm, y_low_mm, x_high_mm, y_high_mm); }
+}
+
+/* The first cell of the row with somebody in it that is watched, or -1. */
+/*@ requires \valid_read(h) && \valid_read(r) && 0 <= iy < SK_MAP_CELLS;
+  @ assigns \nothing;
+  @ ensures range: -1 <= \result < SK_MAP_CELLS;
+  @ ensures found: \result >= 0 ==> sk_somebody_watched(h, r, iy, \result);
+  @ ensures none: \result < 0 ==> \forall integer ix; 0 <= ix < SK_MAP_CELLS ==> !sk_somebody_watched(h, r, iy, ix);
+  @*/
+static int32_t sk_somebody_in_row(const sk_monitor_histogram *h, const sk_monitor_rules *r, int32_t iy)
+{
+  int32_t ix;
+  /*@ loop invariant 0 <= ix <= SK_MAP_CELLS;
+    @ loop invariant \forall integer i; 0 <= i < ix ==> !sk_somebody_watched(h, r, iy, i);
+    @ loop assigns ix;
+    @ loop variant SK_MAP_CELLS - ix;
+    @*/
+  for (ix = 0; ix < SK_MAP_CELLS; ix++) {
+    if (h->state[iy][ix] != SK_CELL_LEARNING && h->state[iy][ix] != SK_CELL_CLEAR && r->watched[iy][ix] != 0U) { return ix; }
+  }
+  return -1;
+}
+
+/*@ requires \valid_read(h) && \valid_read(r) && \valid(where) && \separated(where, h) && \separated(where, r);
+  @ assigns *where;
+  @ ensures found: \result == true <==> sk_somebody_in_region{Pre}(h, r);
+  @ ensures where: \result == true ==> sk_in_map(where->iy, where->ix) && sk_somebody_watched{Pre}(h, r, where->iy, where->ix);
+  @ ensures nowhere: \result == false ==> where->iy == -1 && where->ix == -1;
+  @*/
+static bool sk_find_somebody(const sk_monitor_histogram *h, const sk_monitor_rules *r, sk_monitor_cell *where)
+{
+  int32_t iy;
+  /*@ loop invariant 0 <= iy <= SK_MAP_CELLS;
+    @ loop invariant \forall integer j, i; 0 <= j < iy && 0 <= i < SK_MAP_CELLS ==> !sk_somebody_watched(h, r, j, i);
+    @ loop assigns iy;
+    @ loop variant SK_MAP_CELLS - iy;
+    @*/
+  for (iy = 0; iy < SK_MAP_CELLS; iy++) {
+    int32_t ix = sk_somebody_in_row(h, r, iy);
+    if (ix >= 0) {
+      where->iy = iy;
+      where->ix = ix;
+      return true;
+    }
+  }
+  where->iy = -1;
+  where->ix = -1;
+  return false;
+}
+
+bool sk_histogram_step(sk_monitor_histogram *h, const sk_monitor_rules *r, int64_t now_us, sk_monitor_cell *where)
+{
+  int32_t dwell_us = r->dwell_us;
+  if (now_us < 0 || !sk_do_monitor_rules_fit(r)) {
+    where->iy = -1;
+    where->ix = -1;
+    return true;
+  }
+  if (sk_find_somebody(h, r, where)) {
+    h->somebody_us = now_us;
+    return true;
+  }
+  return sk_is_monitor_dwelling(h->somebody_us, dwell_us, now_us);
+}

@@ -1,0 +1,100 @@
+#include "reference_histogram.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace berm::core_test {
+
+namespace {
+constexpr int kBins = 64, kEnough = 8;
+constexpr double kBin = 150.0, kFloor = -5100.0;
+
+int bin_of(std::int64_t z) { return static_cast<int>(std::clamp(std::floor((static_cast<double>(z) - kFloor) / kBin), 0.0, kBins - 1.0)); }
+}  // namespace
+
+ReferenceHistogram::Cell& ReferenceHistogram::make(Place at) { return cells_[at]; }
+
+ReferenceHistogram::Cell ReferenceHistogram::cell(Place at) const {
+  const auto found = cells_.find(at);
+  return found == cells_.end() ? Cell{} : found->second;
+}
+
+bool ReferenceHistogram::touched(Place at, double x_low, double y_low, double x_high, double y_high) {
+  const double x = -15600.0 + 300.0 * at.second, y = -15600.0 + 300.0 * at.first;
+  return std::max(x, x_low) <= std::min(x + 300.0, x_high) && std::max(y, y_low) <= std::min(y + 300.0, y_high);
+}
+
+// Every height ever seen of the cell, one entry a point, that is less than a rise below z; what lies in z's own bin or higher always is.
+bool ReferenceHistogram::departs(const ReferenceRules& r, const Cell& c, std::int64_t z) const {
+  if (c.state == State::kLearning) return false;
+  std::vector<int> as_high;
+  for (const auto& [bin, points] : c.seen)
+    if (kFloor + kBin * bin >= static_cast<double>(z - r.rise) || bin >= bin_of(z))
+      as_high.insert(as_high.end(), static_cast<std::size_t>(points), bin);
+  if (c.observed >= kEnough) return as_high.size() <= 1;
+  return as_high.empty() && c.votes >= 3 && z > c.line + r.rise;
+}
+
+int ReferenceHistogram::recent_around(const ReferenceRules& r, Place at, std::int64_t now, bool with_itself) const {
+  return static_cast<int>(std::count_if(cells_.begin(), cells_.end(), [&](const auto& entry) {
+    const auto& [place, c] = entry;
+    if (std::max(std::abs(place.first - at.first), std::abs(place.second - at.second)) > 1 || (place == at && !with_itself)) return false;
+    return c.departed >= 0 && now <= c.departed + r.period + r.period;
+  }));
+}
+
+bool ReferenceHistogram::insert(const ReferenceRules& r, Place at, std::int64_t z, std::int64_t now) {
+  if (!inside(at) || now < 0) return false;
+  Cell& c = make(at);
+  const int around = recent_around(r, at, now, true), beside = recent_around(r, at, now, false);
+  if (departs(r, c, z)) {
+    if (around > beside || beside >= 2) c.state = State::kSomebody;
+    c.departed = now;
+    c.ground = -1;
+    return true;
+  }
+  if (c.state == State::kSomebody && around == 0) {
+    if (c.ground < 0 || c.ground > now) c.ground = now;
+    else if (now >= c.ground + r.wait) c.state = State::kClear;
+  }
+  int& points = c.seen[bin_of(z)];
+  if (points == 255)
+    for (auto& entry : c.seen) entry.second /= 2;
+  ++points;
+  for (auto i = c.seen.begin(); i != c.seen.end();) i = i->second == 0 ? c.seen.erase(i) : std::next(i);
+  c.observed = std::min(c.observed + 1, kEnough);
+  return false;
+}
+
+void ReferenceHistogram::line(Place at, std::int64_t z) {
+  if (!inside(at)) return;
+  Cell& c = make(at);
+  if (c.votes > 0 && std::abs(z - c.line) > 150) {
+    --c.votes;
+    return;
+  }
+  c.line = z;
+  c.votes = std::min(c.votes + 1, 8);
+}
+
+void ReferenceHistogram::forget(double x_low, double y_low, double x_high, double y_high) {
+  for (auto i = cells_.begin(); i != cells_.end();) i = touched(i->first, x_low, y_low, x_high, y_high) ? cells_.erase(i) : std::next(i);
+}
+
+void ReferenceHistogram::settle(double x_low, double y_low, double x_high, double y_high) {
+  for (int iy = 0; iy < 104; ++iy)
+    for (int ix = 0; ix < 104; ++ix)
+      if (touched({iy, ix}, x_low, y_low, x_high, y_high) && make({iy, ix}).state == State::kLearning) make({iy, ix}).state = State::kClear;
+}
+
+bool ReferenceHistogram::step(const ReferenceRules& r, bool (*watched)(Place), std::int64_t now, Place& where) {
+  where = {-1, -1};
+  if (now < 0) return true;
+  for (const auto& [place, c] : cells_)
+    if (where.first < 0 && c.state == State::kSomebody && watched(place)) where = place;
+  if (where.first >= 0) somebody_ = now;
+  return somebody_ >= 0 && (where.first >= 0 || now < somebody_ + r.dwell);
+}
+
+}  // namespace berm::core_test

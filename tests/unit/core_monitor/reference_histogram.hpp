@@ -1,0 +1,48 @@
+// The histograms of heights once more, cell by cell in ordered maps and lists, as their requirements say it. Shares nothing with the core but its
+// constants of format.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <utility>
+
+namespace berm::core_test {
+
+struct ReferenceRules {
+  std::int64_t rise, wait, period, dwell;
+};
+
+class ReferenceHistogram {
+ public:
+  enum class State { kLearning, kClear, kSomebody };
+  struct Cell {
+    State state = State::kLearning;
+    std::map<int, int> seen;                    // bin to points, none of 0
+    int observed = 0;
+    std::int64_t line = 0;
+    int votes = 0;                              // for that line
+    std::int64_t departed = -1, ground = -1;    // times; -1 none
+  };
+  using Place = std::pair<int, int>;  // row, column
+
+  void begin() { cells_.clear(), somebody_ = -1; }
+  bool insert(const ReferenceRules& r, Place at, std::int64_t z, std::int64_t now);
+  void line(Place at, std::int64_t z);
+  void forget(double x_low, double y_low, double x_high, double y_high);
+  void settle(double x_low, double y_low, double x_high, double y_high);
+  // watched: whether a column is. *where: the first cell with somebody, or {-1, -1}.
+  bool step(const ReferenceRules& r, bool (*watched)(Place), std::int64_t now, Place& where);
+  Cell cell(Place at) const;
+
+ private:
+  static bool inside(Place at) { return at.first >= 0 && at.first < 104 && at.second >= 0 && at.second < 104; }
+  static bool touched(Place at, double x_low, double y_low, double x_high, double y_high);
+  int recent_around(const ReferenceRules& r, Place at, std::int64_t now, bool with_itself) const;
+  bool departs(const ReferenceRules& r, const Cell& c, std::int64_t z) const;
+  Cell& make(Place at);
+
+  std::map<Place, Cell> cells_;  // those that were ever touched by a call
+  std::int64_t somebody_ = -1;
+};
+
+}  // namespace berm::core_test

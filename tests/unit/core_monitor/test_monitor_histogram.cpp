@@ -1,0 +1,346 @@
+// The histograms of heights: scenes, and random sequences beside a reference of other code.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <random>
+
+#include "core/monitor_histogram.h"
+#include "monitor_scene.hpp"
+#include "reference_histogram.hpp"
+
+namespace berm::core_test {
+namespace {
+
+constexpr std::uint64_t kSeed = 4711;
+constexpr std::int32_t kLow = SK_MAP_ORIGIN_MM, kHigh = -SK_MAP_ORIGIN_MM;
+
+class MonitorHistogram : public testing::Test {
+ protected:
+  MonitorHistogram() { sk_histogram_begin(h.get()); }
+  bool see(int iy, int ix, std::int32_t z_mm, int points = 1) {
+    bool departs = false;
+    for (int i = 0; i < points; ++i) departs = sk_histogram_insert(h.get(), rules.get(), iy, ix, z_mm, now_us);
+    return departs;
+  }
+  void ground(std::int32_t z_mm = 0) {
+    for (int iy = 40; iy < 60; ++iy)
+      for (int ix = 40; ix < 60; ++ix) see(iy, ix, z_mm, SK_HISTOGRAM_ENOUGH);
+    settle();
+  }
+  void settle() { sk_histogram_settle(h.get(), kLow, kLow, kHigh, kHigh); }
+  bool step() { return sk_histogram_step(h.get(), rules.get(), now_us, &where); }
+  bool somebody(int iy, int ix) const { return h->state[iy][ix] == SK_CELL_SOMEBODY; }
+
+  std::unique_ptr<sk_monitor_histogram> h = std::make_unique<sk_monitor_histogram>();
+  std::unique_ptr<sk_monitor_rules> rules = monitor_rules(true);
+  std::int64_t now_us = 1'000'000;
+  sk_monitor_cell where{};
+};
+
+// verifies: SK-WM-60
+TEST_F(MonitorHistogram, APointIsInTheBinOfItsHeight) {
+  settle();
+  const std::int32_t least = std::numeric_limits<std::int32_t>::min(), greatest = std::numeric_limits<std::int32_t>::max();
+  for (const std::int32_t z : {least, -5101, -5100, -4951, -4950, 0, 149, 150, 4349, 4350, 4500, greatest}) {
+    sk_histogram_begin(h.get());
+    see(50, 50, z);
+    const int expected = z < -4950 ? 0 : (z >= 4350 ? 63 : (z + 5100) / 150);
+    for (int b = 0; b < SK_HISTOGRAM_BINS; ++b) ASSERT_EQ(h->seen[50][50][b], b == expected ? 1 : 0) << z << " bin " << b;
+  }
+}
+
+// verifies: SK-WM-60
+TEST_F(MonitorHistogram, AFullBinHalvesAllOfItsCell) {
+  see(50, 50, 0, 255);
+  see(50, 50, 1500, 7);
+  see(50, 50, 3000, 1);
+  EXPECT_EQ(h->seen[50][50][34], 255);
+  see(50, 50, 0);
+  EXPECT_EQ(h->seen[50][50][34], 128);
+  EXPECT_EQ(h->seen[50][50][44], 3);
+  EXPECT_EQ(h->seen[50][50][54], 0) << "a stray one goes";
+}
+
+// verifies: SK-WM-61, SK-WM-62
+TEST_F(MonitorHistogram, TwoPointsInACellStopInTheSameStep) {
+  ground();
+  EXPECT_FALSE(step());
+  EXPECT_TRUE(see(50, 50, 1500));
+  EXPECT_FALSE(step()) << "a lone one";
+  EXPECT_TRUE(see(50, 50, 1500));
+  EXPECT_TRUE(step());
+  EXPECT_EQ(where.iy, 50);
+  EXPECT_EQ(where.ix, 50);
+  EXPECT_EQ(h->departed_mm[50][50], 1500);
+}
+
+// verifies: SK-WM-62
+TEST_F(MonitorHistogram, ThreeInACellAndBesideItDoTwoDoNot) {
+  ground();
+  see(49, 49, 1500);
+  see(50, 50, 1500);
+  EXPECT_FALSE(step());
+  see(49, 51, 1500);
+  EXPECT_FALSE(step()) << "two cells apart from the first";
+  see(50, 49, 1500);
+  EXPECT_TRUE(step());
+  EXPECT_TRUE(somebody(50, 49));
+}
+
+// verifies: SK-WM-62
+TEST_F(MonitorHistogram, OnlyWithinTheWindow) {
+  ground();
+  see(50, 50, 1500);
+  now_us += 2 * kPeriod + 1;
+  see(50, 50, 1500);
+  EXPECT_FALSE(step());
+  now_us += 2 * kPeriod;
+  see(50, 50, 1500);
+  EXPECT_TRUE(step());
+}
+
+// verifies: SK-WM-61
+TEST_F(MonitorHistogram, NothingDepartsWhereTooLittleWasSeen) {
+  settle();
+  see(50, 50, 0, SK_HISTOGRAM_ENOUGH - 1);
+  EXPECT_FALSE(see(50, 50, 2000)) << "it is counted";
+  EXPECT_TRUE(see(50, 50, 3000)) << "one stray below, the others at 0";
+}
+
+// verifies: SK-WM-61
+TEST_F(MonitorHistogram, WhereTooLittleWasSeenALineIsTheGround) {
+  settle();
+  const auto line = [this](std::int32_t z_mm) { sk_histogram_line(h.get(), 50, 50, z_mm); };
+  line(100);
+  line(200);
+  EXPECT_FALSE(see(50, 50, 100)) << "two lines";
+  line(100);
+  EXPECT_EQ(h->observed[50][50], 1U) << "a line is no observation";
+  EXPECT_FALSE(see(50, 50, 600)) << "not by more than the rise";
+  EXPECT_TRUE(see(50, 50, 1600));
+  EXPECT_FALSE(see(50, 50, 1000)) << "600 was seen there";
+  line(-4000);
+  EXPECT_EQ(h->line_mm[50][50], 100) << "one to a spurious return";
+  EXPECT_FALSE(see(50, 50, 1800)) << "and now too few agree";
+}
+
+// verifies: SK-WM-61
+TEST_F(MonitorHistogram, OfLinesTheHeightIsTakenThatMostAgreeOn) {
+  const auto line = [this](std::int32_t z_mm) { sk_histogram_line(h.get(), 50, 50, z_mm); };
+  line(-5000);
+  line(100);
+  EXPECT_EQ(h->lines[50][50], 0);
+  for (int i = 0; i < 20; ++i) line(100 + 10 * i);
+  EXPECT_EQ(h->line_mm[50][50], 290);
+  EXPECT_EQ(h->lines[50][50], SK_LINES_MOST);
+  for (int i = 0; i < SK_LINES_MOST; ++i) line(3000);
+  EXPECT_EQ(h->line_mm[50][50], 290);
+  line(3000);
+  EXPECT_EQ(h->line_mm[50][50], 3000);
+  EXPECT_EQ(h->line_mm[50][51], 0);
+}
+
+// verifies: SK-WM-61
+TEST_F(MonitorHistogram, TwoHeightsInACellAreBothItsGroundAStrayOneIsNot) {
+  ground();
+  sk_histogram_begin(h.get());
+  see(50, 50, 1300, 20);
+  see(50, 50, 2600, 2);
+  see(51, 51, 1300, 20);
+  see(51, 51, 2600, 1);
+  settle();
+  EXPECT_FALSE(see(50, 50, 2600));
+  EXPECT_FALSE(see(50, 50, 3000));
+  EXPECT_TRUE(see(51, 51, 2600));
+}
+
+// verifies: SK-WM-61
+TEST_F(MonitorHistogram, TheRiseIsOverTheLowSideOfWhatWasSeen) {
+  ground(140);  // bin from 0 to 150
+  EXPECT_FALSE(see(50, 50, kHeightThreshold));
+  EXPECT_TRUE(see(50, 50, kHeightThreshold + 1));
+  EXPECT_FALSE(see(50, 50, -3000)) << "what has sunk is ground";
+}
+
+// verifies: SK-WM-61, SK-WM-64
+TEST_F(MonitorHistogram, WhoStandsNeverBecomesTheGround) {
+  ground();
+  for (int i = 0; i < 1000; ++i) EXPECT_TRUE(see(50, 50, 1700));
+  for (int b = 40; b < SK_HISTOGRAM_BINS; ++b) EXPECT_EQ(h->seen[50][50][b], 0);
+  now_us += 100 * kDwell;
+  EXPECT_TRUE(step()) << "time clears nobody";
+}
+
+// verifies: SK-WM-64
+TEST_F(MonitorHistogram, HeLeavesWhenTheGroundIsSeenTwiceAWaitApartAndTheDwellIsOver) {
+  ground();
+  see(50, 50, 1700, 2);
+  EXPECT_TRUE(step());
+  see(50, 50, 0, 5);
+  EXPECT_TRUE(somebody(50, 50)) << "his feet, or what is beside him";
+  now_us += 2 * kPeriod + 1;
+  see(50, 50, 0);
+  EXPECT_TRUE(somebody(50, 50)) << "once";
+  now_us += kWait - 1;
+  see(50, 50, 0);
+  EXPECT_TRUE(somebody(50, 50)) << "too soon";
+  see(50, 50, 1700);
+  now_us += 2 * kPeriod + 1;
+  see(50, 50, 0);
+  EXPECT_TRUE(somebody(50, 50)) << "he was seen between";
+  now_us += kWait;
+  EXPECT_TRUE(step());
+  see(50, 50, 0);
+  EXPECT_FALSE(somebody(50, 50));
+  EXPECT_TRUE(step()) << "the dwell";
+  now_us += kDwell - 1;
+  EXPECT_TRUE(step());
+  now_us += 1;
+  EXPECT_FALSE(step());
+}
+
+// verifies: SK-WM-64
+TEST_F(MonitorHistogram, NobodyLeavesWhileSomethingDepartsBeside) {
+  ground();
+  see(50, 50, 1700, 2);
+  now_us += 2 * kPeriod + 1;
+  see(51, 51, 1700);
+  see(50, 50, 0);
+  now_us += kWait;
+  see(50, 50, 0);
+  EXPECT_TRUE(somebody(50, 50));
+}
+
+// verifies: SK-WM-63
+TEST_F(MonitorHistogram, LearningAndForgetting) {
+  see(50, 50, 0, 10);
+  EXPECT_FALSE(see(50, 50, 1700)) << "learning";
+  sk_histogram_begin(h.get());
+  ground();
+  see(50, 50, 1700, 2);
+  EXPECT_TRUE(step());
+  const std::int32_t x = SK_MAP_ORIGIN_MM + 50 * SK_CELL_MM + 150;
+  sk_histogram_forget(h.get(), x, x, x, x);
+  EXPECT_EQ(h->state[50][50], SK_CELL_LEARNING);
+  EXPECT_EQ(h->state[50][51], SK_CELL_CLEAR);
+  EXPECT_FALSE(see(50, 50, 1700, 100));
+  sk_histogram_settle(h.get(), x, x, x, x);
+  EXPECT_FALSE(see(50, 50, 1700)) << "a truck has parked";
+  EXPECT_TRUE(see(50, 50, 2400));
+}
+
+// verifies: SK-WM-65
+TEST_F(MonitorHistogram, UnwatchedCellsStopNothingWildStatesDo) {
+  ground();
+  rules->watched[50][50] = 0;
+  see(50, 50, 1700, 2);
+  EXPECT_FALSE(step());
+  h->state[45][45] = SK_CELL_CLEAR ^ 4;
+  EXPECT_TRUE(step());
+  EXPECT_EQ(where.iy, 45);
+}
+
+// verifies: SK-WM-65
+TEST_F(MonitorHistogram, RulesThatDoNotFitAndNegativeTimesStop) {
+  ground();
+  EXPECT_FALSE(step());
+  const auto before = std::make_unique<sk_monitor_histogram>(*h);
+  now_us = -1;
+  EXPECT_TRUE(step());
+  EXPECT_FALSE(see(50, 50, 1700, 2));
+  now_us = 1'000'000;
+  rules->period_us = 0;
+  EXPECT_TRUE(step());
+  EXPECT_FALSE(see(-1, 50, 0));
+  EXPECT_FALSE(see(50, 104, 0));
+  EXPECT_EQ(std::memcmp(before.get(), h.get(), sizeof *h), 0);
+}
+
+// All that can be said of a cell, of either.
+void expect_same(const sk_monitor_histogram& h, const ReferenceHistogram& reference, int iy, int ix, int turn) {
+  const ReferenceHistogram::Cell c = reference.cell({iy, ix});
+  const int states[] = {SK_CELL_LEARNING, SK_CELL_CLEAR, SK_CELL_SOMEBODY};
+  ASSERT_EQ(h.state[iy][ix], states[static_cast<int>(c.state)]) << turn << ": " << iy << " " << ix;
+  ASSERT_EQ(h.observed[iy][ix], static_cast<std::uint32_t>(c.observed)) << turn;
+  ASSERT_EQ(h.departed_us[iy][ix], c.departed) << turn;
+  ASSERT_EQ(h.ground_us[iy][ix], c.ground < 0 ? SK_NO_GROUND : static_cast<std::uint64_t>(c.ground)) << turn;
+  ASSERT_EQ(h.lines[iy][ix], c.votes) << turn;
+  ASSERT_EQ(h.line_mm[iy][ix], c.line) << turn;
+  for (int b = 0; b < SK_HISTOGRAM_BINS; ++b) {
+    const auto found = c.seen.find(b);
+    ASSERT_EQ(h.seen[iy][ix][b], found == c.seen.end() ? 0 : found->second) << turn << ": bin " << b;
+  }
+}
+
+bool lower_half(ReferenceHistogram::Place at) { return at.first < 52; }
+
+// verifies: SK-WM-60, SK-WM-61, SK-WM-62, SK-WM-63, SK-WM-64, SK-WM-65
+TEST_F(MonitorHistogram, RandomSequencesAreAsTheReferenceHasThem) {
+  std::printf("seed %llu\n", static_cast<unsigned long long>(kSeed));
+  std::mt19937_64 random(kSeed);
+  const auto below = [&random](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  int departed = 0, stops = 0, left = 0;
+  for (int sequence = 0; sequence < 30; ++sequence) {
+    ReferenceHistogram reference;
+    sk_histogram_begin(h.get());
+    now_us = below(1'000'000);
+    rules->height_threshold_mm = 100 + below(900);
+    rules->wait_us = sequence % 5 == 0 ? 0 : below(400'000);
+    rules->period_us = 1 + below(100'000);
+    rules->dwell_us = below(500'000);
+    for (int iy = 0; iy < SK_MAP_CELLS; ++iy)
+      for (int ix = 0; ix < SK_MAP_CELLS; ++ix) rules->watched[iy][ix] = lower_half({iy, ix}) ? 1 : 0;
+    const ReferenceRules r{rules->height_threshold_mm, rules->wait_us, rules->period_us, rules->dwell_us};
+    const int corner = sequence % 3 == 0 ? -1 : 50;  // at the map's border too
+    for (int turn = 0; turn < 6000; ++turn) {
+      const int iy = corner + below(4), ix = corner + below(4), what = below(1000);
+      now_us += below(20) == 0 ? below(200'000) : below(2000);
+      if (below(500) == 0) now_us -= below(300'000);
+      if (now_us < 0) now_us = 0;
+      const bool was = sk_is_in_map(iy, ix) && somebody(iy, ix);
+      if (what < 2) {
+        const std::int32_t x = SK_MAP_ORIGIN_MM + SK_CELL_MM * ix + below(500), y = SK_MAP_ORIGIN_MM + SK_CELL_MM * iy + below(500);
+        sk_histogram_forget(h.get(), x, y, x + 200, y + 400);
+        reference.forget(x, y, x + 200, y + 400);
+      } else if (what < 6) {
+        const std::int32_t x = SK_MAP_ORIGIN_MM + SK_CELL_MM * ix, y = SK_MAP_ORIGIN_MM + SK_CELL_MM * iy;
+        sk_histogram_settle(h.get(), x - 600, y - 600, x + 600, y + 600);
+        reference.settle(x - 600, y - 600, x + 600, y + 600);
+      } else if (what < 40) {
+        const std::int32_t z = below(3) > 0 ? below(200) : below(2000) - 500;
+        sk_histogram_line(h.get(), iy, ix, z);
+        reference.line({iy, ix}, z);
+      } else {
+        std::int32_t z = below(300);
+        if (below(30) == 0) z = 500 + below(1500);
+        if (below(300) == 0) z = below(2) == 0 ? -6000 : 7000;
+        if (below(3000) == 0) z = below(2) == 0 ? std::numeric_limits<std::int32_t>::min() : std::numeric_limits<std::int32_t>::max();
+        const bool departs = sk_histogram_insert(h.get(), rules.get(), iy, ix, z, now_us);
+        ASSERT_EQ(departs, reference.insert(r, {iy, ix}, z, now_us)) << sequence << " " << turn << ": " << z << " mm";
+        departed += departs ? 1 : 0;
+        left += was && !somebody(iy, ix) ? 1 : 0;
+      }
+      if (sk_is_in_map(iy, ix)) expect_same(*h, reference, iy, ix, turn);
+      if (HasFatalFailure()) return;
+      if (turn % 7 != 0) continue;
+      ReferenceHistogram::Place expected;
+      const bool stop = reference.step(r, lower_half, now_us, expected);
+      ASSERT_EQ(step(), stop) << sequence << " " << turn;
+      ASSERT_EQ(where.iy, expected.first);
+      ASSERT_EQ(where.ix, expected.second);
+      stops += stop ? 1 : 0;
+    }
+    for (int iy = 0; iy < SK_MAP_CELLS; ++iy)
+      for (int ix = 0; ix < SK_MAP_CELLS; ++ix) expect_same(*h, reference, iy, ix, -1);
+  }
+  std::printf("%d points departed, %d steps said stop, %d times somebody left\n", departed, stops, left);
+  EXPECT_GT(departed, 1000);
+  EXPECT_GT(stops, 100);
+  EXPECT_GT(left, 10);
+}
+
+}  // namespace
+}  // namespace berm::core_test
