@@ -135,9 +135,47 @@ static void sk_see_ground_again(sk_monitor_histogram *h, const sk_monitor_rules 
   if (now_us - (int64_t)h->ground_us[iy][ix] >= r->wait_us) { h->state[iy][ix] = SK_CELL_CLEAR; }
 }
 
+/*@ requires \valid_read(h) && sk_in_map(iy, ix) && sk_in_bins(b);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_raises(h, iy, ix, b);
+  @*/
+static bool sk_is_raising(const sk_monitor_histogram *h, int32_t iy, int32_t ix, int32_t b)
+{
+  if (h->state[iy][ix] == SK_CELL_LEARNING || h->observed[iy][ix] < SK_HISTOGRAM_ENOUGH) { return false; }
+  return sk_seen_from(h, iy, ix, b) < 2;
+}
+
+/*@ requires \valid_read(h) && \valid_read(r) && sk_in_map(iy, ix) && now_us >= 0;
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_may_raise(h, r, now_us, iy, ix);
+  @*/
+static bool sk_is_raise_due(const sk_monitor_histogram *h, const sk_monitor_rules *r, int32_t iy, int32_t ix, int64_t now_us)
+{
+  if (h->state[iy][ix] != SK_CELL_CLEAR) { return false; }
+  if (h->ground_us[iy][ix] > (uint64_t)now_us) { return true; }
+  return now_us - (int64_t)h->ground_us[iy][ix] > 2 * (int64_t)r->period_us;
+}
+
+/* A point in bin b that does not depart. */
+/*@ requires \valid(h) && \valid_read(r) && \separated(h, r) && sk_in_map(iy, ix) && sk_in_bins(b) && now_us >= 0;
+  @ assigns h->seen[iy][ix][0 .. SK_HISTOGRAM_BINS - 1], h->ground_us[iy][ix];
+  @ ensures counted: sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_counted{Pre, Post}(h, iy, ix, b);
+  @ ensures kept: !sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_bins_kept{Pre, Post}(h, iy, ix);
+  @ ensures time: h->ground_us[iy][ix] == \old(h->ground_us[iy][ix]) || (h->ground_us[iy][ix] == now_us && h->state[iy][ix] == SK_CELL_CLEAR);
+  @*/
+static void sk_count_ground(sk_monitor_histogram *h, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t b, int64_t now_us)
+{
+  if (sk_is_raising(h, iy, ix, b)) {
+    if (!sk_is_raise_due(h, r, iy, ix, now_us)) { return; }
+    h->ground_us[iy][ix] = (uint64_t)now_us;
+  }
+  sk_count_point(h, iy, ix, b);
+}
+
 /*@ requires \valid(h) && \valid_read(r) && \separated(h, r) && sk_in_map(iy, ix) && now_us >= 0;
   @ assigns h->seen[iy][ix][0 .. SK_HISTOGRAM_BINS - 1], h->observed[iy][ix], h->state[iy][ix], h->ground_us[iy][ix];
-  @ ensures counted: \exists integer b; sk_is_bin(b, z_mm) && sk_counted{Pre, Post}(h, iy, ix, b);
+  @ ensures counted: \exists integer b; sk_is_bin(b, z_mm) && (sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_counted{Pre, Post}(h, iy, ix, b)) &&
+  @   (!sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_bins_kept{Pre, Post}(h, iy, ix));
   @ ensures observed: h->observed[iy][ix] ==
   @   (\old(h->observed[iy][ix]) < SK_HISTOGRAM_ENOUGH ? \old(h->observed[iy][ix]) + 1 : \old(h->observed[iy][ix]));
   @ ensures stays: sk_somebody_at{Pre}(h, iy, ix) && !sk_ground_is_back{Pre}(h, r, now_us, iy, ix) ==> sk_somebody_at(h, iy, ix);
@@ -145,8 +183,8 @@ static void sk_see_ground_again(sk_monitor_histogram *h, const sk_monitor_rules 
   @*/
 static void sk_take_ground(sk_monitor_histogram *h, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us)
 {
+  sk_count_ground(h, r, iy, ix, sk_bin_of(z_mm), now_us);
   sk_see_ground_again(h, r, iy, ix, now_us);
-  sk_count_point(h, iy, ix, sk_bin_of(z_mm));
   if (h->observed[iy][ix] < SK_HISTOGRAM_ENOUGH) { h->observed[iy][ix] = h->observed[iy][ix] + 1U; }
 }
 
@@ -215,122 +253,6 @@ void sk_histogram_line(sk_monitor_histogram *h, int32_t iy, int32_t ix, int32_t 
   h->line_mm[iy][ix] = z_mm;
   if (h->lines[iy][ix] <= 0) { h->lines[iy][ix] = 1; }
   else if (h->lines[iy][ix] < SK_LINES_MOST) { h->lines[iy][ix] = (int8_t)(h->lines[iy][ix] + 1); }
-}
-
-/*@ requires \valid(h) && sk_in_map(iy, ix);
-  @ assigns h->seen[iy][ix][0 .. SK_HISTOGRAM_BINS - 1];
-  @ ensures sk_bins_blank(h, iy, ix);
-  @*/
-static void sk_blank_bins(sk_monitor_histogram *h, int32_t iy, int32_t ix)
-{
-  int32_t b;
-  /*@ loop invariant 0 <= b <= SK_HISTOGRAM_BINS;
-    @ loop invariant \forall integer c; 0 <= c < b ==> h->seen[iy][ix][c] == 0;
-    @ loop assigns b, h->seen[iy][ix][0 .. SK_HISTOGRAM_BINS - 1];
-    @ loop variant SK_HISTOGRAM_BINS - b;
-    @*/
-  for (b = 0; b < SK_HISTOGRAM_BINS; b++) { h->seen[iy][ix][b] = 0U; }
-}
-
-/*@ requires \valid(h) && sk_in_map(iy, ix);
-  @ assigns h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->line_mm[..][..], h->lines[..][..], h->departed_mm[..][..],
-  @   h->departed_us[..][..], h->ground_us[..][..];
-  @ ensures blank: sk_histogram_blank(h, iy, ix);
-  @ ensures others: \forall integer j, i; sk_in_map(j, i) && !(j == iy && i == ix) ==> sk_cell_kept{Pre, Post}(h, j, i);
-  @*/
-static void sk_blank_histogram(sk_monitor_histogram *h, int32_t iy, int32_t ix)
-{
-  sk_blank_bins(h, iy, ix);
-  h->state[iy][ix] = SK_CELL_LEARNING;
-  h->observed[iy][ix] = 0U;
-  h->line_mm[iy][ix] = 0;
-  h->lines[iy][ix] = 0;
-  h->departed_mm[iy][ix] = 0;
-  h->departed_us[iy][ix] = -1;
-  h->ground_us[iy][ix] = SK_NO_GROUND;
-}
-
-/*@ requires \valid(h) && 0 <= iy < SK_MAP_CELLS;
-  @ assigns h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->line_mm[..][..], h->lines[..][..], h->departed_mm[..][..],
-  @   h->departed_us[..][..], h->ground_us[..][..];
-  @ ensures forgotten: \forall integer ix; 0 <= ix < SK_MAP_CELLS && sk_touches(iy, ix, x_low_mm, y_low_mm, x_high_mm, y_high_mm) ==>
-  @   sk_histogram_blank(h, iy, ix);
-  @ ensures others: \forall integer j, i; sk_in_map(j, i) && !(j == iy && sk_touches(j, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) ==>
-  @   sk_cell_kept{Pre, Post}(h, j, i);
-  @*/
-static void sk_forget_histograms(sk_monitor_histogram *h, int32_t iy, int32_t x_low_mm, int32_t y_low_mm, int32_t x_high_mm, int32_t y_high_mm)
-{
-  int32_t ix;
-  /*@ loop invariant 0 <= ix <= SK_MAP_CELLS;
-    @ loop invariant forgotten: \forall integer i; 0 <= i < ix && sk_touches(iy, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm) ==>
-    @   sk_histogram_blank(h, iy, i);
-    @ loop invariant others: \forall integer j, i; sk_in_map(j, i) &&
-    @   !(j == iy && i < ix && sk_touches(j, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) ==> sk_cell_kept{Pre, Here}(h, j, i);
-    @ loop assigns ix, h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->line_mm[..][..], h->lines[..][..], h->departed_mm[..][..],
-    @   h->departed_us[..][..], h->ground_us[..][..];
-    @ loop variant SK_MAP_CELLS - ix;
-    @*/
-  for (ix = 0; ix < SK_MAP_CELLS; ix++) {
-    if (sk_is_touched(iy, ix, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) { sk_blank_histogram(h, iy, ix); }
-  }
-}
-
-void sk_histogram_forget(sk_monitor_histogram *h, int32_t x_low_mm, int32_t y_low_mm, int32_t x_high_mm, int32_t y_high_mm)
-{
-  int32_t iy;
-  /*@ loop invariant 0 <= iy <= SK_MAP_CELLS;
-    @ loop invariant forgotten: \forall integer j, i; 0 <= j < iy && 0 <= i < SK_MAP_CELLS &&
-    @   sk_touches(j, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm) ==> sk_histogram_blank(h, j, i);
-    @ loop invariant others: \forall integer j, i; sk_in_map(j, i) && !(j < iy && sk_touches(j, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) ==>
-    @   sk_cell_kept{Pre, Here}(h, j, i);
-    @ loop assigns iy, h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->line_mm[..][..], h->lines[..][..], h->departed_mm[..][..],
-    @   h->departed_us[..][..], h->ground_us[..][..];
-    @ loop variant SK_MAP_CELLS - iy;
-    @*/
-  for (iy = 0; iy < SK_MAP_CELLS; iy++) { sk_forget_histograms(h, iy, x_low_mm, y_low_mm, x_high_mm, y_high_mm); }
-}
-
-void sk_histogram_begin(sk_monitor_histogram *h)
-{
-  sk_histogram_forget(h, SK_MAP_ORIGIN_MM, SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM);
-  h->somebody_us = -1;
-}
-
-/*@ requires \valid(h) && 0 <= iy < SK_MAP_CELLS;
-  @ assigns h->state[iy][0 .. SK_MAP_CELLS - 1];
-  @ ensures settled: \forall integer i; 0 <= i < SK_MAP_CELLS && sk_touches(iy, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm) &&
-  @   \old(h->state[iy][i]) == SK_CELL_LEARNING ==> h->state[iy][i] == SK_CELL_CLEAR;
-  @ ensures others: \forall integer i; 0 <= i < SK_MAP_CELLS && !(sk_touches(iy, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm) &&
-  @   \old(h->state[iy][i]) == SK_CELL_LEARNING) ==> h->state[iy][i] == \old(h->state[iy][i]);
-  @*/
-static void sk_settle_histograms(sk_monitor_histogram *h, int32_t iy, int32_t x_low_mm, int32_t y_low_mm, int32_t x_high_mm, int32_t y_high_mm)
-{
-  int32_t ix;
-  /*@ loop invariant 0 <= ix <= SK_MAP_CELLS;
-    @ loop invariant settled: \forall integer i; 0 <= i < ix && sk_touches(iy, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm) &&
-    @   \at(h->state[iy][i], Pre) == SK_CELL_LEARNING ==> h->state[iy][i] == SK_CELL_CLEAR;
-    @ loop invariant others: \forall integer i; 0 <= i < SK_MAP_CELLS && !(i < ix && sk_touches(iy, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm) &&
-    @   \at(h->state[iy][i], Pre) == SK_CELL_LEARNING) ==> h->state[iy][i] == \at(h->state[iy][i], Pre);
-    @ loop assigns ix, h->state[iy][0 .. SK_MAP_CELLS - 1];
-    @ loop variant SK_MAP_CELLS - ix;
-    @*/
-  for (ix = 0; ix < SK_MAP_CELLS; ix++) {
-    if (h->state[iy][ix] == SK_CELL_LEARNING && sk_is_touched(iy, ix, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) { h->state[iy][ix] = SK_CELL_CLEAR; }
-  }
-}
-
-void sk_histogram_settle(sk_monitor_histogram *h, int32_t x_low_mm, int32_t y_low_mm, int32_t x_high_mm, int32_t y_high_mm)
-{
-  int32_t iy;
-  /*@ loop invariant 0 <= iy <= SK_MAP_CELLS;
-    @ loop invariant settled: \forall integer j, i; 0 <= j < iy && 0 <= i < SK_MAP_CELLS && \at(h->state[j][i], Pre) == SK_CELL_LEARNING &&
-    @   sk_touches(j, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm) ==> h->state[j][i] == SK_CELL_CLEAR;
-    @ loop invariant others: \forall integer j, i; sk_in_map(j, i) && !(j < iy && sk_touches(j, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm) &&
-    @   \at(h->state[j][i], Pre) == SK_CELL_LEARNING) ==> h->state[j][i] == \at(h->state[j][i], Pre);
-    @ loop assigns iy, h->state[..][..];
-    @ loop variant SK_MAP_CELLS - iy;
-    @*/
-  for (iy = 0; iy < SK_MAP_CELLS; iy++) { sk_settle_histograms(h, iy, x_low_mm, y_low_mm, x_high_mm, y_high_mm); }
 }
 
 /* The first cell of the row with somebody in it that is watched, or -1. */

@@ -30,7 +30,8 @@ typedef struct sk_monitor_histogram {
   int8_t lines[SK_MAP_CELLS][SK_MAP_CELLS];                    /* that agree, less the others: one to a spurious return crosses many cells */
   int16_t departed_mm[SK_MAP_CELLS][SK_MAP_CELLS];             /* of the newest departing point */
   int64_t departed_us[SK_MAP_CELLS][SK_MAP_CELLS];             /* when it came; -1 none */
-  uint64_t ground_us[SK_MAP_CELLS][SK_MAP_CELLS];              /* of a cell with somebody: when its ground was first seen again */
+  /* of a cell with somebody: when its ground was first seen again; of a clear one: when something higher than what is known was last counted */
+  uint64_t ground_us[SK_MAP_CELLS][SK_MAP_CELLS];
   int64_t somebody_us;                                         /* newest step with somebody in the region; -1 none */
 } sk_monitor_histogram;
 
@@ -81,6 +82,15 @@ typedef struct sk_monitor_histogram {
   @ predicate sk_ground_is_back{L}(sk_monitor_histogram *h, sk_monitor_rules *r, integer now, integer iy, integer ix) =
   @   sk_recent_at{L}(h, sk_window{L}(r), now, iy, ix) == 0 && sk_recent_beside{L}(h, sk_window{L}(r), now, iy, ix) == 0 &&
   @   \at(h->ground_us[iy][ix], L) <= now && now - \at(h->ground_us[iy][ix], L) >= \at(r->wait_us, L);
+  @
+  @ // higher than what has been seen twice, if not by so much that it departs. Within a window one such point is counted: somebody who is scanned
+  @ // from the feet upwards would else be his own ground
+  @ predicate sk_raises{L}(sk_monitor_histogram *h, integer iy, integer ix, integer b) = \at(h->state[iy][ix], L) != SK_CELL_LEARNING &&
+  @   \at(h->observed[iy][ix], L) >= SK_HISTOGRAM_ENOUGH && !sk_seen_twice_in{L}(h, iy, ix, b, SK_HISTOGRAM_BINS);
+  @ predicate sk_may_raise{L}(sk_monitor_histogram *h, sk_monitor_rules *r, integer now, integer iy, integer ix) =
+  @   \at(h->state[iy][ix], L) == SK_CELL_CLEAR && (\at(h->ground_us[iy][ix], L) > now || now - \at(h->ground_us[iy][ix], L) > sk_window{L}(r));
+  @ predicate sk_counts{L}(sk_monitor_histogram *h, sk_monitor_rules *r, integer now, integer iy, integer ix, integer b) =
+  @   sk_raises{L}(h, iy, ix, b) ==> sk_may_raise{L}(h, r, now, iy, ix);
   @
   @ predicate sk_bins_kept{A, B}(sk_monitor_histogram *h, integer iy, integer ix) =
   @   \forall integer b; sk_in_bins(b) ==> \at(h->seen[iy][ix][b], A) == \at(h->seen[iy][ix][b], B);
@@ -133,7 +143,8 @@ void sk_histogram_begin(sk_monitor_histogram *h);
   @ ensures time: \result == true ==> h->departed_us[iy][ix] == now_us && h->ground_us[iy][ix] == SK_NO_GROUND &&
   @   sk_ground_kept{Pre, Post}(h, iy, ix);
   @ ensures counted: \result == false && sk_in_map(iy, ix) && now_us >= 0 ==>
-  @   \exists integer b; sk_is_bin(b, z_mm) && sk_counted{Pre, Post}(h, iy, ix, b);
+  @   \exists integer b; sk_is_bin(b, z_mm) && (sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_counted{Pre, Post}(h, iy, ix, b)) &&
+  @     (!sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_bins_kept{Pre, Post}(h, iy, ix));
   @ ensures observed: \result == false && sk_in_map(iy, ix) && now_us >= 0 ==> h->departed_us[iy][ix] == \old(h->departed_us[iy][ix]) &&
   @   h->observed[iy][ix] == (\old(h->observed[iy][ix]) < SK_HISTOGRAM_ENOUGH ? \old(h->observed[iy][ix]) + 1 : \old(h->observed[iy][ix]));
   @ ensures others: \forall integer j, i; sk_in_map(j, i) && (now_us < 0 || !(j == iy && i == ix)) ==> sk_cell_kept{Pre, Post}(h, j, i);

@@ -54,9 +54,16 @@ bool ReferenceHistogram::insert(const ReferenceRules& r, Place at, std::int64_t 
     c.ground = -1;
     return true;
   }
+  const State was = c.state;
   if (c.state == State::kSomebody && around == 0) {
     if (c.ground < 0 || c.ground > now) c.ground = now;
     else if (now >= c.ground + r.wait) c.state = State::kClear;
+  }
+  int as_high = 0;
+  for (const auto& entry : c.seen) as_high += entry.first >= bin_of(z) ? entry.second : 0;
+  if (c.state != State::kLearning && c.observed >= kEnough && as_high < 2) {
+    if (was != State::kClear || (c.ground >= 0 && c.ground <= now && now <= c.ground + r.period + r.period)) return false;
+    c.ground = now;
   }
   int& points = c.seen[bin_of(z)];
   if (points == 255)

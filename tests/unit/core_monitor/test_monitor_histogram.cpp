@@ -165,6 +165,30 @@ TEST_F(MonitorHistogram, TheRiseIsOverTheLowSideOfWhatWasSeen) {
   EXPECT_FALSE(see(50, 50, -3000)) << "what has sunk is ground";
 }
 
+// verifies: SK-WM-62, SK-WM-63
+TEST_F(MonitorHistogram, WhoIsScannedFromTheFeetUpwardsIsNotHisOwnGround) {
+  for (const bool downwards : {false, true}) {
+    sk_histogram_begin(h.get());
+    ground();
+    for (int z = 0; z <= 1800; z += 30) see(50, 50, downwards ? 1800 - z : z);
+    EXPECT_TRUE(step());
+  }
+}
+
+// verifies: SK-WM-63
+TEST_F(MonitorHistogram, WhatIsALittleHigherIsCountedOnceInAWindow) {
+  ground();
+  EXPECT_FALSE(see(50, 50, 400, 5));
+  EXPECT_EQ(h->seen[50][50][36], 1);
+  now_us += 2 * kPeriod;
+  EXPECT_FALSE(see(50, 50, 400));
+  EXPECT_EQ(h->seen[50][50][36], 1);
+  now_us += 1;
+  EXPECT_FALSE(see(50, 50, 400, 3));
+  EXPECT_EQ(h->seen[50][50][36], 4) << "seen twice, it is known";
+  EXPECT_FALSE(see(50, 50, 800));
+}
+
 // verifies: SK-WM-61, SK-WM-64
 TEST_F(MonitorHistogram, WhoStandsNeverBecomesTheGround) {
   ground();
