@@ -119,6 +119,7 @@ void compile_workspace(const WorkspaceFile& w, const SiteFile& site, berm_parame
   p.workspace_lidar_wait_us = down(w.lidar_wait, kMicro);
   p.workspace_lidar_period_us = down(w.lidar_period, kMicro);
   p.workspace_follows = w.follows ? 1 : 0;
+  p.workspace_histogram = w.histogram ? 1 : 0;
   p.workspace_separation = w.separation;
   p.workspace_approach_mm_s = up(w.approach_speed, kMilli);
   p.workspace_intrusion_mm = up(w.intrusion_distance, kMilli);

@@ -132,6 +132,7 @@ void workspace(const berm_parameters& p, Listing& out) {
   out.row("workspace_lidar_wait_us", p.workspace_lidar_wait_us);
   out.row("workspace_lidar_period_us", p.workspace_lidar_period_us);
   out.row("workspace_follows", p.workspace_follows);
+  out.row("workspace_histogram", p.workspace_histogram);
   out.row("workspace_separation", p.workspace_separation);
   out.row("workspace_approach_mm_s", p.workspace_approach_mm_s);
   out.row("workspace_intrusion_mm", p.workspace_intrusion_mm);

@@ -147,6 +147,7 @@ WorkspaceFile read_workspace(StrictTable table, double own_body_radius) {
   w.lidar_wait = table.number("lidar_wait", 0.0, 10.0);
   w.lidar_period = table.number("lidar_period", 0.01, 1.0);
   w.follows = table.flag("follows");
+  w.histogram = table.flag("histogram");
   const std::string separation = table.choice("separation", {"none", "reported", "enforced"});
   w.separation = separation == "none" ? BERM_SEPARATION_NONE : separation == "reported" ? BERM_SEPARATION_REPORTED : BERM_SEPARATION_ENFORCED;
   w.approach_speed = table.number("approach_speed", 0.5, 5.0);

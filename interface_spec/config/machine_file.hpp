@@ -64,6 +64,7 @@ struct WorkspaceFile {
   double lidar_wait, lidar_period;            // s, of what the lidars see
   int foreign;                                // voxels of free space with something in them that are an intruder; 0: not kept
   bool follows;                               // the map that is compared with follows what is seen
+  bool histogram;                             // a histogram of heights per cell is compared with, not one height
   int separation;                             // BERM_SEPARATION_*
   double approach_speed, intrusion_distance;  // K, m/s, and C, m, of ISO 13855
 };

@@ -123,6 +123,7 @@ typedef struct berm_parameters {
   int32_t workspace_lidar_wait_us;                /* the same two of what a lidar on the upper body sees: it sees all round, ten times a second */
   int32_t workspace_lidar_period_us;
   int32_t workspace_follows;                      /* 1: the map that is compared with follows what is seen; 0: it stays as it was first seen */
+  int32_t workspace_histogram;                    /* 1: what is seen is compared with a histogram of heights per cell; 0: with one height */
   /* ISO 13855's minimum distance: see safety_kernel/requirements/separation.md */
   int32_t workspace_separation;                   /* BERM_SEPARATION_* */
   int32_t workspace_approach_mm_s;                /* K: speed at which somebody approaches */

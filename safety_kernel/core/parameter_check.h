@@ -99,6 +99,7 @@ SK_BEGIN
   @ ensures why_separation_approach: \result == SK_RULE_SEPARATION_APPROACH ==> !sk_rule_separation_approach(p);
   @ ensures why_separation_intrusion: \result == SK_RULE_SEPARATION_INTRUSION ==> !sk_rule_separation_intrusion(p);
   @ ensures why_workspace_lidar_times: \result == SK_RULE_WORKSPACE_LIDAR_TIMES ==> !sk_rule_workspace_lidar_times(p);
+  @ ensures why_workspace_histogram: \result == SK_RULE_WORKSPACE_HISTOGRAM ==> !sk_rule_workspace_histogram(p);
   @*/
 int32_t sk_parameters_check(const berm_parameters *p);
 

@@ -35,7 +35,8 @@ enum {
   SK_RULE_WORKSPACE_WATCHED = 78, SK_RULE_WORKSPACE_RADIUS = 79, SK_RULE_WORKSPACE_HEIGHTS = 80, SK_RULE_WORKSPACE_TIMES = 81,
   SK_RULE_WORKSPACE_FOREIGN = 82, SK_RULE_WORKSPACE_FOLLOWS = 83, SK_RULE_LANE_COUNT = 84, SK_RULE_LANE_BOUNDS = 85,
   SK_RULE_SEPARATION_MODE = 86, SK_RULE_SEPARATION_APPROACH = 87, SK_RULE_SEPARATION_INTRUSION = 88, SK_RULE_WORKSPACE_LIDAR_TIMES = 89,
-  SK_RULES = 90
+  SK_RULE_WORKSPACE_HISTOGRAM = 90,
+  SK_RULES = 91
 };
 
 /*@ predicate sk_within(integer v, integer low, integer high) = low <= v <= high;
@@ -234,6 +235,7 @@ enum {
   @ predicate sk_rule_workspace_lidar_times(berm_parameters *p) = sk_within(p->workspace_lidar_wait_us, 0, 10000000) &&
   @   sk_within(p->workspace_lidar_period_us, 1, 1000000);
   @ predicate sk_rule_workspace_follows(berm_parameters *p) = sk_within(p->workspace_follows, 0, 1);
+  @ predicate sk_rule_workspace_histogram(berm_parameters *p) = sk_within(p->workspace_histogram, 0, 1);
   @ predicate sk_rule_lane_count(berm_parameters *p) = sk_within(p->lanes, 0, BERM_LANES);
   @ predicate sk_rule_lane_bounds(berm_parameters *p) = \forall integer i; 0 <= i < p->lanes ==> sk_lane_ok(&p->lane[i]);
   @ predicate sk_rule_separation_mode(berm_parameters *p) = sk_within(p->workspace_separation, BERM_SEPARATION_NONE, BERM_SEPARATION_ENFORCED);
@@ -242,7 +244,8 @@ enum {
   @ predicate sk_workspace_ok(berm_parameters *p) =
   @   sk_rule_workspace_watched(p) && sk_rule_workspace_radius(p) && sk_rule_workspace_heights(p) && sk_rule_workspace_times(p) &&
   @   sk_rule_workspace_foreign(p) && sk_rule_workspace_follows(p) && sk_rule_lane_count(p) && sk_rule_lane_bounds(p) &&
-  @   sk_rule_separation_mode(p) && sk_rule_separation_approach(p) && sk_rule_separation_intrusion(p) && sk_rule_workspace_lidar_times(p);
+  @   sk_rule_separation_mode(p) && sk_rule_separation_approach(p) && sk_rule_separation_intrusion(p) && sk_rule_workspace_lidar_times(p) &&
+  @   sk_rule_workspace_histogram(p);
   @
   @ predicate sk_parameters_ok(berm_parameters *p) =
   @   sk_head_ok(p) && sk_kinematics_ok(p) && sk_joints_ok(p) && sk_braking_ok(p) && sk_parts_ok(p) && sk_sensors_ok(p) && sk_map_rules_ok(p) &&

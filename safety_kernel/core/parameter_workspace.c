@@ -85,5 +85,6 @@ int32_t sk_check_workspace(const berm_parameters *p)
   if (!sk_is_within(p->lanes, 0, BERM_LANES)) { return SK_RULE_LANE_COUNT; }
   if (!lanes_ok(p)) { return SK_RULE_LANE_BOUNDS; }
   if (!lidar_times_ok(p)) { return SK_RULE_WORKSPACE_LIDAR_TIMES; }
+  if (!sk_is_within(p->workspace_histogram, 0, 1)) { return SK_RULE_WORKSPACE_HISTOGRAM; }
   return separation_rule(p);
 }

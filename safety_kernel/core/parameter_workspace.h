@@ -6,7 +6,7 @@ SK_BEGIN
 
 /*@ requires \valid_read(p);
   @ assigns \nothing;
-  @ ensures codes: \result == SK_RULE_NONE || SK_RULE_WORKSPACE_WATCHED <= \result <= SK_RULE_WORKSPACE_LIDAR_TIMES;
+  @ ensures codes: \result == SK_RULE_NONE || SK_RULE_WORKSPACE_WATCHED <= \result <= SK_RULE_WORKSPACE_HISTOGRAM;
   @ ensures whole: \result == SK_RULE_NONE <==> sk_workspace_ok(p);
   @ ensures why_workspace_watched: \result == SK_RULE_WORKSPACE_WATCHED ==> !sk_rule_workspace_watched(p);
   @ ensures why_workspace_radius: \result == SK_RULE_WORKSPACE_RADIUS ==> !sk_rule_workspace_radius(p);
@@ -20,6 +20,7 @@ SK_BEGIN
   @ ensures why_separation_approach: \result == SK_RULE_SEPARATION_APPROACH ==> !sk_rule_separation_approach(p);
   @ ensures why_separation_intrusion: \result == SK_RULE_SEPARATION_INTRUSION ==> !sk_rule_separation_intrusion(p);
   @ ensures why_workspace_lidar_times: \result == SK_RULE_WORKSPACE_LIDAR_TIMES ==> !sk_rule_workspace_lidar_times(p);
+  @ ensures why_workspace_histogram: \result == SK_RULE_WORKSPACE_HISTOGRAM ==> !sk_rule_workspace_histogram(p);
   @*/
 int32_t sk_check_workspace(const berm_parameters *p);
 

@@ -8,8 +8,8 @@
 
 namespace berm::kernel {
 
-MonitorWatch::MonitorWatch(const berm_parameters& parameters, std::int32_t wait_us, std::int32_t period_us, Compare compare)
-    : histogram_(compare == Compare::kHistograms ? 1 : 0) {
+MonitorWatch::MonitorWatch(const berm_parameters& parameters, std::int32_t wait_us, std::int32_t period_us)
+    : histogram_(parameters.workspace_histogram != 0 ? 1 : 0) {
   rules_.height_threshold_mm = parameters.workspace_rise_mm;
   rules_.neighbour_threshold_mm = parameters.workspace_neighbour_mm;
   rules_.slope_threshold_mm = parameters.workspace_slope_mm;

@@ -13,10 +13,8 @@ namespace berm::kernel {
 
 class MonitorWatch {
  public:
-  enum class Compare { kHeights, kHistograms };  // with the accumulated map's heights (leger-1998, section 3.2), or with a histogram per cell (4.2)
-
-  // Thresholds are the parameter block's; wait and period this monitor's own.
-  MonitorWatch(const berm_parameters& parameters, std::int32_t wait_us, std::int32_t period_us, Compare compare = Compare::kHeights);
+  // What is compared with and the thresholds are the parameter block's; wait and period this monitor's own.
+  MonitorWatch(const berm_parameters& parameters, std::int32_t wait_us, std::int32_t period_us);
 
   void begin();
   // A return, base frame.
@@ -42,8 +40,8 @@ class MonitorWatch {
   static constexpr std::int64_t kStepsMost = 250;  // across the whole map
 
   sk_monitor_rules rules_{};
-  sk_monitor monitor_;
-  std::vector<sk_monitor_histogram> histogram_;  // one, where it is compared with; from the start, so that no cycle allocates
+  sk_monitor monitor_;                           // the accumulated map's heights (leger-1998, section 3.2)
+  std::vector<sk_monitor_histogram> histogram_;  // or a histogram per cell (4.2): one, or none; from the start, so that no cycle allocates
   sk_monitor_cell where_{-1, -1};
   std::int64_t newest_us_ = -1;
 };

@@ -98,6 +98,7 @@ constexpr const char* kText[] = {
     "workspace_approach_mm_s: within 500..5000",
     "workspace_intrusion_mm: within 0..3000",
     "workspace_lidar_wait_us: within 0..10000000; workspace_lidar_period_us: within 1..1000000",
+    "workspace_histogram: 0 or 1",
 };
 static_assert(sizeof kText / sizeof kText[0] == SK_RULES, "one text a rule");
 

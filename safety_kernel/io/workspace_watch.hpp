@@ -45,6 +45,7 @@ class WorkspaceWatch {
   std::int64_t newest_us(int number) const { return of(number).newest_us(); }
   const SpaceWatch& space() const { return space_; }
   const sk_monitor& monitor(int number = kScanners) const { return of(number).monitor(); }
+  const sk_monitor_histogram* histogram(int number = kScanners) const { return of(number).histogram(); }  // null: one height a cell is compared with
   const sk_monitor_rules& rules(int number = kScanners) const { return of(number).rules(); }
 
  private:

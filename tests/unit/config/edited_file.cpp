@@ -134,6 +134,7 @@ const std::vector<BadEdit>& bad_machine_edits() {
       {"lidars waited for too long", "lidar_wait = 0.10", "lidar_wait = 11.0", "workspace.lidar_wait", "outside 0 .. 10"},
       {"no lidar wait", "lidar_wait = 0.10", "", "workspace.lidar_wait", "is missing"},
       {"follows as a number", "follows = true", "follows = 1", "workspace.follows", "true or false"},
+      {"no histogram", "histogram = false ", "", "workspace.histogram", "is missing"},
       {"no such separation", "separation = \"reported\"", "separation = \"on\"", "workspace.separation",
        "'on' is not one of none, reported, enforced"},
       {"separation as a flag", "separation = \"reported\"", "separation = true", "workspace.separation", "text"},

@@ -118,6 +118,7 @@ void expect_tail_safe(const TailFile& t, const berm_parameters& p) {
 void expect_workspace_safe(const WorkspaceFile& w, const SiteFile& site, const berm_parameters& p) {
   EXPECT_EQ(p.workspace_watched, w.watched ? 1 : 0);
   EXPECT_EQ(p.workspace_follows, w.follows ? 1 : 0);
+  EXPECT_EQ(p.workspace_histogram, w.histogram ? 1 : 0);
   expect_up(w.radius * 1e3, p.workspace_radius_mm, "workspace radius");
   expect_down(w.rise * 1e3, p.workspace_rise_mm, "workspace rise");
   expect_down(w.neighbour * 1e3, p.workspace_neighbour_mm, "workspace neighbour");
@@ -209,6 +210,7 @@ void disturb(MachineFile& m, SiteFile& site, std::mt19937_64& random) {
   shake(w.radius, w.rise, w.neighbour, w.slope, w.wait, w.period, w.dwell, w.learn, w.lidar_wait, w.lidar_period, w.approach_speed, w.intrusion_distance);
   w.watched = random() % 2 == 0;
   w.follows = random() % 2 == 0;
+  w.histogram = random() % 2 == 0;
   w.separation = static_cast<int>(random() % 3);
   for (LaneFile& lane : site.truck_lane) shake(lane.x_low, lane.x_high, lane.y_low, lane.y_high);
 }

@@ -236,6 +236,48 @@ TEST_F(LidarWatchTest, TheSwingingMachineBesideBoxesTakesNothingButTheirOutlines
   std::printf("an obstacle on a box's outline in %d of %d cycles\n", alarms, ring.cycle);
 }
 
+// With histograms, what is between two rings is known by lines alone, and the ground must have been learned.
+// verifies: SK-WM-62, SK-WM-66
+TEST_F(LidarWatchTest, ByHistogramsWhoAppearsStopsItToo) {
+  parameters.workspace_histogram = 1;
+  parameters.workspace_learn_us = 2000000;
+  Ring ring(parameters);
+  while (ring.time_s() < 2.5) ASSERT_FALSE(ring.step()) << ring.time_s() << " s: " << ring.where();
+  for (const Somebody& who : {kAdult, kChild}) {
+    for (const double distance : {14.5, 10.0, 5.0}) {
+      double latest = 0.0;
+      for (int bearing_deg = 0; bearing_deg < 360; bearing_deg += 30) {
+        Ring now(ring);
+        const double bearing = bearing_deg * kPi / 180;
+        now.scene.people = {{distance * std::cos(bearing), distance * std::sin(bearing), who.radius, who.height, now.time_s()}};
+        const double took = latency(now);
+        EXPECT_GT(took, 0.0) << who.name << " at " << distance << " m, bearing " << bearing_deg << " degrees: not seen";
+        latest = std::max(latest, took);
+      }
+      std::printf("%s at %.1f m, histograms: latest stop %.3f s after the first return\n", who.name, distance, latest);
+    }
+  }
+}
+
+// Printed, beside the test before the last: what the outlines of boxes do to either.
+// verifies: SK-WM-62
+TEST_F(LidarWatchTest, ByHistogramsTheSwingingMachineOverLevelGroundIsNoIntruder) {
+  parameters.workspace_histogram = 1;
+  parameters.workspace_learn_us = 11000000;  // a swing to and fro, of 1.2 sin(0.6 t)
+  for (const bool boxes : {false, true}) {
+    Ring ring(parameters);
+    if (boxes) ring.scene.boxes = {{{6.13, 4.08, 0.0}, {8.1, 7.0, 1.6}}, {{-9.1, -6.0, 0.0}, {-6.55, -4.37, 2.5}}};
+    ring.swing = [](double t) { return 1.2 * std::sin(0.6 * t); };
+    int alarms = 0;
+    while (ring.time_s() < 22.0) {
+      const bool stop = ring.step();
+      ASSERT_TRUE(boxes || !stop) << ring.time_s() << " s: " << ring.where();
+      alarms += stop ? 1 : 0;
+    }
+    std::printf("histograms, %s: stop in %d of %d cycles\n", boxes ? "beside boxes" : "level ground", alarms, ring.cycle);
+  }
+}
+
 TEST(SensorClock, TheLeastDelayCounts) {
   SensorClock clock;
   clock.begin(3599999000U, 50000000);

@@ -36,9 +36,16 @@ berm_parameters machine() {
   return p;
 }
 
+enum class Compare { kHeights, kHistograms };
+
+berm_parameters comparing(berm_parameters p, Compare compare) {
+  p.workspace_histogram = compare == Compare::kHistograms ? 1 : 0;
+  return p;
+}
+
 // One version, its clock, and how it has answered.
 struct Version {
-  Version(const berm_parameters& p, MonitorWatch::Compare compare) : watch(p, p.workspace_wait_us, p.workspace_period_us, compare) {}
+  Version(const berm_parameters& p, Compare compare) : watch(comparing(p, compare), p.workspace_wait_us, p.workspace_period_us) {}
 
   // As WorkspaceWatch feeds it: every return, and the line from one to the next of a scanline.
   bool take(const std::vector<Seen>& line, std::int64_t now_us) {
@@ -72,7 +79,7 @@ struct Quiet {
 };
 
 // Alarms with nobody there. What stops for longer than a minute is learned anew, as the operator would have it.
-Quiet quiet(const berm_parameters& p, MonitorWatch::Compare compare, WalkedGround ground, double seconds) {
+Quiet quiet(const berm_parameters& p, Compare compare, WalkedGround ground, double seconds) {
   Version version(p, compare);
   Quiet out;
   std::vector<Seen> line;
@@ -101,16 +108,18 @@ struct Walk {
   int points = 0;        // of him, there, up to the stop
 };
 
-// Whether he was seen so well that he must be detected: twice in one watched cell, of which the ground is known, 0.8 m over it, within the wait.
+// Whether he was seen so well that he must be detected: twice in one watched cell, of which the ground was known before he came, 0.8 m over it, within
+// two periods.
 class SeenWell {
  public:
-  bool take(const std::vector<Seen>& line, const Version& version, const WalkedGround& ground, const berm_parameters& p, double t) {
+  bool take(const std::vector<Seen>& line, const Version& learned, const WalkedGround& ground, const berm_parameters& p, double t) {
+    const sk_monitor_histogram& before = *learned.watch.histogram();
     for (const Seen& s : line) {
       const std::pair<int, int> cell{sk_map_index(mm(s.y)), sk_map_index(mm(s.x))};
-      if (!s.of_walker || !sk_is_in_map(cell.first, cell.second) || version.watch.rules().watched[cell.first][cell.second] == 0) continue;
-      if (version.watch.histogram()->observed[cell.first][cell.second] < SK_HISTOGRAM_ENOUGH || s.z - ground.ground(s.x, s.y) < 0.8) continue;
+      if (!s.of_walker || !sk_is_in_map(cell.first, cell.second) || learned.watch.rules().watched[cell.first][cell.second] == 0) continue;
+      if (before.observed[cell.first][cell.second] < SK_HISTOGRAM_ENOUGH || s.z - ground.ground(s.x, s.y) < 0.8) continue;
       const auto last = last_.find(cell);
-      well_ = well_ || (last != last_.end() && t - last->second <= p.workspace_wait_us * 1e-6);
+      well_ = well_ || (last != last_.end() && t - last->second <= 2e-6 * p.workspace_period_us);
       last_[cell] = t;
     }
     return well_;
@@ -134,11 +143,11 @@ double quantile(std::vector<double> v, double q) {
 
 class MonitorVersions : public testing::Test {
  protected:
-  static constexpr MonitorWatch::Compare kBoth[] = {MonitorWatch::Compare::kHeights, MonitorWatch::Compare::kHistograms};
-  static const char* name(MonitorWatch::Compare c) { return c == MonitorWatch::Compare::kHeights ? "heights" : "histograms"; }
+  static constexpr Compare kBoth[] = {Compare::kHeights, Compare::kHistograms};
+  static const char* name(Compare c) { return c == Compare::kHeights ? "heights" : "histograms"; }
   void compare_quiet(const char* what, const std::vector<Wall>& walls) {
     for (const double slope : kSlopes)
-      for (const MonitorWatch::Compare c : kBoth) {
+      for (const Compare c : kBoth) {
         WalkedGround ground(kSeed, slope);
         ground.walls = walls;
         const Quiet q = quiet(parameters, c, ground, kQuietS);
@@ -176,7 +185,7 @@ void MonitorVersions::compare_walks(const char* what, double radius, double heig
     const double end_s = now.walker.starts_s + 13.0 / now.walker.speed_m_s + 13.0;  // he stands where he stops, for a sweep to and fro
     while (now.time_s() < end_s && !(walk[0].detected && walk[1].detected)) {
       const double t = now.line(line);
-      const bool well = seen_well.take(line, version[1], now, parameters, t);
+      const bool well = seen_well.take(line, learned[1], now, parameters, t);
       for (const Seen& s : line) points += s.of_walker && std::hypot(s.x, s.y) < parameters.workspace_radius_mm * 1e-3 ? 1 : 0;
       if (points > 0 && first_s < 0.0) first_s = t;
       for (int k = 0; k < 2; ++k) {
@@ -230,7 +239,7 @@ TEST_F(MonitorVersions, WhatTheyCost) {
     points += lines.back().size();
   }
   ASSERT_GT(points, 10000U);
-  for (const MonitorWatch::Compare c : kBoth) {
+  for (const Compare c : kBoth) {
     Version version(parameters, c);
     std::int64_t now_us = 0;
     timespec from{}, to{};
@@ -239,7 +248,7 @@ TEST_F(MonitorVersions, WhatTheyCost) {
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &to);
     const double ns = (static_cast<double>(to.tv_sec - from.tv_sec)) * 1e9 + static_cast<double>(to.tv_nsec - from.tv_nsec);
     std::printf("%s: %.0f ns a point with its line and step, %zu bytes\n", name(c), ns / static_cast<double>(points),
-                c == MonitorWatch::Compare::kHeights ? sizeof(sk_monitor) : sizeof(sk_monitor_histogram));
+                c == Compare::kHeights ? sizeof(sk_monitor) : sizeof(sk_monitor_histogram));
   }
 }
 

@@ -99,5 +99,50 @@ TEST_F(WorkspaceWatchTest, ALaneChangesOnlyOnAFreshWord) {
   EXPECT_FALSE(watched(4050, 7050));
 }
 
+// verifies: SK-WM-62, SK-WM-63
+TEST_F(WorkspaceWatchTest, WithHistogramsTheGroundIsLearnedThenTwoPointsStopIt) {
+  EXPECT_EQ(watch->histogram(), nullptr);
+  parameters.workspace_histogram = 1;
+  watch = std::make_unique<WorkspaceWatch>(parameters);
+  watch->begin();
+  for (int i = 0; i < SK_HISTOGRAM_ENOUGH; ++i) see({{4050, 3050, 0}}, 100);
+  see({{4050, 3050, 1600}}, 100);
+  EXPECT_FALSE(watch->step(kNow)) << "learning";
+  EXPECT_FALSE(watch->step(kNow + parameters.workspace_learn_us));
+  EXPECT_EQ(watch->monitor().modified, 0) << "one of the two is fed";
+  see({{4050, 3050, 1600}}, 100);
+  EXPECT_FALSE(watch->step(kNow + parameters.workspace_learn_us)) << "lone";
+  see({{4050, 3050, 1700}}, 100);
+  EXPECT_TRUE(watch->step(kNow + parameters.workspace_learn_us)) << "lone no longer";
+  std::int32_t x = 0, y = 0, height = 0;
+  ASSERT_TRUE(watch->place(x, y, height));
+  EXPECT_EQ(x, 4050);
+  EXPECT_EQ(y, 3150);
+  EXPECT_EQ(height, 1700);
+}
+
+// verifies: SK-WM-63, SK-WM-66
+TEST_F(WorkspaceWatchTest, WithHistogramsALaneIsForgottenAndALineIsNoObservation) {
+  parameters.workspace_histogram = 1;
+  watch = std::make_unique<WorkspaceWatch>(parameters);
+  watch->begin();
+  const auto cell = [this](auto& of, int x_mm, int y_mm) { return of[sk_map_index(y_mm)][sk_map_index(x_mm)]; };
+  see({{4050, 7050, 0}, {4050, 3050, 0}}, 100);
+  const sk_monitor_histogram& h = *watch->histogram();
+  EXPECT_EQ(cell(h.observed, 4050, 7050), 1U);
+  EXPECT_EQ(cell(h.observed, 4050, 5050), 0U);
+  EXPECT_GT(cell(h.lines, 4050, 5050), 0);
+  watch->step(kNow);
+  watch->step(kNow + parameters.workspace_learn_us);
+  EXPECT_EQ(cell(h.state, 4050, 7050), SK_CELL_CLEAR);
+  watch->trucks(true, true, kNow + parameters.workspace_learn_us);
+  EXPECT_EQ(cell(h.state, 4050, 7050), SK_CELL_LEARNING);
+  EXPECT_EQ(cell(h.observed, 4050, 7050), 0U);
+  EXPECT_EQ(cell(h.state, 4050, 3050), SK_CELL_CLEAR);
+  EXPECT_EQ(cell(h.observed, 4050, 3050), 1U);
+  watch->step(kNow + 2 * parameters.workspace_learn_us);
+  EXPECT_EQ(cell(h.state, 4050, 7050), SK_CELL_CLEAR);
+}
+
 }  // namespace
 }  // namespace berm::kernel::test
