@@ -109,7 +109,9 @@ void Cycle::take_lidars(const CycleInputs& in) {
 }
 
 void Cycle::watch_lidar(int lidar, std::int64_t now_us) {
-  if (!frames_.base().moved) workspace_.take(lidar, lidars_.packet(), joints_.at(lidars_.middle_us(lidar)).angles, now_us);
+  if (frames_.base().moved || !workspace_.watched()) return;
+  workspace_.take(lidar, lidars_.packet(), joints_.at(lidars_.middle_us(lidar)).angles, now_us);
+  sectors_.take(workspace_.lidar_returns(lidar), now_us);
 }
 
 void Cycle::learn_base(std::int64_t now_us) {
