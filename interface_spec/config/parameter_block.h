@@ -25,7 +25,7 @@ extern "C" {
 #define BERM_TRUCK_ZONES 4
 #define BERM_SCANNER_MOUNTS 2
 #define BERM_LANES 4
-#define BERM_LIDARS 2           /* VLP-16 on the upper body */
+#define BERM_LIDARS 4           /* VLP-16 on the upper body */
 
 enum { BERM_SEPARATION_NONE = 0, BERM_SEPARATION_REPORTED = 1, BERM_SEPARATION_ENFORCED = 2 };
 

@@ -119,7 +119,7 @@ const std::vector<BadEdit>& bad_machine_edits() {
       {"hold above the contract's", "request_hold = 0.05", "request_hold = 0.06", "kernel.request_hold", "outside 0.01 .. 0.05"},
       {"silence above the contract's", "request_silent = 0.5", "request_silent = 0.6", "kernel.request_silent", "outside 0.05 .. 0.5"},
       {"generation above freshness", "generation = 1.0", "generation = 30.0", "kernel.generation", "above fresh"},
-      {"three lidars", "[tail] ", lidar() + lidar() + lidar() + "[tail] ", "lidar", "3 lidars, up to 2 are taken"},
+      {"five lidars", "[tail] ", lidar() + lidar() + lidar() + lidar() + lidar() + "[tail] ", "lidar", "5 lidars, up to 4 are taken"},
       {"lidar in the ground", "[tail] ", lidar("-0.1") + "[tail] ", "lidar[0].position", "0 .. 8"},
       {"lidar without a yaw", "[tail] ", lidar("3.0", "") + "[tail] ", "lidar[0].yaw_deg", "is missing"},
       {"lidar turned over", "[tail] ", lidar("3.0", "yaw_deg = 181.0\n") + "[tail] ", "lidar[0].yaw_deg", "outside"},
