@@ -74,7 +74,7 @@ const char* stop_reason_name(std::uint8_t reason) {
                                                            "request hold", "app silent", "state frame", "scanner silent", "operator",
                                                            "emergency", "joint range", "braking", "machine fault", "internal", "clock",
                                                            "base moved", "uncommanded", "overpass", "tail", "intruder",
-                                                           "separation"};
+                                                           "separation", "sensor blocked", "dust"};
   return reason < BERM_STOP_REASONS ? names[reason] : "unnamed";
 }
 
