@@ -42,7 +42,7 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(Scenario, ShippedScenariosLoadAndStartWithTheBucketOneMetreUp) {
-  for (const char* name : {"bench.toml", "person.toml", "two_trucks.toml", "base_tilts.toml", "base_slips.toml", "base_shifts.toml", "identify.toml", "identify_empty.toml", "person_behind.toml", "lidar_blocked.toml"}) {
+  for (const char* name : {"bench.toml", "person.toml", "two_trucks.toml", "base_tilts.toml", "base_slips.toml", "base_shifts.toml", "dust.toml", "scanner_blocked.toml", "identify.toml", "identify_empty.toml", "person_behind.toml", "lidar_blocked.toml"}) {
     const Scenario s = load_scenario(std::string(BERM_SCENARIOS) + "/" + name, BERM_PLANT_PROFILES);
     EXPECT_EQ(s.name + ".toml", name);
     EXPECT_GE(bucket_underside(load_plant_profile(s.machine_file).shape, s.start), 1.0) << name;
