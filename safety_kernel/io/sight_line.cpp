@@ -5,7 +5,10 @@
 namespace berm::kernel {
 
 SightLine::SightLine(const berm_parameters& p)
-    : half_length_(p.own_body_radius_mm * 1e-3), half_width_(p.tail_half_width_mm * 1e-3), underside_(p.tail_low_mm * 1e-3), top_(p.tail_high_mm * 1e-3) {}
+    : half_length_(p.own_body_radius_mm * 1e-3),
+      half_width_(p.tail_half_width_mm * 1e-3),
+      underside_(p.tail_low_mm * 1e-3),
+      top_(p.tail_high_mm * 1e-3) {}
 
 // Of the box about the axis, up to top: by the bounds of the part of the ray's beginning that is so low, which may be met where the ray is not.
 bool SightLine::meets(const Eigen::Vector3d& head, const Eigen::Vector3d& direction, double top) const {

@@ -21,8 +21,8 @@ class SightLine {
 
   explicit SightLine(const berm_parameters& parameters);
 
-  // Upper body's frame, m; direction of length 1. The upper body is taken for a box as wide as its tail and as long as the own body; a ray that leaves
-  // away from the axis does not meet it, for the sensor stands on its rim.
+  // Upper body's frame, m; direction of length 1. The upper body is taken for a box as wide as its tail and as long as the own body; a ray
+  // that leaves away from the axis does not meet it, for the sensor stands on its rim.
   Kind of(const Eigen::Vector3d& head, const Eigen::Vector3d& direction) const;
   // Whether the tracks may be close below: a box as wide as the tail and as long as the own body, up to the upper body's underside.
   bool over_tracks(const Eigen::Vector3d& head, const Eigen::Vector3d& direction, double swing_cosine, double swing_sine) const;

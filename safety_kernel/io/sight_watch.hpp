@@ -1,4 +1,5 @@
-// What the sensors can see (SK-SI): the returns of panning scanners and of lidars on the upper body into the core's judgement of blocked windows and dust.
+// What the sensors can see (SK-SI): the returns of panning scanners and of lidars on the upper body into the core's judgement of blocked
+// windows and dust.
 #pragma once
 
 #include <Eigen/Core>

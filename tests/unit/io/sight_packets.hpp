@@ -1,6 +1,7 @@
 // Packets of sensors over level ground, with what lies on a window and dust drawn in.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -60,7 +61,7 @@ inline Vlp16Bytes vlp16_packet(std::uint32_t clock_us, double from_deg, bool dua
       for (int k = 0; k < 2 * kVlp16Channels; ++k) {
         const Shot s = shot(azimuth, kChannel[k % kVlp16Channels]);
         // The last return in the even block, the strongest but it in the odd one: the last again where there is none.
-        const double last = std::max(s.echo_mm[0], s.echo_mm[1]), other = s.echo_mm[0] > 0 && s.echo_mm[1] > 0 ? std::min(s.echo_mm[0], s.echo_mm[1]) : last;
+        const double last = std::max(s.echo_mm[0], s.echo_mm[1]), nearer = std::min(s.echo_mm[0], s.echo_mm[1]), other = nearer > 0 ? nearer : last;
         put(at + 4 + 3 * static_cast<std::size_t>(k), static_cast<unsigned>(std::lround((side == 0 ? last : other) / 2.0)));
       }
     }

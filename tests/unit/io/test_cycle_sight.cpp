@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <random>
 
 #include "cycle_rig.hpp"
 
@@ -24,8 +25,9 @@ class CycleSight : public testing::Test {
       berm_scan_packet& p = rig.in->packet[i];
       for (int s = 0; s < p.count; ++s) {
         const double mirror = 360.0 * (p.first_index + s) / p.samples_per_revolution;
-        if (p.scanner == 0 && mirror >= covered_from && mirror < covered_to) p.range[s][0] = 75;
-        else if (p.range[s][0] * BERM_SCAN_RANGE_LSB_MM > 2000 && (draw_ = (draw_ * 1103515245U + 12345U) & 0x7FFFFFFFU) / 256 % 100 < static_cast<unsigned>(dust_percent)) {
+        if (p.scanner == 0 && mirror >= covered_from && mirror < covered_to) {
+          p.range[s][0] = 75;
+        } else if (p.range[s][0] * BERM_SCAN_RANGE_LSB_MM > 2000 && draw() < dust_percent) {
           p.range[s][1] = p.range[s][0];
           p.range[s][0] = 300;
           p.echoes_per_sample = 2;
@@ -36,8 +38,13 @@ class CycleSight : public testing::Test {
     rig.obey();
   }
 
+  int draw() { return static_cast<int>(random_() % 100); }
+  std::int32_t share(int j) const {
+    return static_cast<std::int32_t>(std::int64_t{rig.parameters.velocity_max_urad_s[j]} * rig.parameters.dust_speed_permille / 1000);
+  }
+
   CycleRig rig;
-  unsigned draw_ = 1;
+  std::mt19937 random_{1};
 };
 
 // verifies: SK-SI-11, SK-SI-14
@@ -85,7 +92,6 @@ TEST_F(CycleSight, LightDustSlowsEveryJointToItsShare) {
   EXPECT_EQ(rig.state().sight, BERM_SIGHT_DUST_SLOW);
   EXPECT_NEAR(rig.state().dust_permille, 180, 60);
   EXPECT_EQ(rig.state().stop_reason, BERM_STOP_NONE);
-  const auto share = [&](int j) { return static_cast<std::int32_t>(std::int64_t{rig.parameters.velocity_max_urad_s[j]} * rig.parameters.dust_speed_permille / 1000); };
   EXPECT_EQ(std::abs(rig.state().commanded_urad_s[3]), share(3));
   EXPECT_EQ(std::max(rig.state().permitted_high_urad_s[3], -rig.state().permitted_low_urad_s[3]), share(3));
   rig.wanted_urad_s[3] = 0;

@@ -1,5 +1,5 @@
-// What the shipped scenarios' sensors send without a fault or dust, the machine swinging and the scanners panning over all of their range: nothing of it
-// may count as a blocked window, or as dust.
+// What the shipped scenarios' sensors send without a fault or dust, the machine swinging and the scanners panning over all of their range:
+// nothing of it may count as a blocked window, or as dust.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,7 +46,10 @@ void expect_sight(const std::string& path, double seconds) {
     plant::JointState now = before;
     now.angle[0] = sweep(t, 20.0, -3.1, 3.1);
     plant::PanState pan;
-    for (std::size_t s = 0; s < 2; ++s) pan.angle[s] = sweep(t, 3.7, parameters.scanner[s].pan_low_urad * 1e-6, parameters.scanner[s].pan_high_urad * 1e-6);
+    for (std::size_t s = 0; s < 2; ++s) {
+      const berm_scanner_mount& mount = parameters.scanner[s];
+      pan.angle[s] = sweep(t, 3.7, mount.pan_low_urad * 1e-6, mount.pan_high_urad * 1e-6);
+    }
     if (k == 1) before = now, pan_before = pan;
     world.step(t, kStep, now, before);
     std::vector<berm_scan_packet> packets;
@@ -57,7 +60,8 @@ void expect_sight(const std::string& path, double seconds) {
     for (const berm_scan_packet& p : packets) watch->take(p, now.angle[0], now_us);
     for (const plant::LidarPacket& p : lidar_packets) watch->take(p.lidar, p.bytes.data(), now.angle[0], now_us);
     watch->step(now_us);
-    ASSERT_FALSE(watch->blocked()) << path << " at " << t << " s: eyes " << watch->blocked_eyes() << ", swing " << now.angle[0] << ", left pan " << pan.angle[0];
+    ASSERT_FALSE(watch->blocked()) << path << " at " << t << " s: eyes " << watch->blocked_eyes() << ", swing " << now.angle[0] << ", left pan "
+                                   << pan.angle[0];
     ASSERT_EQ(watch->dust(), SK_DUST_NONE) << path << " at " << t << " s: " << watch->dust_permille();
     for (int e = 0; e < kernel::SightWatch::kEyes; ++e)
       for (const sk_strip& s : watch->eye(e).strip) rays += s.expected;
