@@ -129,6 +129,12 @@ typedef struct berm_parameters {
   int32_t workspace_intrusion_mm;                 /* C: what of him may reach ahead before he is detected */
   int32_t lanes;
   berm_lane lane[BERM_LANES];                     /* where trucks come and go: not watched unless one is parked */
+  /* what the sensors can see: see safety_kernel/requirements/sight.md */
+  int32_t sight_blind_permille;                   /* a strip of a sensor of whose rays so many are blind is blocked: fault */
+  int32_t dust_slow_permille;                     /* so many returns with more than one echo: motion is slowed */
+  int32_t dust_stop_permille;                     /* so many: motion is held */
+  int32_t dust_speed_permille;                    /* of each joint's largest speed, while slowed */
+  int32_t dust_dwell_us;                          /* below the limit for so long before it is lifted */
   int32_t crc32;                                  /* bit pattern of the CRC-32 */
 } berm_parameters;
 

@@ -54,7 +54,7 @@ std::vector<sk_stop_state> valid_states() {
 
 std::vector<sk_stop_input> inputs(std::int64_t now_us) {
   std::vector<sk_stop_input> all;
-  const std::uint8_t codes[] = {0, 2, 14, 22};
+  const std::uint8_t codes[] = {0, 2, 14, 24};
   for (const std::uint8_t fault : codes)
     for (const std::uint8_t latch : codes)
       for (const std::uint8_t hold : codes)
