@@ -134,10 +134,10 @@ typedef struct berm_request_segment {
 #define BERM_UNWATCHED_TAIL 1u      /* the ground round the upper body's tail: it must be fenced */
 #define BERM_UNWATCHED_WORKSPACE 2u /* the safety region: nobody may come into it */
 
-#define BERM_SIGHT_BLOCKED(eye) (1u << (eye)) /* an eye cannot see, or a strip of it: 0, 1 the scanners, 2, 3 the lidars on the upper body */
-#define BERM_SIGHT_EYES 4
-#define BERM_SIGHT_DUST_SLOW 16u    /* dust: every joint's request is cut to a share of its largest speed */
-#define BERM_SIGHT_DUST_STOP 32u    /* dust: motion is held */
+#define BERM_SIGHT_BLOCKED(eye) (1u << (eye)) /* an eye cannot see, or a strip of it: 0, 1 the scanners, 2 to 5 the lidars on the upper body */
+#define BERM_SIGHT_EYES 6
+#define BERM_SIGHT_DUST_SLOW 0x100u /* dust: every joint's request is cut to a share of its largest speed */
+#define BERM_SIGHT_DUST_STOP 0x200u /* dust: motion is held */
 
 /* Machine state and verdict of one cycle. */
 typedef struct berm_state {

@@ -85,6 +85,7 @@ void Cycle::report_state(const CycleInputs& in, berm_state& state) const {
   }
   state.dust_permille = sight_.dust_permille();
   state.sight = sight_.blocked_eyes();
+  static_assert(SightWatch::kEyes == BERM_SIGHT_EYES);
   if (sight_.dust() == SK_DUST_SLOW) state.sight |= BERM_SIGHT_DUST_SLOW;
   if (sight_.dust() == SK_DUST_STOP) state.sight |= BERM_SIGHT_DUST_STOP;
   const std::int64_t confirmed_us = registration_.confirmed_us();

@@ -151,9 +151,9 @@ ScannerConfig read_scanner(StrictTable t) {
   return scanner;
 }
 
-SensorFault read_sensor_fault(StrictTable t, const char* sensor, const char* turn) {
+SensorFault read_sensor_fault(StrictTable t, const char* sensor, int sensors, const char* turn) {
   SensorFault fault;
-  fault.sensor = static_cast<std::size_t>(t.integer(sensor, 1, 2) - 1);
+  fault.sensor = static_cast<std::size_t>(t.integer(sensor, 1, sensors) - 1);
   fault.silent = t.choice("kind", {"blocked", "silent"}) == "silent";
   fault.at_s = t.number("at_s", 0.0, 36000.0);
   fault.for_s = t.number("for_s", 0.05, 36000.0);
@@ -195,8 +195,8 @@ WorldConfig read_world(StrictTable& file) {
   for (StrictTable& t : file.tables("dig_zone")) world.dig_zones.push_back(read_dig_zone(t));
   if (world.dig_zones.empty()) file.fail("dig_zone", "is missing");
   world.scanner = read_scanner(file.table("scanner"));
-  for (StrictTable& t : file.tables("scanner_fault")) world.scanner_faults.push_back(read_sensor_fault(t, "scanner", "mirror_deg"));
-  for (StrictTable& t : file.tables("lidar_fault")) world.lidar_faults.push_back(read_sensor_fault(t, "lidar", "sector_deg"));
+  for (StrictTable& t : file.tables("scanner_fault")) world.scanner_faults.push_back(read_sensor_fault(t, "scanner", 2, "mirror_deg"));
+  for (StrictTable& t : file.tables("lidar_fault")) world.lidar_faults.push_back(read_sensor_fault(t, "lidar", 4, "sector_deg"));
   for (StrictTable& t : file.tables("dust")) world.dust.push_back(read_dust(t));
   return world;
 }

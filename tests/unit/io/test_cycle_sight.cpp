@@ -58,13 +58,13 @@ TEST_F(CycleSight, AStripOfAWindowThatIsCoveredLatchesUntilItIsCleanAndReset) {
   EXPECT_EQ(rig.state().kernel_state, BERM_STATE_FAULT);
   EXPECT_EQ(rig.state().stop_reason, BERM_STOP_SENSOR_BLOCKED);
   EXPECT_EQ(rig.state().stop_count[BERM_STOP_SENSOR_BLOCKED], 1U);
-  EXPECT_EQ(rig.state().sight & 0xFU, BERM_SIGHT_BLOCKED(0));
+  EXPECT_EQ(rig.state().sight & 0x3FU, BERM_SIGHT_BLOCKED(0));
   rig.machine.reset_key = true;
   for (int k = 0; k < 100; ++k) step(300.0, 330.0);
   EXPECT_EQ(rig.state().kernel_state, BERM_STATE_FAULT) << "the reset does not help while it is covered";
   rig.machine.reset_key = false;
   for (int k = 0; k < 300; ++k) step();
-  EXPECT_EQ(rig.state().sight & 0xFU, 0U);
+  EXPECT_EQ(rig.state().sight & 0x3FU, 0U);
   EXPECT_EQ(rig.state().kernel_state, BERM_STATE_FAULT) << "nor does the clean window, without it";
   EXPECT_EQ(rig.state().stop_reason, BERM_STOP_SENSOR_BLOCKED);
   rig.machine.reset_key = true;

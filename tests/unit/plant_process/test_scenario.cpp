@@ -103,7 +103,7 @@ TEST(Scenario, EveryKindOfMistakeIsNamed) {
   EXPECT_EQ(refusal(replaced(good, "centre = [-0.70, 6.75]", "centre = [-0.70]")), "truck[0].centre: must be an array of 2 numbers");
   EXPECT_EQ(refusal(replaced(good, "cell = 0.1", "cell = 0.02\ncells = 1")), "terrain.cells: is not a known key");
   EXPECT_EQ(refusal(replaced(good, "samples_per_revolution = 400", "samples_per_revolution = 400.5")), "scanner.samples_per_revolution: must be a whole number");
-  EXPECT_EQ(refusal(good + "\n[[lidar_fault]]\nlidar = 3\nkind = \"blocked\"\nat_s = 1\nfor_s = 1\n"), "lidar_fault[0].lidar: 3 is outside 1 .. 2");
+  EXPECT_EQ(refusal(good + "\n[[lidar_fault]]\nlidar = 5\nkind = \"blocked\"\nat_s = 1\nfor_s = 1\n"), "lidar_fault[0].lidar: 5 is outside 1 .. 4");
   EXPECT_EQ(refusal(good + "\n[[lidar_fault]]\nlidar = 1\nkind = \"wet\"\nat_s = 1\nfor_s = 1\n"), "lidar_fault[0].kind: 'wet' is not one of blocked, silent");
   const std::string fault = "\n[[scanner_fault]]\nscanner = 2\nkind = \"blocked\"\nat_s = 1\nfor_s = 1\n";
   EXPECT_EQ(refusal(good + fault), "accepted");
