@@ -38,7 +38,7 @@ const char* advice_for(const Observation& o) {
     case BERM_STOP_JOINT_RANGE: return "move the joint back into its range by hand";
     case BERM_STOP_INTRUDER: return "send away who or what came; if nobody is there, press relearn";
     case BERM_STOP_SEPARATION: return "make the sensors see all round the machine again, or take it out of where they cannot";
-    case BERM_STOP_SENSOR_BLOCKED: return "look what lies on the sensors' windows, clean them, then press reset";
+    case BERM_STOP_SENSOR_BLOCKED: return "look what lies on the sensors' windows, clean them, then press reset; relearn before it if that does not help";
     case BERM_STOP_DUST: return "wait until the dust has settled, or lay it with water; if there is none, clean the sensors' windows";
     case BERM_STOP_OVERPASS: return "send away who or what stands there, or admit the truck; if nothing stands there, press relearn";
     default: return o.latched ? "mend the cause, then press reset" : "clear the place; if nothing stands there, press relearn";

@@ -57,6 +57,7 @@ void Cycle::step(const CycleInputs& in, CycleOutputs& out) {
     register_terrain(out.blocks, in.now_us);
     // Nothing is kept while the base has moved, for it may still be moving, nor while the operator has the map learned anew.
     if (frames_.base().moved || relearns(in.now_us)) begin_map();
+    if (relearns(in.now_us)) sight_.begin();
     watch_workspace(out.blocks, in.now_us);
     own_cells_.stamp(map_, in.now_us, parameters_.generation_us);
     take_request(in);

@@ -35,7 +35,7 @@ void note_return(sk_eye& eye, std::int32_t other_mm, std::int32_t last_mm, std::
 
 SightWatch::SightWatch(const berm_parameters& p) : parameters_(p), line_(p) {
   rules_ = {p.dust_slow_permille, p.dust_stop_permille, p.dust_dwell_us};
-  for (sk_eye& eye : eye_) sk_eye_begin(&eye);
+  begin();
   sk_dust_begin(&dust_state_);
   for (int s = 0; s < kScanners; ++s) head_[s] = Eigen::Vector3d(p.scanner[s].x_mm, p.scanner[s].y_mm, p.scanner[s].z_mm) * 1e-3;
   for (int i = 0; i < BERM_LIDARS; ++i) {
@@ -43,6 +43,10 @@ SightWatch::SightWatch(const berm_parameters& p) : parameters_(p), line_(p) {
     for (int degree = 0; degree < kDegrees; ++degree)
       for (int channel = 0; channel < kVlp16Channels; ++channel) kind_[i][degree][channel] = line_.of(mount_[i].place, beam(i, degree, channel));
   }
+}
+
+void SightWatch::begin() {
+  for (sk_eye& eye : eye_) sk_eye_begin(&eye);
 }
 
 // In the upper body's frame.

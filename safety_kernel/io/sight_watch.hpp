@@ -23,6 +23,8 @@ class SightWatch {
 
   explicit SightWatch(const berm_parameters& parameters);
 
+  // No strip was judged yet: what is still covered is found again with its next rays. Dust that dwells goes on dwelling.
+  void begin();
   // An accepted packet; swing_rad: of the upper body at that time.
   void take(const berm_scan_packet& packet, double swing_rad, std::int64_t now_us);
   // An accepted packet of a lidar that there is.

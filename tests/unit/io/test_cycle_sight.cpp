@@ -71,6 +71,20 @@ TEST_F(CycleSight, AStripOfAWindowThatIsCoveredLatchesUntilItIsCleanAndReset) {
   EXPECT_TRUE(rig.reach_state(BERM_STATE_RUN, 100)) << int{rig.state().stop_reason};
 }
 
+// verifies: SK-SI-16
+TEST_F(CycleSight, RelearningJudgesEveryStripAnewAndFindsWhatIsStillCovered) {
+  for (int k = 0; k < 100; ++k) step(300.0, 330.0);
+  ASSERT_EQ(rig.state().stop_reason, BERM_STOP_SENSOR_BLOCKED);
+  rig.machine.relearn_key = true;
+  for (int k = 0; k < 10; ++k) step(300.0, 330.0);
+  EXPECT_EQ(rig.state().sight, 0U);
+  EXPECT_EQ(rig.state().kernel_state, BERM_STATE_FAULT) << "the latch is the reset's";
+  rig.machine.relearn_key = false;
+  for (int k = 0; k < 25; ++k) step(300.0, 330.0);
+  EXPECT_EQ(rig.state().sight, BERM_SIGHT_BLOCKED(0));
+  EXPECT_EQ(rig.state().stop_reason, BERM_STOP_SENSOR_BLOCKED);
+}
+
 // verifies: SK-SI-12, SK-SI-14
 TEST_F(CycleSight, LightDustSlowsEveryJointToItsShare) {
   rig.wanted_urad_s[0] = 800'000;
