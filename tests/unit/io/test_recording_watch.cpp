@@ -130,7 +130,7 @@ TEST_F(RecordingWatch, TheRecordedSensorsPlaceWouldBeRefused) {
   EXPECT_TRUE(sight->blocked());
   int strips = 0;
   for (const sk_strip& strip : sight->eye(SightWatch::kScanners).strip) strips += strip.blocked;
-  EXPECT_GE(strips, 20) << "of 24";
+  EXPECT_GE(strips, 10) << "of 24, those towards the upper body not judged";
   EXPECT_EQ(sight->dust(), SK_DUST_NONE) << sight->dust_permille();
 }
 
