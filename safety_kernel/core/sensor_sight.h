@@ -1,9 +1,9 @@
 /* Whether a sensor can see: strips of its window that something lies on, and dust in the air.
  *
- * An eye is a panning scanner or a lidar. Its turn is divided into strips. Of a ray that must meet ground ("expected") it is told whether it was blind:
- * nothing came back, or the farthest echo lies on the window. A strip is judged whenever it has had SK_SIGHT_RAYS expected rays, and stays as it was
- * judged until then; one without expected rays is not judged, and that none come is supervised elsewhere (a silent sensor). Dust sends part of the
- * light back before the target does: of the rays that came back so many per mille had an echo well before the last. */
+ * An eye is a panning scanner or a lidar. Its turn is divided into strips. Of a ray that must meet ground ("expected") it is told whether it was
+ * blind: nothing came back, or the farthest echo lies on the window. A strip is judged whenever it has had SK_SIGHT_RAYS expected rays, and stays as
+ * it was judged until then; one without expected rays is not judged, and that none come is supervised elsewhere (a silent sensor). Dust sends part
+ * of the light back before the target does: of the rays that came back so many per mille had an echo well before the last. */
 #ifndef SK_SENSOR_SIGHT_H
 #define SK_SENSOR_SIGHT_H
 #include "sk_common.h"
@@ -55,7 +55,8 @@ typedef struct sk_dust_rules {
   @ // the dust level is worked out with this return
   @ predicate sk_dust_due(integer returns, integer since, integer now) =
   @   returns >= SK_SIGHT_RETURNS || (returns >= SK_SIGHT_RETURNS_LEAST && now - since >= SK_SIGHT_DUST_US);
-  @ predicate sk_dust_level_is(integer level, integer dusty, integer returns) = level * returns >= dusty * 1000 && (level - 1) * returns < dusty * 1000;
+  @ predicate sk_dust_level_is(integer level, integer dusty, integer returns) =
+  @   level * returns >= dusty * 1000 && (level - 1) * returns < dusty * 1000;
   @ predicate sk_dust_holds(integer last, integer now, integer dwell) = 0 <= last && (now < last || now - last < dwell);
   @ predicate sk_dust_somewhere(sk_eye *eye, integer eyes, integer limit) = \exists integer k; 0 <= k < eyes && eye[k].dust_permille >= limit;
   @*/

@@ -54,12 +54,14 @@ inline Vlp16Bytes vlp16_packet(std::uint32_t clock_us, double from_deg, bool dua
   const int step = dual ? 2 : 1;
   for (int block = 0; block < 12; block += step) {
     const double azimuth = std::fmod(from_deg + 0.4 * (block / step), 360.0);
+    Shot shots[2 * kVlp16Channels];
+    for (int k = 0; k < 2 * kVlp16Channels; ++k) shots[k] = shot(azimuth, kChannel[k % kVlp16Channels]);
     for (int side = 0; side < step; ++side) {
       const std::size_t at = 100 * static_cast<std::size_t>(block + side);
       put(at, 0xEEFF);
       put(at + 2, static_cast<unsigned>(std::lround(azimuth * 100)) % 36000);
       for (int k = 0; k < 2 * kVlp16Channels; ++k) {
-        const Shot s = shot(azimuth, kChannel[k % kVlp16Channels]);
+        const Shot& s = shots[k];
         // The last return in the even block, the strongest but it in the odd one: the last again where there is none.
         const double last = std::max(s.echo_mm[0], s.echo_mm[1]), nearer = std::min(s.echo_mm[0], s.echo_mm[1]), other = nearer > 0 ? nearer : last;
         put(at + 4 + 3 * static_cast<std::size_t>(k), static_cast<unsigned>(std::lround((side == 0 ? last : other) / 2.0)));

@@ -94,7 +94,8 @@ TEST(SpinningLidar, FaultsBlockOrSilenceItForTheirTime) {
         for (std::size_t k = 0; k < 32; ++k) count += u16(&p.bytes[100 * block + 4 + 3 * k]) != 0 ? 1 : 0;
     return count;
   };
-  const auto clear = steps(world, 48), edge = steps(world, 3, 0.48), blocked = steps(world, 45, 0.51), again = steps(world, 50, 1.0), none = steps(world, 45, 1.51);
+  const auto clear = steps(world, 48);
+  const auto edge = steps(world, 3, 0.48), blocked = steps(world, 45, 0.51), again = steps(world, 50, 1.0), none = steps(world, 45, 1.51);
   EXPECT_GT(returns(clear), 10000);
   EXPECT_GT(blocked.size(), 300u);
   EXPECT_EQ(returns({blocked.begin() + 1, blocked.end()}), 0);
