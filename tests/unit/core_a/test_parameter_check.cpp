@@ -93,7 +93,7 @@ std::vector<Limit> limits(const berm_parameters& ok) {
       limit(SK_RULE_SEPARATION_INTRUSION, 0, 3000, FIELD(workspace_intrusion_mm)),
       limit(SK_RULE_LANE_COUNT, 0, BERM_LANES, FIELD(lanes)),
       limit(SK_RULE_SIGHT_BLIND, 50, 1000, FIELD(sight_blind_permille)),
-      limit(SK_RULE_DUST_SLOW, 1, ok.dust_stop_permille, FIELD(dust_slow_permille)),
+      limit(SK_RULE_DUST_SLOW, 1, 1000, FIELD(dust_slow_permille)),
       limit(SK_RULE_DUST_STOP, ok.dust_slow_permille, 1000, FIELD(dust_stop_permille)),
       limit(SK_RULE_DUST_SPEED, 50, 1000, FIELD(dust_speed_permille)),
       limit(SK_RULE_DUST_DWELL, 0, 60000000, FIELD(dust_dwell_us)),
