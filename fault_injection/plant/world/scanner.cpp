@@ -62,8 +62,9 @@ Scanner::Sample Scanner::measure(const Shot& shot, const Scene& scene, const Sen
     add(in_haze);
   } else {
     if (what < rate + config_.dust_probability) add(between);
-    else if (haze < air.lost + air.dust) add(in_haze);
-    add(std::max(config_.range_min, hit->range + config_.range_stddev * noise));
+    const double range = std::max(config_.range_min, hit->range + config_.range_stddev * noise);
+    if (what >= rate + config_.dust_probability && haze < air.lost + air.dust) add(std::min(in_haze, range));
+    add(range);
     note(*hit, shot.world, returns);
   }
   return s;

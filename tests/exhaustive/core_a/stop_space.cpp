@@ -21,7 +21,7 @@ sk_stop_state make(std::uint16_t code, std::uint8_t reason, std::uint8_t categor
 }  // namespace
 
 bool valid_state(const sk_stop_state& s) {
-  const bool reason_named = s.reason >= 1 && s.reason <= 21;
+  const bool reason_named = s.reason >= 1 && s.reason <= 23;
   const bool braked_or_cut = s.category == 0 || s.category == 1;
   if (s.latched != (s.rank == 2 || s.rank == 3)) return false;
   if ((s.rank == 0) == (s.reason != 0)) return false;

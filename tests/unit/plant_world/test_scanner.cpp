@@ -187,7 +187,7 @@ TEST(Scanner, ASilentScannerSendsNothingForItsTime) {
   run.steps(200, tucked);
   for (const berm_scan_packet& p : run.out)
     if (p.scanner == 1) { EXPECT_FALSE(p.time_us > 500'000 && p.time_us < 980'000) << p.time_us; }
-  EXPECT_GT(downwards(run, 1).all, 7000);
+  EXPECT_GT(downwards(run, 1).all, 6500);
 }
 
 TEST(Scanner, DustOfTheAirAddsEchoesAndLosesTargetsForItsTime) {
