@@ -108,7 +108,8 @@ void SightWatch::take(int lidar, const std::uint8_t* bytes, double swing_rad, st
     const Vlp16Firing firing = vlp16_firing(bytes, k);
     fired(lidar, firing, swung);
     if (!dual || k % kDustStep != 0) continue;  // of single return nothing tells of dust
-    for (int channel = 0; channel < kVlp16Channels; ++channel) note_return(eye_[kScanners + lidar], firing.other_mm[channel], firing.last_mm[channel], now_us);
+    sk_eye& eye = eye_[kScanners + lidar];
+    for (int channel = 0; channel < kVlp16Channels; ++channel) note_return(eye, firing.other_mm[channel], firing.last_mm[channel], now_us);
   }
 }
 
