@@ -42,6 +42,18 @@ SightWatch::SightWatch(const berm_parameters& p) : parameters_(p), line_(p) {
     mount_[i] = lidar_mount(p.lidar[i]);
     for (int degree = 0; degree < kDegrees; ++degree)
       for (int channel = 0; channel < kVlp16Channels; ++channel) kind_[i][degree][channel] = line_.of(mount_[i].place, beam(i, degree, channel));
+    choose_steps(i);
+  }
+}
+
+// A lidar whose lasers all look down has a thousand expected rays in a strip: judged by 40 that follow one another, a strip would be a degree wide.
+void SightWatch::choose_steps(int lidar) {
+  constexpr int kDegreesAStrip = kDegrees / SK_SIGHT_STRIPS;
+  for (int strip = 0; strip < SK_SIGHT_STRIPS; ++strip) {
+    std::uint32_t rays = 0;
+    for (int degree = strip * kDegreesAStrip; degree < (strip + 1) * kDegreesAStrip; ++degree)
+      for (const std::uint8_t kind : kind_[lidar][degree]) rays += kind != SightLine::kOpen ? 1000U / kVlp16FiringMdeg : 0U;
+    step_[lidar][strip] = std::max(rays / kRaysATurn, 1U);
   }
 }
 
@@ -76,18 +88,15 @@ void SightWatch::take(const berm_scan_packet& packet, double swing_rad, std::int
   }
 }
 
-void SightWatch::fired(int lidar, const Vlp16Firing& firing, bool dual, const Swung& swung, std::int64_t now_us) {
-  sk_eye& eye = eye_[kScanners + lidar];
+void SightWatch::fired(int lidar, const Vlp16Firing& firing, const Swung& swung) {
   const int degree = static_cast<int>(firing.azimuth_mdeg / 1000) % kDegrees;
-  const auto strip = static_cast<std::int32_t>(firing.azimuth_mdeg / kLidarStripMdeg);
+  const auto strip = static_cast<std::int32_t>(firing.azimuth_mdeg / kLidarStripMdeg) % SK_SIGHT_STRIPS;
+  if (firings_[lidar]++ % step_[lidar][strip] != 0) return;
   for (int channel = 0; channel < kVlp16Channels; ++channel) {
-    const std::int32_t last_mm = firing.last_mm[channel];
-    // Of single return nothing tells of dust.
-    if (dual) note_return(eye, firing.other_mm[channel], last_mm, now_us);
     const std::uint8_t kind = kind_[lidar][degree][channel];
     if (kind == SightLine::kOpen) continue;
     if (kind == SightLine::kOverTracks && line_.over_tracks(mount_[lidar].place, beam(lidar, degree, channel), swung.cosine, swung.sine)) continue;
-    sk_eye_ray(&eye, strip, sk_ray_blind(last_mm), parameters_.sight_blind_permille);
+    sk_eye_ray(&eye_[kScanners + lidar], strip, sk_ray_blind(firing.last_mm[channel]), parameters_.sight_blind_permille);
   }
 }
 
@@ -95,7 +104,13 @@ void SightWatch::take(int lidar, const std::uint8_t* bytes, double swing_rad, st
   if (lidar < 0 || lidar >= BERM_LIDARS) return;
   const bool dual = vlp16_is_dual(bytes);
   const Swung swung{std::cos(swing_rad), std::sin(swing_rad)};
-  for (int firing = 0; firing < vlp16_firings(bytes); firing += kFiringStep) fired(lidar, vlp16_firing(bytes, firing), dual, swung, now_us);
+  for (int k = 0; k < vlp16_firings(bytes); ++k) {
+    const Vlp16Firing firing = vlp16_firing(bytes, k);
+    fired(lidar, firing, swung);
+    if (!dual || k % kDustStep != 0) continue;  // of single return nothing tells of dust
+    sk_eye& eye = eye_[kScanners + lidar];
+    for (int channel = 0; channel < kVlp16Channels; ++channel) note_return(eye, firing.other_mm[channel], firing.last_mm[channel], now_us);
+  }
 }
 
 void SightWatch::step(std::int64_t now_us) {

@@ -19,7 +19,8 @@ class SightWatch {
   static constexpr int kScanners = BERM_SCANNER_MOUNTS;
   static constexpr int kEyes = kScanners + BERM_LIDARS;  // eyes: the scanners, then the lidars
   static constexpr int kScannerStrips = 12;              // of the mirror's circle, 30 degrees each; a lidar's: 15 degrees of azimuth
-  static constexpr int kFiringStep = 2;                  // of a lidar's firings every second is looked at
+  static constexpr int kDustStep = 2;                    // of a lidar's firings every second tells of dust
+  static constexpr int kRaysATurn = 60;                  // expected of a lidar's strip, at least, where it has so many: 40 are then most of a strip
 
   explicit SightWatch(const berm_parameters& parameters);
 
@@ -46,7 +47,8 @@ class SightWatch {
     double cosine, sine;
   };
   Eigen::Vector3d beam(int lidar, int degree, int channel) const;
-  void fired(int lidar, const Vlp16Firing& firing, bool dual, const Swung& swung, std::int64_t now_us);
+  void choose_steps(int lidar);
+  void fired(int lidar, const Vlp16Firing& firing, const Swung& swung);
 
   const berm_parameters& parameters_;
   const SightLine line_;
@@ -54,6 +56,8 @@ class SightWatch {
   Eigen::Vector3d head_[kScanners];
   LidarMount mount_[BERM_LIDARS];
   std::uint8_t kind_[BERM_LIDARS][kDegrees][kVlp16Channels];  // SightLine::Kind of the middle of a degree of azimuth
+  std::uint32_t step_[BERM_LIDARS][SK_SIGHT_STRIPS];          // of the firings in a strip, one in so many is looked at
+  std::uint32_t firings_[BERM_LIDARS] = {};                   // since start, wrapping
   sk_eye eye_[kEyes];
   sk_dust dust_state_{};
   std::uint32_t blocked_eyes_ = 0;

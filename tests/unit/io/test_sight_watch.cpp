@@ -115,6 +115,28 @@ TEST_F(SightWatchTest, ACoveredLidarIsFoundWithinAQuarterOfASecondAlsoInPart) {
   }
 }
 
+// All its lasers look down: what counts is the share of the strip, not the newest degree of it.
+// verifies: SK-SI-5
+TEST_F(SightWatchTest, ALidarThatSendsASectorIsJudgedByWholeStrips) {
+  parameters.lidars = 1;
+  parameters.lidar[0] = {-2650, 1400, 3400, 0, berm::test::urad(80), berm::test::urad(145)};
+  renew();
+  const LidarMount mount = lidar_mount(parameters.lidar[0]);
+  const auto sector = [&](double low, double high) {
+    return [&mount, low, high](double azimuth, int channel) {
+      const double z = beam_z(mount, azimuth, channel), from_middle = std::min(azimuth, 360.0 - azimuth);
+      return from_middle > 80.0 || (azimuth >= low && azimuth < high) || z > -0.03 ? Shot{} : Shot{{3400.0 / -z, 0.0}};
+    };
+  };
+  for (int k = 0; k < 20; ++k) turn(0, false, 0.0, sector(0.0, 0.0));
+  EXPECT_FALSE(watch->blocked()) << "beyond its sector nothing is sent";
+  for (int k = 0; k < 20; ++k) turn(0, false, 0.0, sector(33.0, 36.0));
+  EXPECT_FALSE(watch->blocked()) << "three degrees of a strip";
+  turn(0, false, 0.0, sector(30.0, 45.0));
+  turn(0, false, 0.0, sector(30.0, 45.0));
+  EXPECT_TRUE(watch->blocked());
+}
+
 // verifies: SK-SI-5
 TEST_F(SightWatchTest, ALidarLowOverTheTracksIsJudgedOnlyBesideThem) {
   ring();
