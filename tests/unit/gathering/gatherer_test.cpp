@@ -17,7 +17,7 @@ KinematicChain upright() { return KinematicChain({{0, 1.0, 0, kPi / 2, DhLink::J
 
 std::vector<PolarReturn> arc(double range, double from = -0.3, double to = 0.3, double step = 0.01) {
   std::vector<PolarReturn> out;
-  for (double angle = from; angle < to; angle += step) out.push_back({angle, range});
+  for (int i = 0; i < static_cast<int>(std::lround((to - from) / step)); ++i) out.push_back({from + i * step, range});
   return out;
 }
 
