@@ -11,9 +11,9 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-class Draw {
+class UniformDraw {
 public:
-  explicit Draw(unsigned seed) : engine_(seed) {}
+  explicit UniformDraw(unsigned seed) : engine_(seed) {}
   double operator()(double low, double high) { return low + (high - low) * std::uniform_real_distribution<double>()(engine_); }
 
 private:
@@ -30,7 +30,7 @@ struct Scan {
 };
 
 // Two scans of a pan about an axis that is lever away from the optical centre; ranges rise and fall smoothly, and jump now and then.
-std::pair<Scan, Scan> scans(Draw& draw, double lever, double turn, double field_rad) {
+std::pair<Scan, Scan> two_scans(UniformDraw& draw, double lever, double turn, double field_rad) {
   Isometry3d base = Isometry3d::Identity();
   base.linear() = Eigen::Quaterniond(draw(-1, 1), draw(-1, 1), draw(-1, 1), draw(-1, 1)).normalized().toRotationMatrix();
   base.translation() = Vector3d(draw(-2, 2), draw(-2, 2), draw(-2, 2));
@@ -84,10 +84,10 @@ DeletionRule bare() {  // nothing shrunk or widened, gaps looked through
 }
 
 void against_brute_force(double lever, double field, double tolerance) {
-  Draw draw(11);
+  UniformDraw draw(11);
   int inside = 0, outside = 0, differ = 0;
   for (int scene = 0; scene < 20; ++scene) {
-    const auto [a, b] = scans(draw, lever, draw(0.005, 0.04), field);
+    const auto [a, b] = two_scans(draw, lever, draw(0.005, 0.04), field);
     DeletionVolume volume;
     volume.build(a.frame, a.returns, b.frame, b.returns, bare());
     ASSERT_FALSE(volume.empty());
@@ -150,7 +150,7 @@ TEST(DeletionVolume, ShrinkAndGaps) {
 
 // The search through the blocks finds exactly what the test of every point finds.
 TEST(DeletionVolume, SearchThroughBlocksMissesNothing) {
-  Draw draw(12);
+  UniformDraw draw(12);
   std::uint64_t total = 0;
   for (int scene = 0; scene < 30; ++scene) {
     GatheringOptions options;
@@ -163,7 +163,7 @@ TEST(DeletionVolume, SearchThroughBlocksMissesNothing) {
     for (int i = 0; i < 4000; ++i)
       cloud.push_back({static_cast<float>(draw(-extent, extent)), static_cast<float>(draw(-extent, extent)), static_cast<float>(draw(-extent, extent)), 0, 0});
     gatherer.add_points(filler, Isometry3d::Identity(), Vector3d::Zero(), cloud, 0.0);
-    const auto [a, b] = scans(draw, 0.1, draw(0.005, 0.04), 3.0);
+    const auto [a, b] = two_scans(draw, 0.1, draw(0.005, 0.04), 3.0);
     gatherer.add_scan(scanner, a.frame, a.returns, 0.1);
     DeletionVolume volume;
     volume.build(a.frame, a.returns, b.frame, b.returns,

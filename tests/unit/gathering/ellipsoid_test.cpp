@@ -18,9 +18,9 @@ Covariance covariance(const Eigen::Matrix3d& m) {
           static_cast<float>(m(1, 1)), static_cast<float>(m(1, 2)), static_cast<float>(m(2, 2))};
 }
 
-class Draw {
+class GaussianDraw {
 public:
-  explicit Draw(unsigned seed) : engine_(seed) {}
+  explicit GaussianDraw(unsigned seed) : engine_(seed) {}
   double normal() { return normal_(engine_); }
   double uniform(double low, double high) { return low + (high - low) * std::uniform_real_distribution<double>()(engine_); }
   Eigen::Vector3d vector() { return {normal(), normal(), normal()}; }
@@ -39,7 +39,7 @@ private:
 // Ranges and angles are disturbed and the points placed through sines and cosines; their spread is what the first-order covariance says.
 TEST(ErrorEllipsoid, MonteCarloOfRangeAndAngles) {
   const ScannerDeviations deviations{0.03, 0.004, 0.009};
-  Draw draw(1);
+  GaussianDraw draw(1);
   for (int scene = 0; scene < 5; ++scene) {
     const Eigen::Matrix3d frame = draw.rotation();
     const double range = draw.uniform(1.0, 20.0), angle = draw.uniform(-2.0, 2.0);
@@ -82,7 +82,7 @@ bool overlap_by_distance(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b, con
 }
 
 TEST(ErrorEllipsoid, OverlapAgainstDistance) {
-  Draw draw(2);
+  GaussianDraw draw(2);
   int overlapping = 0, decided = 0;
   for (int i = 0; i < 4000; ++i) {
     const Eigen::Matrix3d a = draw.spread(), b = draw.spread();
@@ -111,7 +111,7 @@ TEST(ErrorEllipsoid, SpheresTouchWhereTheirRadiiAddUp) {
 
 // Two measurements of one place are drawn again and again: the merged point's errors are what its covariance says, and smaller than either's.
 TEST(ErrorEllipsoid, MonteCarloOfMerging) {
-  Draw draw(3);
+  GaussianDraw draw(3);
   for (int scene = 0; scene < 4; ++scene) {
     const Eigen::Matrix3d a = draw.spread(), b = draw.spread(), root_a = a.llt().matrixL(), root_b = b.llt().matrixL();
     Eigen::Matrix3d seen = Eigen::Matrix3d::Zero(), said = seen;

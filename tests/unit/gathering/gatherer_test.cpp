@@ -10,10 +10,10 @@
 namespace berm::app {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kUpright = 1.5707963267948966;
 
 // A scanner 1 m above the axis of its pan, its plane upright.
-KinematicChain upright() { return KinematicChain({{0, 1.0, 0, kPi / 2, DhLink::Joint::kRevolute, 0}}); }
+KinematicChain upright() { return KinematicChain({{0, 1.0, 0, kUpright, DhLink::Joint::kRevolute, 0}}); }
 
 std::vector<PolarReturn> arc(double range, double from = -0.3, double to = 0.3, double step = 0.01) {
   std::vector<PolarReturn> out;
