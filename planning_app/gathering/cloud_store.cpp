@@ -16,7 +16,8 @@ std::size_t hash_of(const std::array<std::int32_t, 3>& key) {
 }  // namespace
 
 CloudStore::CloudStore(double voxel_m, std::size_t capacity) : voxel_(voxel_m), inverse_voxel_(1.0 / voxel_m), capacity_(capacity) {
-  if (!(voxel_m >= 0.01) || capacity == 0 || capacity >= kNone) throw std::invalid_argument("cloud store: voxel of at least 0.01 m and 1 to 2^32 - 2 points");
+  if (!(voxel_m >= 0.01) || capacity == 0 || capacity >= kNone)
+    throw std::invalid_argument("cloud store: voxel of at least 0.01 m and 1 to 2^32 - 2 points");
   rehash(64);
 }
 

@@ -1,4 +1,5 @@
-// The gathered points: contiguous arrays, found by place through a hash of blocks of 4 x 4 x 4 voxels. No allocation for a point: arrays grow by halves.
+// The gathered points: contiguous arrays, found by place through a hash of blocks of 4 x 4 x 4 voxels.
+// No allocation for a point: arrays grow by halves.
 #pragma once
 
 #include <array>

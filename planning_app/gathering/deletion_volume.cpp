@@ -11,8 +11,8 @@ void DeletionVolume::shrink(std::span<const PolarReturn> scan, const DeletionRul
   for (std::size_t i = 0; i < scan.size(); ++i) {
     double aslant = 0.0;
     for (const std::size_t j : {i == 0 ? i : i - 1, i + 1 == scan.size() ? i : i + 1}) {
-      const double gap = std::abs(scan[j].angle_rad - scan[i].angle_rad), drop = scan[i].range_m - scan[j].range_m;
-      if (j != i && gap <= rule.max_gap_rad) aslant = std::max(aslant, std::min(std::abs(drop), rule.quantile * rule.along_rad * std::abs(drop) / gap));
+      const double gap = std::abs(scan[j].angle_rad - scan[i].angle_rad), drop = std::abs(scan[i].range_m - scan[j].range_m);
+      if (j != i && gap <= rule.max_gap_rad) aslant = std::max(aslant, std::min(drop, rule.quantile * rule.along_rad * drop / gap));
     }
     out[i] = std::max(1e-3, scan[i].range_m - rule.shrink_m - std::hypot(rule.quantile * rule.range_m, aslant));
   }
@@ -63,8 +63,8 @@ void DeletionVolume::build(const Eigen::Isometry3d& first_frame, std::span<const
     const double pull = std::min(std::abs(a - b), rule.quantile * rule.across_rad * std::abs(a - b) / across);
     (a > b ? a : b) -= pull;
     const bool last_first = i + 1 == first.size(), last_second = j + 1 == second.size();
-    Edge edge{static_cast<float>(first[i].angle_rad), static_cast<float>(second[j].angle_rad), static_cast<float>(1.0 / a), static_cast<float>(1.0 / b),
-              std::abs(first[i].angle_rad - second[j].angle_rad) > rule.max_gap_rad};
+    Edge edge{static_cast<float>(first[i].angle_rad), static_cast<float>(second[j].angle_rad), static_cast<float>(1.0 / a),
+              static_cast<float>(1.0 / b), std::abs(first[i].angle_rad - second[j].angle_rad) > rule.max_gap_rad};
     if (!edges_.empty() && edge.open) edges_.back().open = true;
     if (last_first && last_second) {
       edges_.push_back(edge);
@@ -94,12 +94,13 @@ bool DeletionVolume::contains(double x, double y, double z) const {
   const Eigen::Vector3d ray = p - origin_first_ - share * origin_step_;
   const double right = ray.dot(x_first_ + share * x_step_), up = ray.dot(y_first_ + share * y_step_);
   const double angle = std::atan2(up, right), range = std::hypot(up, right);
-  const auto angle_of = [share](const Edge& e) { return static_cast<double>(e.angle_first) + share * static_cast<double>(e.angle_second - e.angle_first); };
+  const auto at_share = [share](float first, float second) { return static_cast<double>(first) + share * static_cast<double>(second - first); };
+  const auto angle_of = [&](const Edge& e) { return at_share(e.angle_first, e.angle_second); };
   const auto above = std::upper_bound(edges_.begin(), edges_.end(), angle, [&](double value, const Edge& e) { return value < angle_of(e); });
   if (above == edges_.begin() || above == edges_.end()) return false;
   const Edge &low = *(above - 1), &high = *above;
   if (low.open) return false;
-  const auto inverse_of = [share](const Edge& e) { return static_cast<double>(e.inverse_first) + share * static_cast<double>(e.inverse_second - e.inverse_first); };
+  const auto inverse_of = [&](const Edge& e) { return at_share(e.inverse_first, e.inverse_second); };
   const double from = angle_of(low), to = angle_of(high);
   const double part = to > from ? (angle - from) / (to - from) : 0.0;
   const double inverse = inverse_of(low) + part * (inverse_of(high) - inverse_of(low));

@@ -7,7 +7,8 @@
 namespace berm::app {
 
 struct EpochRule {
-  double still_rad = 5e-4;  // turns less than this from scan to scan are standstill
+  double still_rad = 5e-4;     // turns less than this from scan to scan are standstill
+  double reversal_rad = 2e-3;  // turned back so far is a reversal, less is the encoder's unrest
 };
 
 class EpochCounter {
@@ -21,9 +22,10 @@ public:
 private:
   EpochRule rule_;
   std::optional<Eigen::Matrix3d> orientation_;
-  Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();  // of the last turn that was none of standstill
+  Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();  // of the epoch's turn; none after standstill
   double turn_rad_ = 0.0;
   double in_epoch_rad_ = 0.0;
+  double back_rad_ = 0.0;  // turned back against direction_
 };
 
 }  // namespace berm::app

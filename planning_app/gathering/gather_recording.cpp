@@ -21,7 +21,6 @@ std::size_t gather_recording(const PointCloud& recording, std::size_t scanner, c
     } else {
       ++unplanned;
       gatherer.add_points(scanner, mount, origin, scanline, scanline.front().time_s);
-      before.reset();
     }
     begin = end;
     if (progress) progress(begin);

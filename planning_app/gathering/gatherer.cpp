@@ -39,7 +39,7 @@ void PointCloudGatherer::take_valid(std::span<const PolarReturn> returns) {
   valid_.clear();
   double last = -1e9;
   for (const PolarReturn& p : returns) {
-    const bool usable = std::isfinite(p.angle_rad) && p.range_m > 1e-3 && p.range_m <= options_.range_limit_m && p.angle_rad > last;
+    const bool usable = std::isfinite(p.angle_rad) && p.angle_rad > last && p.range_m > 1e-3 && p.range_m <= options_.range_limit_m;
     if (!usable) {
       ++counts_.ignored;
       continue;
@@ -58,8 +58,8 @@ void PointCloudGatherer::add_scan(std::size_t number, const Eigen::Isometry3d& f
   scan_time_s_.push_back(time_s);
   take_valid(returns);
   if (scanner.has_scan) {
-    const DeletionRule rule{options_.shrink_m,   options_.quantile,    scanner.deviations.range_m, scanner.deviations.along_rad, scanner.deviations.across_rad,
-                            options_.max_gap_rad, options_.max_turn_rad};
+    const ScannerDeviations& d = scanner.deviations;
+    const DeletionRule rule{options_.shrink_m, options_.quantile, d.range_m, d.along_rad, d.across_rad, options_.max_gap_rad, options_.max_turn_rad};
     volume_.build(scanner.frame, scanner.returns, frame, valid_, rule);
     if (!volume_.empty()) delete_passed();
   }
@@ -69,15 +69,16 @@ void PointCloudGatherer::add_scan(std::size_t number, const Eigen::Isometry3d& f
   scanner.returns.swap(valid_);
 }
 
-void PointCloudGatherer::add_points(std::size_t number, const Eigen::Isometry3d& mount, const Eigen::Vector3d& origin, std::span<const ScanPoint> points,
-                                    double time_s) {
+void PointCloudGatherer::add_points(std::size_t number, const Eigen::Isometry3d& mount, const Eigen::Vector3d& origin,
+                                    std::span<const ScanPoint> points, double time_s) {
   Scanner& scanner = scanners_.at(number);
   ++counts_.scans;
   counts_.points_in += points.size();
   if (scanner.epoch == 0) scanner.epoch = ++epoch_;
   scan_time_s_.push_back(time_s);
   for (const ScanPoint& p : points) {
-    const Eigen::Vector3d ray = mount.linear() * (Eigen::Vector3d(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)) - origin);
+    const Eigen::Vector3d place(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
+    const Eigen::Vector3d ray = mount.linear() * (place - origin);
     const double range = ray.norm();
     if (range > 1e-3 && range <= options_.range_limit_m) insert(scanner, frame_of_beam(mount * origin, ray), {0.0, range});
     else ++counts_.ignored;
@@ -164,8 +165,8 @@ void PointCloudGatherer::insert(const Scanner& scanner, const Eigen::Isometry3d&
   }
   const GatheredPoint& old = store_[best];
   const FusedPoint fused = fuse_points(old.covariance, fresh.covariance, best_between, options_.least_m);
-  const GatheredPoint merged{old.x + static_cast<float>(fused.shift[0]), old.y + static_cast<float>(fused.shift[1]), old.z + static_cast<float>(fused.shift[2]),
-                             fused.covariance, fresh.scan, CloudStore::kNone};
+  const GatheredPoint merged{old.x + static_cast<float>(fused.shift[0]), old.y + static_cast<float>(fused.shift[1]),
+                             old.z + static_cast<float>(fused.shift[2]), fused.covariance, fresh.scan, CloudStore::kNone};
   store_.move(best, merged, std::max(store_.epoch(best), scanner.epoch));
   ++counts_.merged;
 }

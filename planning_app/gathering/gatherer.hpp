@@ -39,13 +39,13 @@ public:
   // Returns the scanner's number. chain may stay empty when poses are given with the scans.
   std::size_t add_scanner(const ScannerDeviations& deviations, KinematicChain chain = {});
 
-  // One turn of the mirror; joint_values by encoder number. Returns that are not finite, not positive, beyond the range limit or not in rising angle
-  // are counted as ignored. Throws std::out_of_range for an unknown scanner or a missing encoder.
+  // One turn of the mirror; joint_values by encoder number. Returns that are not finite, not positive, beyond the range limit or not in rising
+  // angle are counted as ignored. Throws std::out_of_range for an unknown scanner or a missing encoder.
   void add_scan(std::size_t scanner, std::span<const double> joint_values, std::span<const PolarReturn> returns, double time_s);
   void add_scan(std::size_t scanner, const Eigen::Isometry3d& frame, std::span<const PolarReturn> returns, double time_s);
 
-  // Points of a scan whose plane is not known, and the place of the optical centre, both in a frame that mount takes to the cloud's: merged or kept in the
-  // scanner's epoch; nothing is deleted for them, nor between this scan and the next.
+  // Points of a scan whose plane is not known, and the place of the optical centre, both in a frame that mount takes to the cloud's: merged or kept
+  // in the scanner's epoch; nothing is deleted for them, nor between this scan and the next.
   void add_points(std::size_t scanner, const Eigen::Isometry3d& mount, const Eigen::Vector3d& origin, std::span<const ScanPoint> points, double time_s);
 
   // The vehicle was moved: everything is forgotten (zolynski-2012, 2.3).

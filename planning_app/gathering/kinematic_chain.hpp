@@ -19,8 +19,8 @@ struct DhLink {
 // The transform of one link at a joint's value.
 Eigen::Isometry3d dh_transform(const DhLink& link, double joint_value);
 
-// From the cloud's frame to a scanner's: in the scanner's frame x points along the beam of angle 0, y along that of 90 degrees, z along the normal of the
-// scan plane; the origin is the optical centre.
+// From the cloud's frame to a scanner's: in the scanner's frame x points along the beam of angle 0, y along that of 90 degrees, z along the normal of
+// the scan plane; the origin is the optical centre.
 class KinematicChain {
 public:
   KinematicChain() = default;

@@ -7,7 +7,7 @@
 namespace berm::app {
 
 std::optional<PlanarScan> fit_scan(std::span<const ScanPoint> points, const Eigen::Vector3d& origin, const Eigen::Isometry3d* before) {
-  constexpr double kOffPlane = 0.035, kSpread = 1e-3;  // radians
+  constexpr double kOffPlane = 0.035, kSpread = 0.05;  // radians
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> rays;

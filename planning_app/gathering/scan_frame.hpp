@@ -17,7 +17,7 @@ struct PlanarScan {
 };
 
 // origin: the optical centre in the points' frame, metres. before: the frame of the scanline before, whose angle 0 and side of the normal are kept.
-// None when the beams lie along fewer than two directions, or the points are more than 2 degrees (root mean square) off any plane through origin.
+// None when the beams spread less than 3 degrees (root mean square: the plane would not be certain), or lie more than 2 degrees off any plane.
 std::optional<PlanarScan> fit_scan(std::span<const ScanPoint> points, const Eigen::Vector3d& origin, const Eigen::Isometry3d* before);
 
 }  // namespace berm::app

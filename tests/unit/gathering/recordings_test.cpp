@@ -31,7 +31,7 @@ TEST(RealRecordings, LaserSessionGathers) {
   const std::string path = real_data("lms111/20210302_lms111.pcapng.json");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "SKIPPED: no " << path << " (BERM_REAL_DATA)";
   const PointCloud recording = read_recording(path);
-  PointCloudGatherer gatherer(GatheringOptions{});
+  PointCloudGatherer gatherer(GatheringOptions{.epoch = kEpochRuleOfRecordings});
   gatherer.add_scanner({});
   EXPECT_EQ(gather_recording(recording, 0, Eigen::Isometry3d::Identity(), gatherer), 0U);
   account(gatherer, recording.points.size());
@@ -50,7 +50,7 @@ TEST(RealRecordings, VelodyneCaptureGathers) {
   const std::string path = real_data("vlp16_dual_return/vlp16_dual_return.pcap");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "SKIPPED: no " << path << " (BERM_REAL_DATA)";
   const PointCloud recording = read_recording(path);
-  PointCloudGatherer gatherer(GatheringOptions{});
+  PointCloudGatherer gatherer(GatheringOptions{.epoch = kEpochRuleOfRecordings});
   gatherer.add_scanner({0.03, 0.0015, 0.0035});
   Eigen::Isometry3d mount = Eigen::Isometry3d::Identity();
   mount.translation().z() = 1.8;
@@ -66,7 +66,7 @@ TEST(RealRecordings, TerrainWithoutScanlinesIsKept) {
   const std::string path = real_data("site_terrain/terrain_xyz.pcd");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "SKIPPED: no " << path << " (BERM_REAL_DATA)";
   const PointCloud recording = read_recording(path);
-  PointCloudGatherer gatherer(GatheringOptions{});
+  PointCloudGatherer gatherer(GatheringOptions{.epoch = kEpochRuleOfRecordings});
   gatherer.add_scanner({});
   EXPECT_EQ(gather_recording(recording, 0, Eigen::Isometry3d::Identity(), gatherer), 1U);
   account(gatherer, recording.points.size());
