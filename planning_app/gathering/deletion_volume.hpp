@@ -35,8 +35,8 @@ public:
   bool empty() const { return edges_.size() < 2; }
   // Bounds for a search: nothing of the volume is outside the box, nor farther than slab_half_width of its range from the plane in the middle.
   const Eigen::AlignedBox3d& box() const { return box_; }
-  const Eigen::Vector3d& origin() const { return origin_; }   // halfway
-  const Eigen::Vector3d& normal() const { return normal_; }   // of the plane in the middle
+  const Eigen::Vector3d& origin() const { return origin_; }  // halfway
+  const Eigen::Vector3d& normal() const { return normal_; }  // of the plane in the middle
   double slab_half_width(double range_m) const { return slab_offset_ + slab_slope_ * range_m; }
 
 private:

@@ -90,7 +90,7 @@ FusedPoint fuse_points(const Covariance& a, const Covariance& b, const Vector3& 
   const Vector3 cx = column({first.xx, first.xy, first.xz}), cy = column({first.xy, first.yy, first.yz}), cz = column({first.xz, first.yz, first.zz});
   const double least = least_m * least_m;
   const auto diagonal = [&](double value) { return static_cast<float>(std::max(value, least)); };
-  out.covariance = {diagonal(first.xx - cx[0] / determinant), static_cast<float>(first.xy - cx[1] / determinant),
+  out.covariance = {diagonal(first.xx - cx[0] / determinant),           static_cast<float>(first.xy - cx[1] / determinant),
                     static_cast<float>(first.xz - cx[2] / determinant), diagonal(first.yy - cy[1] / determinant),
                     static_cast<float>(first.yz - cy[2] / determinant), diagonal(first.zz - cz[2] / determinant)};
   return out;

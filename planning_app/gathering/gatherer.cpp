@@ -80,15 +80,18 @@ void PointCloudGatherer::add_points(std::size_t number, const Eigen::Isometry3d&
     const Eigen::Vector3d place(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
     const Eigen::Vector3d ray = mount.linear() * (place - origin);
     const double range = ray.norm();
-    if (range > 1e-3 && range <= options_.range_limit_m) insert(scanner, frame_of_beam(mount * origin, ray), {0.0, range});
-    else ++counts_.ignored;
+    if (range > 1e-3 && range <= options_.range_limit_m)
+      insert(scanner, frame_of_beam(mount * origin, ray), {0.0, range});
+    else
+      ++counts_.ignored;
   }
   scanner.has_scan = false;
 }
 
 void PointCloudGatherer::delete_in_block(const CloudStore::Block& block) {
   for (std::uint64_t left = block.occupied; left != 0; left &= left - 1)
-    for (std::uint32_t index = block.first[static_cast<std::size_t>(std::countr_zero(left))]; index != CloudStore::kNone; index = store_[index].next) {
+    for (std::uint32_t index = block.first[static_cast<std::size_t>(std::countr_zero(left))]; index != CloudStore::kNone;
+         index = store_[index].next) {
       const GatheredPoint& p = store_[index];
       if (volume_.contains(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z))) passed_.push_back(index);
     }
@@ -138,9 +141,12 @@ void PointCloudGatherer::insert(const Scanner& scanner, const Eigen::Isometry3d&
     ++counts_.ignored;
     return;
   }
-  GatheredPoint fresh{static_cast<float>(place[0]), static_cast<float>(place[1]), static_cast<float>(place[2]),
+  GatheredPoint fresh{static_cast<float>(place[0]),
+                      static_cast<float>(place[1]),
+                      static_cast<float>(place[2]),
                       point_covariance(scanner.deviations, p.range_m, {direction[0], direction[1], direction[2]}, {across[0], across[1], across[2]}),
-                      static_cast<std::uint32_t>(scan_time_s_.size() - 1), CloudStore::kNone};
+                      static_cast<std::uint32_t>(scan_time_s_.size() - 1),
+                      CloudStore::kNone};
   const double own_width = largest_half_width(fresh.covariance, options_.quantile);
   widest_m_ = std::max(widest_m_, own_width);
   const auto half = [&](float variance) { return options_.quantile * std::sqrt(static_cast<double>(variance)) + widest_m_; };
@@ -165,8 +171,12 @@ void PointCloudGatherer::insert(const Scanner& scanner, const Eigen::Isometry3d&
   }
   const GatheredPoint& old = store_[best];
   const FusedPoint fused = fuse_points(old.covariance, fresh.covariance, best_between, options_.least_m);
-  const GatheredPoint merged{old.x + static_cast<float>(fused.shift[0]), old.y + static_cast<float>(fused.shift[1]),
-                             old.z + static_cast<float>(fused.shift[2]), fused.covariance, fresh.scan, CloudStore::kNone};
+  const GatheredPoint merged{old.x + static_cast<float>(fused.shift[0]),
+                             old.y + static_cast<float>(fused.shift[1]),
+                             old.z + static_cast<float>(fused.shift[2]),
+                             fused.covariance,
+                             fresh.scan,
+                             CloudStore::kNone};
   store_.move(best, merged, std::max(store_.epoch(best), scanner.epoch));
   ++counts_.merged;
 }

@@ -19,8 +19,8 @@ struct GatheringOptions {
   double quantile = 2.0;             // of the error volumes, in standard deviations
   double least_m = 0.005;            // no deviation of a merged point gets smaller
   double voxel_m = 0.15;
-  double range_limit_m = 100.0;      // farther returns are not used
-  double shrink_m = 0.05;            // of the deletion volume, beside the deviations
+  double range_limit_m = 100.0;  // farther returns are not used
+  double shrink_m = 0.05;        // of the deletion volume, beside the deviations
   double max_gap_rad = 0.045;
   double max_turn_rad = 0.045;
   EpochRule epoch{};
@@ -46,7 +46,8 @@ public:
 
   // Points of a scan whose plane is not known, and the place of the optical centre, both in a frame that mount takes to the cloud's: merged or kept
   // in the scanner's epoch; nothing is deleted for them, nor between this scan and the next.
-  void add_points(std::size_t scanner, const Eigen::Isometry3d& mount, const Eigen::Vector3d& origin, std::span<const ScanPoint> points, double time_s);
+  void add_points(std::size_t scanner, const Eigen::Isometry3d& mount, const Eigen::Vector3d& origin, std::span<const ScanPoint> points,
+                  double time_s);
 
   // The vehicle was moved: everything is forgotten (zolynski-2012, 2.3).
   void clear();

@@ -68,18 +68,19 @@ int run(const Options& options) {
   const double rate = static_cast<double>(counts.points_in) / std::max(seconds, 1e-9);
   const std::size_t kept = gatherer.store().size();
   if (!options.json.empty()) {
-    const nlohmann::json result{{"files", options.files},       {"scans", counts.scans},     {"points_in", counts.points_in},     {"points_kept", kept},
-                                {"deleted", counts.deleted},    {"merged", counts.merged},   {"overflowed", counts.overflowed},   {"ignored", counts.ignored},
-                                {"scans_without_plane", unplanned}, {"epochs", gatherer.epoch()}, {"points_per_second", rate}, {"bytes", gatherer.bytes()}};
+    const nlohmann::json result{
+        {"files", options.files},           {"scans", counts.scans},      {"points_in", counts.points_in},   {"points_kept", kept},
+        {"deleted", counts.deleted},        {"merged", counts.merged},    {"overflowed", counts.overflowed}, {"ignored", counts.ignored},
+        {"scans_without_plane", unplanned}, {"epochs", gatherer.epoch()}, {"points_per_second", rate},       {"bytes", gatherer.bytes()}};
     write_file_bytes(options.json, result.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   }
   const auto points = gatherer.points();
   if (!options.pcd.empty()) write_pcd(options.pcd, points);
   fmt::print("{} scans, {} points in: {} kept, {} merged, {} deleted, {} overflowed, {} ignored; {:.0f} points/s, {:.1f} MB\n", counts.scans,
-             counts.points_in, kept, counts.merged, counts.deleted, counts.overflowed, counts.ignored, rate, static_cast<double>(gatherer.bytes()) * 1e-6);
+             counts.points_in, kept, counts.merged, counts.deleted, counts.overflowed, counts.ignored, rate,
+             static_cast<double>(gatherer.bytes()) * 1e-6);
   if (unplanned > 0) fmt::print("{} scans are no plane through the scanner: merged, and nothing deleted for them\n", unplanned);
-  if (!options.picture.empty())
-    fmt::print("picture: {} (grid {:g} m)\n", options.picture, write_cloud_picture(options.picture, points));
+  if (!options.picture.empty()) fmt::print("picture: {} (grid {:g} m)\n", options.picture, write_cloud_picture(options.picture, points));
   return kept > 0 ? 0 : 1;
 }
 
@@ -88,28 +89,38 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   berm::app::Options options;
-  CLI::App app{"Gathers recorded scans into one point cloud: merges what is measured again, deletes what was seen through. A FILE is a PCD with "
-               "scanline and time, a capture (pcap) of a VLP-16, or a JSON export of an LMS1xx session; files are played one after another. Exit status 1: no point was kept.",
-               "berm gather"};
+  CLI::App app{
+      "Gathers recorded scans into one point cloud: merges what is measured again, deletes what was seen through. A FILE is a PCD with "
+      "scanline and time, a capture (pcap) of a VLP-16, or a JSON export of an LMS1xx session; files are played one after another. Exit status 1: no "
+      "point was kept.",
+      "berm gather"};
   app.add_option("FILE", options.files, "recordings, each of a scanner of its own")->required();
-  app.add_option("--json", options.json, "write scans, points_in, points_kept, deleted, merged, overflowed, ignored, scans_without_plane, epochs, "
+  app.add_option("--json", options.json,
+                 "write scans, points_in, points_kept, deleted, merged, overflowed, ignored, scans_without_plane, epochs, "
                  "points_per_second, bytes");
   app.add_option("--pcd", options.pcd, "write the cloud");
   app.add_option("--picture", options.picture, "write a view from above (PNG)");
-  app.add_option("--mount", options.mounts, "a scanner's place in the cloud's frame: x,y,z in metres, yaw in degrees; once for all files or once for each")
+  app.add_option("--mount", options.mounts,
+                 "a scanner's place in the cloud's frame: x,y,z in metres, yaw in degrees; once for all files or once for each")
       ->take_all();
   app.add_option("--capacity", options.gathering.capacity, "points kept at most; the lowest epochs go first")
-      ->capture_default_str()->check(CLI::Range(1, 200'000'000));
+      ->capture_default_str()
+      ->check(CLI::Range(1, 200'000'000));
   app.add_option("--range-limit", options.gathering.range_limit_m, "farther returns are not used, metres")
-      ->capture_default_str()->check(CLI::Range(0.1, 1000.0));
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 1000.0));
   app.add_option("--shrink", options.gathering.shrink_m, "of the deletion volumes, metres, beside the deviations")
-      ->capture_default_str()->check(CLI::Range(0.0, 10.0));
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 10.0));
   app.add_option("--range-deviation", options.deviations.range_m, "standard deviation of a range, metres")
-      ->capture_default_str()->check(CLI::Range(0.001, 1.0));
+      ->capture_default_str()
+      ->check(CLI::Range(0.001, 1.0));
   app.add_option("--along-deviation", options.deviations.along_rad, "of the angle along the scan plane, radians")
-      ->capture_default_str()->check(CLI::Range(1e-5, 0.1));
+      ->capture_default_str()
+      ->check(CLI::Range(1e-5, 0.1));
   app.add_option("--across-deviation", options.deviations.across_rad, "of the angle across it, radians")
-      ->capture_default_str()->check(CLI::Range(1e-5, 0.1));
+      ->capture_default_str()
+      ->check(CLI::Range(1e-5, 0.1));
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {

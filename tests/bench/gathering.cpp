@@ -1,5 +1,5 @@
-// Point-cloud gathering against OctoMap on one stream: two panning scanners over a yard; a truck stands there, then elsewhere. Points a second, memory, and
-// what is left where nothing stands any more, by the scene's own geometry.
+// Point-cloud gathering against OctoMap on one stream: two panning scanners over a yard; a truck stands there, then elsewhere. Points a second,
+// memory, and what is left where nothing stands any more, by the scene's own geometry.
 #include <fmt/format.h>
 #include <octomap/OcTree.h>
 
@@ -50,7 +50,8 @@ struct Yard {
   }
   // From the nearest surface.
   double distance(const Vector3d& p) const {
-    double nearest = std::min({std::abs(18.0 - std::abs(p.x())), std::abs(18.0 - std::abs(p.y())), p.x() < 8.0 ? std::abs(p.z()) : std::abs(p.z() - 2.0)});
+    double nearest =
+        std::min({std::abs(18.0 - std::abs(p.x())), std::abs(18.0 - std::abs(p.y())), p.x() < 8.0 ? std::abs(p.z()) : std::abs(p.z() - 2.0)});
     if (p.z() > -kOffM && p.z() < 2.0 + kOffM) nearest = std::min(nearest, std::abs(p.x() - 8.0));
     const Vector3d outside = (truck.low - p).cwiseMax(p - truck.high);
     const double to_truck = outside.maxCoeff() > 0.0 ? outside.cwiseMax(0.0).norm() : -outside.maxCoeff();
@@ -110,7 +111,8 @@ void ours(const std::vector<Scan>& scans, const Yard& now, Outcome& out) {
   out.bytes = static_cast<double>(gatherer.bytes());
   out.kept = static_cast<double>(gatherer.store().size());
   out.stale = 0.0;
-  for (const ScanPoint& p : gatherer.points()) out.stale += now.distance(Vector3d(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z))) > kOffM ? 1 : 0;
+  for (const ScanPoint& p : gatherer.points())
+    out.stale += now.distance(Vector3d(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z))) > kOffM ? 1 : 0;
 }
 
 void octomap_tree(const std::vector<Scan>& scans, const Yard& now, bool discretize, Outcome& out) {
@@ -145,15 +147,17 @@ int run(const std::string& name, const std::string& json) {
     return static_cast<double>(points) / (o.us[o.us.size() / 2] * 1e-6);
   };
   const double my_rate = rate(mine);
-  fmt::print("gathering, {} points: ours {:.0f} points/s, {:.2f} MB, {} points kept, {} of them stale\n", points, my_rate, mine.bytes * 1e-6, mine.kept, mine.stale);
+  fmt::print("gathering, {} points: ours {:.0f} points/s, {:.2f} MB, {} points kept, {} of them stale\n", points, my_rate, mine.bytes * 1e-6,
+             mine.kept, mine.stale);
   auto rows = nlohmann::json::array();
   for (int k = 0; k < 2; ++k) {
     const double its = rate(peer[k]);
-    fmt::print("    {:<40} {:9.0f} points/s, {:.2f} MB, {} voxels occupied, {} of them stale: ours {:.1f} times as fast, {:.2f} of the memory\n", peers[k], its, peer[k].bytes * 1e-6,
-               peer[k].kept, peer[k].stale, my_rate / its, mine.bytes / peer[k].bytes);
+    fmt::print("    {:<40} {:9.0f} points/s, {:.2f} MB, {} voxels occupied, {} of them stale: ours {:.1f} times as fast, {:.2f} of the memory\n",
+               peers[k], its, peer[k].bytes * 1e-6, peer[k].kept, peer[k].stale, my_rate / its, mine.bytes / peer[k].bytes);
     const auto row = [&](const char* workload, const char* unit, double a, double b, double ratio, double reference) {
       if (std::string(workload).find(name) != std::string::npos)
-        rows.push_back({{"workload", workload}, {"unit", unit}, {"ours", a}, {"peer", peers[k]}, {"peer_value", b}, {"ratio", ratio}, {"reference", reference}});
+        rows.push_back(
+            {{"workload", workload}, {"unit", unit}, {"ours", a}, {"peer", peers[k]}, {"peer_value", b}, {"ratio", ratio}, {"reference", reference}});
     };
     row("gathering_speed_150", "points/s", my_rate, its, my_rate / its, static_cast<double>(points));
     row("gathering_memory_150", "bytes", mine.bytes, peer[k].bytes, peer[k].bytes / mine.bytes, static_cast<double>(points));

@@ -14,8 +14,8 @@ constexpr double kPi = 3.14159265358979323846;
 // By hand from the four elementary motions.
 TEST(KinematicChain, LinkIsFourElementaryMotions) {
   const DhLink link{0.3, 0.7, -0.4, 1.1, DhLink::Joint::kRevolute, 0};
-  const Eigen::Isometry3d by_hand = Eigen::AngleAxisd(0.3 + 0.25, Eigen::Vector3d::UnitZ()) * Eigen::Translation3d(0, 0, 0.7) * Eigen::Translation3d(-0.4, 0, 0) *
-                                    Eigen::AngleAxisd(1.1, Eigen::Vector3d::UnitX());
+  const Eigen::Isometry3d by_hand = Eigen::AngleAxisd(0.3 + 0.25, Eigen::Vector3d::UnitZ()) * Eigen::Translation3d(0, 0, 0.7) *
+                                    Eigen::Translation3d(-0.4, 0, 0) * Eigen::AngleAxisd(1.1, Eigen::Vector3d::UnitX());
   EXPECT_LT((dh_transform(link, 0.25).matrix() - by_hand.matrix()).norm(), 1e-14);
   const DhLink slide{0.3, 0.7, -0.4, 1.1, DhLink::Joint::kPrismatic, 0};
   EXPECT_NEAR(dh_transform(slide, 0.25).translation().z(), 0.95, 1e-14);

@@ -136,15 +136,15 @@ TEST(DeletionVolume, ShrinkAndGaps) {
   EXPECT_TRUE(at(4.90, 0.0, 0.5));
   EXPECT_TRUE(at(1.0, -0.2, 0.5));
   EXPECT_FALSE(at(5.2, 0.0, 0.5));
-  EXPECT_FALSE(at(1.0, 0.3, 0.5));                   // in the gap
-  EXPECT_TRUE(at(2.0, 0.0, 1.0 + 0.5 * 0.88));       // beside the plane by half of two deviations
+  EXPECT_FALSE(at(1.0, 0.3, 0.5));              // in the gap
+  EXPECT_TRUE(at(2.0, 0.0, 1.0 + 0.5 * 0.88));  // beside the plane by half of two deviations
   EXPECT_FALSE(at(2.0, 0.0, 1.0 + 1.5 * 0.88));
-  EXPECT_FALSE(at(-2.0, 0.0, 0.5));                  // behind the scanner, where nothing was measured
+  EXPECT_FALSE(at(-2.0, 0.0, 0.5));  // behind the scanner, where nothing was measured
   second.linear() = Eigen::AngleAxisd(0.1, Vector3d::UnitY()).toRotationMatrix();
   volume.build(first, wall, second, wall, rule);
-  EXPECT_TRUE(volume.empty());                       // too far apart to have looked between
+  EXPECT_TRUE(volume.empty());  // too far apart to have looked between
   volume.build(first, wall, first, wall, rule);
-  EXPECT_TRUE(volume.contains(2.0, 0.1, 0.0));       // standing still it still looks along its plane
+  EXPECT_TRUE(volume.contains(2.0, 0.1, 0.0));  // standing still it still looks along its plane
   EXPECT_FALSE(volume.contains(2.0, 0.1, 0.1));
 }
 
@@ -161,17 +161,20 @@ TEST(DeletionVolume, SearchThroughBlocksMissesNothing) {
     std::vector<ScanPoint> cloud;
     const double extent = scene % 2 == 0 ? 5.0 : 1.0;  // many blocks, and few
     for (int i = 0; i < 4000; ++i)
-      cloud.push_back({static_cast<float>(draw(-extent, extent)), static_cast<float>(draw(-extent, extent)), static_cast<float>(draw(-extent, extent)), 0, 0});
+      cloud.push_back(
+          {static_cast<float>(draw(-extent, extent)), static_cast<float>(draw(-extent, extent)), static_cast<float>(draw(-extent, extent)), 0, 0});
     gatherer.add_points(filler, Isometry3d::Identity(), Vector3d::Zero(), cloud, 0.0);
     const auto [a, b] = two_scans(draw, 0.1, draw(0.005, 0.04), 3.0);
     gatherer.add_scan(scanner, a.frame, a.returns, 0.1);
     DeletionVolume volume;
     volume.build(a.frame, a.returns, b.frame, b.returns,
-                 {options.shrink_m, options.quantile, deviations.range_m, deviations.along_rad, deviations.across_rad, options.max_gap_rad, options.max_turn_rad});
+                 {options.shrink_m, options.quantile, deviations.range_m, deviations.along_rad, deviations.across_rad, options.max_gap_rad,
+                  options.max_turn_rad});
     std::uint64_t expected = 0;
     const CloudStore& store = gatherer.store();
     for (std::uint32_t i = 0; i < store.places(); ++i)
-      expected += store.used(i) && volume.contains(static_cast<double>(store[i].x), static_cast<double>(store[i].y), static_cast<double>(store[i].z)) ? 1 : 0;
+      expected +=
+          store.used(i) && volume.contains(static_cast<double>(store[i].x), static_cast<double>(store[i].y), static_cast<double>(store[i].z)) ? 1 : 0;
     gatherer.add_scan(scanner, b.frame, b.returns, 0.2);
     EXPECT_EQ(gatherer.counts().deleted, expected) << "scene " << scene;
     total += expected;

@@ -48,8 +48,10 @@ TEST(ErrorEllipsoid, MonteCarloOfRangeAndAngles) {
     Eigen::Matrix3d seen = Eigen::Matrix3d::Zero();
     constexpr int kSamples = 40000;
     for (int i = 0; i < kSamples; ++i) {
-      const double r = range + deviations.range_m * draw.normal(), a = angle + deviations.along_rad * draw.normal(), up = deviations.across_rad * draw.normal();
-      const Eigen::Vector3d error = r * (frame * Eigen::Vector3d(std::cos(a) * std::cos(up), std::sin(a) * std::cos(up), std::sin(up))) - range * beam;
+      const double r = range + deviations.range_m * draw.normal(), a = angle + deviations.along_rad * draw.normal(),
+                   up = deviations.across_rad * draw.normal();
+      const Eigen::Vector3d error =
+          r * (frame * Eigen::Vector3d(std::cos(a) * std::cos(up), std::sin(a) * std::cos(up), std::sin(up))) - range * beam;
       seen += error * error.transpose() / kSamples;
     }
     EXPECT_LT((ours - seen).norm(), 0.03 * ours.norm()) << "scene " << scene;

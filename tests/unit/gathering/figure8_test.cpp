@@ -19,7 +19,8 @@ bool between(double v, double low, double high) { return v >= low && v <= high; 
 std::size_t on_box(const std::vector<ScanPoint>& points, const Box& box) {
   return static_cast<std::size_t>(std::count_if(points.begin(), points.end(), [&](const ScanPoint& p) {
     const double x = static_cast<double>(p.x), y = static_cast<double>(p.y), z = static_cast<double>(p.z);
-    return between(x, box.low.x() - 0.1, box.high.x() + 0.1) && between(y, box.low.y() - 0.1, box.high.y() + 0.1) && between(z, box.low.z(), box.high.z());
+    return between(x, box.low.x() - 0.1, box.high.x() + 0.1) && between(y, box.low.y() - 0.1, box.high.y() + 0.1) &&
+           between(z, box.low.z(), box.high.z());
   }));
 }
 
@@ -91,8 +92,8 @@ TEST_F(Figure8, AStillRoomStays) {
   const std::size_t once = gatherer_.store().size();
   for (int i = 0; i < 4; ++i) sweep(gatherer_, room_, chains_, i % 2 == 0 ? 0.8 : -0.8, i % 2 == 0 ? -0.8 : 0.8, 0.008, time_s_);
   const GatheringCounts counts = gatherer_.counts();
-  printf("%zu points after one sweep, %zu after five, %llu deleted of %llu\n", once, gatherer_.store().size(), static_cast<unsigned long long>(counts.deleted),
-         static_cast<unsigned long long>(counts.points_in));
+  printf("%zu points after one sweep, %zu after five, %llu deleted of %llu\n", once, gatherer_.store().size(),
+         static_cast<unsigned long long>(counts.deleted), static_cast<unsigned long long>(counts.points_in));
   EXPECT_LT(counts.deleted, counts.points_in / 50);
   EXPECT_LT(gatherer_.store().size(), 2 * once);
   // The wall is where it is: the mean of what was merged is nearer than a single measurement.

@@ -58,7 +58,8 @@ TEST(Gatherer, MergedPointHasTheHigherEpochAndASmallerVolume) {
 
 // An ellipsoid is long across the beam and short along it: a sphere of either size gives another answer.
 TEST(Gatherer, MergesByEllipsoidsNotSpheres) {
-  for (const auto& [along, range, merges] : {std::tuple{0.012, 3.0, true}, std::tuple{0.0, 3.09, false}, std::tuple{0.0, 3.03, true}, std::tuple{0.06, 3.0, false}}) {
+  for (const auto& [along, range, merges] :
+       {std::tuple{0.012, 3.0, true}, std::tuple{0.0, 3.09, false}, std::tuple{0.0, 3.03, true}, std::tuple{0.06, 3.0, false}}) {
     PointCloudGatherer gatherer(GatheringOptions{});
     const std::size_t a = gatherer.add_scanner({0.01, 0.01, 0.01}, upright()), b = gatherer.add_scanner({0.01, 0.01, 0.01}, upright());
     scan(gatherer, a, 0.0, {{0.0, 3.0}});

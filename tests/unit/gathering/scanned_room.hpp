@@ -62,7 +62,8 @@ inline std::vector<KinematicChain> two_scanners() {
 }
 
 // One sweep of both scanners from one pan angle to another, at step_rad from scan to scan.
-inline void sweep(PointCloudGatherer& gatherer, ScannedRoom& room, const std::vector<KinematicChain>& chains, double from, double to, double step_rad, double& time_s) {
+inline void sweep(PointCloudGatherer& gatherer, ScannedRoom& room, const std::vector<KinematicChain>& chains, double from, double to, double step_rad,
+                  double& time_s) {
   const int steps = static_cast<int>(std::ceil(std::abs(to - from) / step_rad));
   for (int i = 0; i <= steps; ++i, time_s += 0.02) {
     const double told = from + (to - from) * i / steps;
