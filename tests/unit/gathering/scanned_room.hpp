@@ -56,9 +56,9 @@ private:
 
 // As in the paper's Figure 7: both on one encoder, the second turned against the first and beside it.
 inline std::vector<KinematicChain> two_scanners() {
-  constexpr double kUpright = 1.5707963267948966;
+  constexpr double kQuarterTurn = 1.5707963267948966;
   const DhLink pan{0.0, 1.0, 0.0, 0.0, DhLink::Joint::kRevolute, 0};
-  return {KinematicChain({pan, {0.0, 0.1, 0.15, kUpright}}), KinematicChain({pan, {0.25, -0.1, 0.15, kUpright - 0.4}})};
+  return {KinematicChain({pan, {0.0, 0.1, 0.15, kQuarterTurn}}), KinematicChain({pan, {0.25, -0.1, 0.15, kQuarterTurn - 0.4}})};
 }
 
 // One sweep of both scanners from one pan angle to another, at step_rad from scan to scan.
