@@ -97,7 +97,9 @@ TEST(ErrorEllipsoid, OverlapAgainstDistance) {
     overlapping += expected ? 1 : 0;
     const Vector3 apart{between[0], between[1], between[2]};
     ASSERT_EQ(ellipsoids_overlap(covariance(a), covariance(b), apart, quantile), expected) << "case " << i << ", margin " << margin;
-    if (expected) EXPECT_LE(ellipsoid_separation(covariance(a), covariance(b), apart, quantile), 1.001);
+    if (expected) {
+      EXPECT_LE(ellipsoid_separation(covariance(a), covariance(b), apart, quantile), 1.001);
+    }
   }
   EXPECT_GT(overlapping, decided / 5);
   EXPECT_LT(overlapping, decided * 4 / 5);
