@@ -93,9 +93,13 @@ bool DeletionVolume::contains(double x, double y, double z) const {
   const double share = std::abs(span) < 1e-9 ? 0.5 : std::clamp(to_first / span, 0.0, 1.0);
   const Eigen::Vector3d ray = p - origin_first_ - share * origin_step_;
   const double right = ray.dot(x_first_ + share * x_step_), up = ray.dot(y_first_ + share * y_step_);
-  const double angle = std::atan2(up, right), range = std::hypot(up, right);
+  const double measured = std::atan2(up, right), range = std::hypot(up, right);
   const auto at_share = [share](float first, float second) { return static_cast<double>(first) + share * static_cast<double>(second - first); };
   const auto angle_of = [&](const Edge& e) { return at_share(e.angle_first, e.angle_second); };
+  // A place on the outermost beam is within, whichever way it is rounded.
+  const double lowest = angle_of(edges_.front()), highest = angle_of(edges_.back());
+  if (measured < lowest - 1e-6 || measured > highest + 1e-6) return false;
+  const double angle = std::clamp(measured, lowest, std::max(lowest, highest - 1e-9));
   const auto above = std::upper_bound(edges_.begin(), edges_.end(), angle, [&](double value, const Edge& e) { return value < angle_of(e); });
   if (above == edges_.begin() || above == edges_.end()) return false;
   const Edge &low = *(above - 1), &high = *above;
