@@ -103,7 +103,7 @@ std::optional<Hit> BoundingTree::first(const Vector3d& origin, const Vector3d& d
   for (int k = 0; k < 3; ++k) inverse[k] = 1.0 / (std::abs(direction[k]) < 1e-200 ? 1e-200 : direction[k]);
   Hit best{range_max, std::numeric_limits<std::uint32_t>::max()};
   bool met = false;
-  std::array<std::uint32_t, 128> open;  // deeper than any tree of 2^32 triangles split by this rule in practice; checked below
+  std::array<std::uint32_t, 128> open;  // nodes yet to visit; at() refuses a deeper tree
   std::size_t depth = 0;
   open[depth++] = 0;
   while (depth > 0) {

@@ -1,7 +1,6 @@
 #include "truck_world/mesh.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace berm::truck_world {
 
@@ -37,20 +36,20 @@ void add_grid(Mesh& mesh, int columns, int rows, const std::function<Vector3d(in
 void add_wheel(Mesh& mesh, const Vector3d& centre, double radius, double width, Surface surface) {
   std::vector<Vector2d> rim;
   for (int i = 0; i < 12; ++i) {
-    const double angle = std::numbers::pi * i / 6.0;
+    const double angle = pi * i / 6.0;
     rim.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
   }
   Mesh lying;
   add_prism(lying, rim, -width / 2, width / 2, surface);
   Eigen::Isometry3d upright = Eigen::Isometry3d::Identity();
   upright.translate(centre);
-  upright.rotate(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitX()));
+  upright.rotate(Eigen::AngleAxisd(pi / 2, Vector3d::UnitX()));
   add_placed(mesh, lying, upright);
 }
 
 void add_turned(Mesh& mesh, const std::vector<Vector2d>& profile, int sides, Surface surface) {
   const auto point = [&](int side, int ring) {
-    const double angle = 2.0 * std::numbers::pi * (side % sides) / sides;
+    const double angle = 2.0 * pi * (side % sides) / sides;
     const Vector2d& p = profile[static_cast<std::size_t>(ring)];
     return Vector3d(p.x() * std::cos(angle), p.x() * std::sin(angle), p.y());
   };

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <functional>
+#include <numbers>
 #include <vector>
 
 #include "truck_world/surface.hpp"
@@ -11,6 +12,7 @@ namespace berm::truck_world {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+constexpr double pi = std::numbers::pi;
 
 struct Triangle {
   Vector3d a, b, c;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "truck_world/occluder.hpp"
@@ -11,7 +10,6 @@
 namespace berm::truck_world {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr std::size_t clutter_most = 6;
 constexpr int clutter_places = 20;        // tried for each piece
 constexpr double clutter_reach = 14.0;    // m round the place
@@ -155,8 +153,8 @@ void without_truck(Assembly& a, bool look_alike, bool bare) {
       add_placed(a.scene.mesh, drawn.thing.mesh, placed_at({place.at.x(), place.at.y(), -place.drop}, place.yaw, -tilt_x, tilt_y));
       a.taken.push_back(standing);
     }
-    Random surface = a.own(Stream::ground);
-    add_placed(a.scene.mesh, ground.mesh(surface, drawn.hole, place.yaw), Eigen::Isometry3d::Identity());
+    Random ground_random = a.own(Stream::ground);
+    add_placed(a.scene.mesh, ground.mesh(ground_random, drawn.hole, place.yaw), Eigen::Isometry3d::Identity());
     if (!bare) add_clutter(a, ground, nullptr);
     return;
   }

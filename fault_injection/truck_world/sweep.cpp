@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace berm::truck_world {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 
 double wrapped(double angle) { return std::remainder(angle, 2 * pi); }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace berm::truck_world {
 namespace {
@@ -45,11 +44,11 @@ void add_wall(Mesh& mesh, const Wall& wall, Random& random) {
 void add_pipe(Mesh& mesh, const TruckBody& body) {
   const double radius = body.width / 2, x = body.length / 2, centre = body.floor_height + radius;
   const auto at = [&](double px, double r, int i) {
-    const double angle = std::numbers::pi * (static_cast<double>(i) / pipe_segments - 0.5);  // from the lowest line, to the left positive
+    const double angle = pi * (static_cast<double>(i) / pipe_segments - 0.5);  // from the lowest line, to the left positive
     return Vector3d(px, r * std::sin(angle), centre - r * std::cos(angle));
   };
   for (int i = 0; i < pipe_segments; ++i) {
-    const double middle = std::numbers::pi * ((i + 0.5) / pipe_segments - 0.5);
+    const double middle = pi * ((i + 0.5) / pipe_segments - 0.5);
     const Surface wall = middle > 0.0 ? Surface::wall_left : Surface::wall_right;
     const Surface inside = std::abs(middle) < floor_until ? Surface::bed_floor : wall;
     add_quad(mesh, at(-x, radius, i), at(x, radius, i), at(x, radius, i + 1), at(-x, radius, i + 1), inside);
@@ -123,7 +122,7 @@ double TruckBody::floor_rise(double y) const {
 }
 
 double TruckBody::struck_volume() const {
-  const double pipe = bed == BedShape::half_round ? (2.0 - std::numbers::pi / 2.0) * width * width / 4.0 : 0.0;
+  const double pipe = bed == BedShape::half_round ? (2.0 - pi / 2.0) * width * width / 4.0 : 0.0;
   return length * (width * wall_height - pipe);
 }
 

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 
 namespace berm::truck_world {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double azimuth_low = 0.45, azimuth_high = 2.0;  // rad from the dig face to either side
 constexpr int attempts = 2000;
 
