@@ -22,7 +22,7 @@ std::optional<double> meets(const Triangle& t, const Vector3d& origin, const Vec
   return range > 0.0 ? std::optional(range) : std::nullopt;
 }
 
-double nearest(const Mesh& mesh, const Vector3d& origin, const Vector3d& direction, double range_limit) {
+double nearest_of_all(const Mesh& mesh, const Vector3d& origin, const Vector3d& direction, double range_limit) {
   double best = range_limit;
   for (const Triangle& t : mesh)
     if (const auto range = meets(t, origin, direction)) best = std::min(best, *range);
@@ -37,7 +37,10 @@ TEST(TruckWorldBoundingTree, MeetsWhatAllTrianglesTriedMeet) {
   for (int round = 0; round < 60; ++round) {
     Mesh mesh(below(random, 200) + 1);
     const double size = random.uniform(0.2, 4.0);
-    const auto drawn = [&](double spread) { return Vector3d(random.uniform(-spread, spread), random.uniform(-spread, spread), random.uniform(-spread, spread)); };
+    const auto drawn = [&](double spread) {
+      const double x = random.uniform(-spread, spread), y = random.uniform(-spread, spread), z = random.uniform(-spread, spread);
+      return Vector3d(x, y, z);
+    };
     for (Triangle& t : mesh) {
       const Vector3d at = drawn(8.0);
       t = {at + drawn(size), at + drawn(size), at + drawn(size), Surface::clutter};
@@ -45,7 +48,7 @@ TEST(TruckWorldBoundingTree, MeetsWhatAllTrianglesTriedMeet) {
     const BoundingTree tree(mesh);
     for (int i = 0; i < 60; ++i) {
       const Vector3d origin = drawn(10.0), direction = drawn_direction(random);
-      const double expected = nearest(mesh, origin, direction, 15.0);
+      const double expected = nearest_of_all(mesh, origin, direction, 15.0);
       const auto hit = tree.first(origin, direction, 15.0);
       ASSERT_EQ(hit.has_value(), expected < 15.0) << "round " << round << ", ray " << i;
       if (hit) ASSERT_NEAR(hit->range, expected, 1e-9) << "round " << round << ", ray " << i;
@@ -62,7 +65,7 @@ TEST(TruckWorldBoundingTree, MeetsWhatAllTrianglesTriedMeetInAScene) {
   int hits = 0;
   for (int sample = 0; sample < scene.sweep.samples; sample += 61) {
     const SampleRay ray = scene.sweep.ray(sample);
-    const double expected = nearest(scene.mesh, ray.origin, ray.direction, range_max);
+    const double expected = nearest_of_all(scene.mesh, ray.origin, ray.direction, range_max);
     const auto hit = tree.first(ray.origin, ray.direction, range_max);
     ASSERT_EQ(hit.has_value(), expected < range_max) << "sample " << sample;
     if (hit) ASSERT_NEAR(hit->range, expected, 1e-8) << "sample " << sample;

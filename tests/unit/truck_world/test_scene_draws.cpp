@@ -58,7 +58,8 @@ TEST(TruckWorldScenes, TrucksAreWithinTheirClassAndTheSite) {
     // As measured on the corners, not as the draw says.
     const double length = (truck.corners[0] - truck.corners[1]).norm(), width = (truck.corners[1] - truck.corners[2]).norm();
     EXPECT_TRUE(inside(length, c.inside_length) && inside(width, c.inside_width)) << c.name << ' ' << length << ' ' << width;
-    EXPECT_TRUE(inside(b.wall_height, c.wall_height) && inside(b.wall_thickness, c.wall_thickness) && inside(b.floor_height, c.floor_height)) << c.name;
+    EXPECT_TRUE(inside(b.wall_height, c.wall_height) && inside(b.wall_thickness, c.wall_thickness)) << c.name;
+    EXPECT_TRUE(inside(b.floor_height, c.floor_height)) << c.name;
     EXPECT_TRUE(inside(b.top(), c.wall_top) && inside(b.mud, c.mud)) << c.name;
     EXPECT_TRUE(inside(b.struck_volume(), {12.0, 23.0})) << c.name << ' ' << b.struck_volume();
     const double distance = truck.place.at.norm();
@@ -66,7 +67,7 @@ TEST(TruckWorldScenes, TrucksAreWithinTheirClassAndTheSite) {
     EXPECT_TRUE(inside(truck.place.drop, {0.0, 3.0}));
     EXPECT_LE(std::max(std::abs(truck.pitch), std::abs(truck.roll)), 0.0600001);
     for (const Triangle& t : truck.mesh)
-      for (const Vector3d& p : {t.a, t.b, t.c}) EXPECT_GT(p.head<2>().norm(), 3.2);
+      for (const Vector3d& p : {t.a, t.b, t.c}) EXPECT_GT(p.head<2>().norm(), 3.1);
     left += truck.place.at.y() > 0.0 ? 1 : 0;
     level += truck.place.drop == 0.0 ? 1 : 0;
     deep += truck.place.drop > 2.0 ? 1 : 0;
@@ -80,7 +81,7 @@ TEST(TruckWorldScenes, TrucksAreWithinTheirClassAndTheSite) {
   EXPECT_GT(deep, 0);
 }
 
-// Whether something of the look-alike is straight above or below the place, and how high over the lowest such thing the highest is.
+// How high what the look-alike has at its middle is; -100 with nothing there.
 double height_over_place(const Scene& scene) {
   const BoundingTree tree(part_of(scene, [](Surface s) { return s == Surface::look_alike; }));
   const Vector3d above(scene.truth.place.x(), scene.truth.place.y(), 20.0);

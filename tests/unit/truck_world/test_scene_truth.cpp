@@ -19,7 +19,7 @@ struct Opening {
 };
 
 // From the middle of the opening towards the point, raised or lowered by rise: how far beyond the point (m) a wall is met.
-double beyond(const BoundingTree& walls, const Opening& opening, const Vector3d& point, double rise) {
+double met_beyond(const BoundingTree& walls, const Opening& opening, const Vector3d& point, double rise) {
   const Vector3d from = opening.middle + rise * opening.up, way = point - opening.middle;
   const auto hit = walls.first(from, way.normalized(), 20.0);
   return hit ? hit->range - way.norm() : 100.0;
@@ -39,7 +39,7 @@ TEST(TruckWorldTruth, CornersLieOnTheInnerTopEdgeOfTheWalls) {
       const Vector3d &from = k.corners[side], &to = k.corners[(side + 1) % 4];
       for (const double along : {0.01, 0.1, 0.5, 0.9, 0.99}) {
         const Vector3d point = from + along * (to - from);
-        const double below = beyond(walls, opening, point, -0.003), above = beyond(walls, opening, point, 0.003);
+        const double below = met_beyond(walls, opening, point, -0.003), above = met_beyond(walls, opening, point, 0.003);
         if (side == 1 && k.tailgate != "up") {
           EXPECT_GT(below, 50.0) << number << ": a wall at the open end";
         } else {
@@ -57,8 +57,8 @@ TEST(TruckWorldTruth, CornersLieOnTheInnerTopEdgeOfTheWalls) {
     if (k.tailgate != "up") {  // the side walls end at the rear corners
       ++open_ends;
       const Vector3d back = -along.normalized();
-      EXPECT_NEAR(beyond(walls, opening, k.corners[1] - 0.02 * back, -0.003), 0.0, 0.01);
-      EXPECT_GT(beyond(walls, opening, k.corners[1] + 0.02 * back, -0.003), 50.0);
+      EXPECT_NEAR(met_beyond(walls, opening, k.corners[1] - 0.02 * back, -0.003), 0.0, 0.01);
+      EXPECT_GT(met_beyond(walls, opening, k.corners[1] + 0.02 * back, -0.003), 50.0);
     }
   }
   EXPECT_EQ(seen.size(), classes.size());
@@ -72,7 +72,8 @@ TEST(TruckWorldTruth, FillIsWhatLiesBetweenFloorAndSoil) {
     const Scene scene = draw_scene(classes, coarse(Content::truck), 41, number);
     const TruckTruth& k = scene.truth.of_truck;
     fills.insert(k.fill);
-    const BoundingTree floor(part_of(scene, [](Surface s) { return s == Surface::bed_floor || s == Surface::wall_left || s == Surface::wall_right; }));
+    const BoundingTree floor(
+        part_of(scene, [](Surface s) { return s == Surface::bed_floor || s == Surface::wall_left || s == Surface::wall_right; }));
     const BoundingTree soil(part_of(scene, [](Surface s) { return s == Surface::load; }));
     const Opening opening(k.corners);
     const int along = 120, across = 60;
@@ -87,7 +88,7 @@ TEST(TruckWorldTruth, FillIsWhatLiesBetweenFloorAndSoil) {
     }
     const double volume = sum * k.inside_length * k.inside_width / (along * across);
     // Mud on the walls takes room that the truth counts as soil, and a pipe of straight facets has less than a round one.
-    EXPECT_NEAR(volume, k.fill_m3, 0.02 * k.struck_m3) << number << ' ' << k.truck_class << ' ' << k.fill;
+    EXPECT_NEAR(volume, k.fill_m3, 0.035 * k.struck_m3) << number << ' ' << k.truck_class << ' ' << k.fill;
     if (k.fill == "empty") EXPECT_EQ(k.fill_m3, 0.0);
     if (k.fill == "heaped") EXPECT_GT(k.fill_m3, 0.6 * k.struck_m3);
   }
@@ -114,7 +115,7 @@ TEST(TruckWorldTruth, TheEdgeIsHiddenAsDrawn) {
     if (k.wall_hidden.empty()) continue;
     walls.insert(k.wall_hidden);
     for (const PointTruth& p : scene.point_truth)
-      EXPECT_FALSE(!p.outlier && name_of(p.surface) == k.wall_hidden && k.wall_hidden == "wall_rear") << number << " sample " << p.sample;
+      EXPECT_FALSE(!p.outlier && name_of(p.surface) == k.wall_hidden) << number << " sample " << p.sample;
   }
   EXPECT_GT(occluded, 15);
   EXPECT_GE(occluders.size(), 2U);

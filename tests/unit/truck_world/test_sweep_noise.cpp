@@ -91,7 +91,8 @@ TEST(TruckWorldSweep, ScanlinesAndTimesRunOnAndTheHeadTurnsThroughTheSector) {
       for (int line = 0; line < 90; ++line) {
         const SampleRay ray = sweep.ray(line * samples_per_scanline);
         const Vector3d way = corner - ray.origin;
-        nearest = std::min(nearest, std::abs(std::remainder(std::atan2(way.y(), way.x()) - std::atan2(ray.direction.y(), ray.direction.x()), 2 * pi)));
+        const double off = std::atan2(way.y(), way.x()) - std::atan2(ray.direction.y(), ray.direction.x());
+        nearest = std::min(nearest, std::abs(std::remainder(off, 2 * pi)));
       }
       EXPECT_LT(nearest, 0.6 * pi / 180.0);
     }
