@@ -15,8 +15,9 @@ std::optional<int> read_options(int argc, char** argv, const std::string& classe
   app.add_option("--seed", o.seed, "seed of every draw")->capture_default_str();
   app.add_option("--out", o.out, "folder to write to; made when it is not there")->required();
   app.add_option("--only", o.only, "writes this one scene alone")->check(CLI::Range(0, 999999));
-  auto* trucks = app.add_flag("--trucks", "a truck in every scene instead of in half of them");
-  auto* none = app.add_flag("--no-trucks", "a truck in no scene")->excludes(trucks);
+  bool all = false, none = false;
+  auto* trucks = app.add_flag("--trucks", all, "a truck in every scene instead of in half of them");
+  app.add_flag("--no-trucks", none, "a truck in no scene")->excludes(trucks);
   app.add_flag("--lidar", o.scene.lidar, "a tilted VLP-16 on a mast instead of the panning scanners");
   app.add_option("--points", o.scene.samples, "samples of a sweep; with more of them the head pans more slowly")
       ->check(CLI::Range(9200, 1000000))->capture_default_str();
@@ -31,7 +32,7 @@ std::optional<int> read_options(int argc, char** argv, const std::string& classe
   app.add_option("--classes", o.classes, "file of truck classes")->capture_default_str();
   app.add_flag("--picture", o.picture, "also DIR/scene_000000.svg, from above and from the side, with the truth over the points");
   if (const auto status = run::parse(app, argc, argv)) return status;
-  o.scene.content = trucks->count() > 0 ? Content::truck : none->count() > 0 ? Content::no_truck : Content::either;
+  o.scene.content = all ? Content::truck : none ? Content::no_truck : Content::either;
   if (o.only >= o.scenes) {
     fmt::print(stderr, "berm truck_world: --only: {} is not below --scenes {} (see --help)\n", o.only, o.scenes);
     return 2;

@@ -99,8 +99,8 @@ Sweep draw_sweep(bool lidar, int samples, const Vector2d& place, double swinging
   };
   while (rate != 0.0 && !fits(rate)) rate = std::abs(rate) < 0.02 ? 0.0 : rate / 2;
   const double sense = outwards ? 1.0 : -1.0;
-  s.swing_rate = side * rate;
-  s.swing_begin = -s.swing_rate * time / 2;
+  s.swing_rate = side * rate + 0.0;  // never a negative zero
+  s.swing_begin = 0.0 - s.swing_rate * time / 2;
   s.pan_begin = side * (outwards ? low : high) - s.swing_begin;
   s.pan_rate = side * sense * sector / time - s.swing_rate;
   return s;
