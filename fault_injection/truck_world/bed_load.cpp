@@ -21,10 +21,14 @@ BedLoad::BedLoad(const TruckBody& body, Fill fill, Random& random) : body_(body)
   int piles = 0;
   if (fill == Fill::part) level = random.uniform(0.12, 0.65), piles = 1 + static_cast<int>(below(random, 3));
   if (fill == Fill::heaped) level = random.uniform(0.80, 0.93), heap = random.uniform(0.15, 0.45);
-  if (fill == Fill::uneven) level = random.uniform(0.30, 0.50), tilt = random.uniform(0.4, 0.8) * (chance(random, 0.5) ? 1.0 : -1.0), piles = 2;
+  if (fill == Fill::uneven) {
+    const double high_end = chance(random, 0.5) ? 1.0 : -1.0;
+    level = random.uniform(0.30, 0.50), tilt = random.uniform(0.4, 0.8) * high_end, piles = 2;
+  }
   std::vector<Pile> pile;
   for (int i = 0; i < piles; ++i)
-    pile.push_back({random.uniform(-0.7, 0.7) * x_end, random.uniform(-0.4, 0.4) * y_end, random.uniform(0.1, 0.35) * high, random.uniform(0.6, 1.2)});
+    pile.push_back(
+        {random.uniform(-0.7, 0.7) * x_end, random.uniform(-0.4, 0.4) * y_end, random.uniform(0.1, 0.35) * high, random.uniform(0.6, 1.2)});
 
   height_.resize(static_cast<std::size_t>((columns_ + 1) * (rows_ + 1)));
   for (int row = 0; row <= rows_; ++row) {
@@ -43,7 +47,8 @@ BedLoad::BedLoad(const TruckBody& body, Fill fill, Random& random) : body_(body)
 
 double BedLoad::height(double x, double y) const {
   if (height_.empty()) return below_floor;
-  const double u = std::clamp((x / body_.length + 0.5) * columns_, 0.0, columns_ - 1e-9), v = std::clamp((y / body_.width + 0.5) * rows_, 0.0, rows_ - 1e-9);
+  const double u = std::clamp((x / body_.length + 0.5) * columns_, 0.0, columns_ - 1e-9);
+  const double v = std::clamp((y / body_.width + 0.5) * rows_, 0.0, rows_ - 1e-9);
   const int column = static_cast<int>(u), row = static_cast<int>(v);
   const double a = u - column, b = v - row;
   // The two triangles of the cell, as add_grid splits it.
@@ -67,7 +72,8 @@ Mesh BedLoad::mesh() const {
   Mesh mesh;
   if (height_.empty()) return mesh;
   const auto point = [&](int column, int row) {
-    return Vector3d(body_.length * column / columns_ - body_.length / 2, body_.width * row / rows_ - body_.width / 2, body_.floor_height + node(column, row));
+    const double x = body_.length * column / columns_ - body_.length / 2, y = body_.width * row / rows_ - body_.width / 2;
+    return Vector3d(x, y, body_.floor_height + node(column, row));
   };
   add_grid(mesh, columns_, rows_, point, Surface::load);
   return mesh;

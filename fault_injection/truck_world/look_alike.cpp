@@ -9,7 +9,8 @@ namespace {
 constexpr Surface of_look_alike = Surface::look_alike;
 
 // An open box of drawn inside sizes that is outside every class.
-OpenBox outside_box(LookAlike kind, const std::vector<TruckClass>& classes, Random& random, const Range& length, const Range& width, const Range& height) {
+OpenBox outside_box(LookAlike kind, const std::vector<TruckClass>& classes, Random& random, const Range& length, const Range& width,
+                    const Range& height) {
   for (int attempt = 0; attempt < 1000; ++attempt) {
     const OpenBox box{random.uniform(length[0], length[1]), random.uniform(width[0], width[1]), random.uniform(height[0], height[1])};
     if (outside_every_class(classes, box)) return box;
@@ -49,17 +50,19 @@ void loader_bucket(DrawnLookAlike& drawn) {
   Mesh& m = drawn.thing.mesh;
   add_box(m, {-b.length / 2, -b.width / 2, 0.0}, {b.length / 2, b.width / 2, 0.08}, of_look_alike);
   add_box(m, {-b.length / 2, b.width / 2, 0.0}, {b.length / 2, b.width / 2 + 0.08, 0.08 + b.height}, of_look_alike);
-  for (const double x : {-b.length / 2 - 0.05, b.length / 2}) add_box(m, {x, -b.width / 2, 0.0}, {x + 0.05, b.width / 2, 0.08 + 0.8 * b.height}, of_look_alike);
+  for (const double x : {-b.length / 2 - 0.05, b.length / 2})
+    add_box(m, {x, -b.width / 2, 0.0}, {x + 0.05, b.width / 2, 0.08 + 0.8 * b.height}, of_look_alike);
   drawn.thing.half = {b.length / 2 + 0.05, b.width / 2 + 0.08};
   drawn.because = {true, true, false, false};
 }
 
 void hollow_pile(DrawnLookAlike& drawn, Random& random) {
-  const double hollow = random.uniform(0.9, 2.2), depth = random.uniform(0.4, 0.9), height = depth + random.uniform(0.2, 0.8), slope = random.uniform(0.6, 0.85);
+  const double hollow = random.uniform(0.9, 2.2), depth = random.uniform(0.4, 0.9), height = depth + random.uniform(0.2, 0.8);
+  const double slope = random.uniform(0.6, 0.85);
   const double radius = hollow + height / slope, stretch = random.uniform(1.0, 1.7);
   Mesh round;
-  add_turned(round, {{0.0, height - depth}, {hollow * 0.4, height - depth * 0.9}, {hollow * 0.8, height - depth * 0.3}, {hollow, height}, {hollow + 0.2, height * 0.95},
-                     {hollow + (radius - hollow) * 0.6, height * 0.4}, {radius, -0.1}}, 20, of_look_alike);
+  add_turned(round, {{0.0, height - depth}, {hollow * 0.4, height - depth * 0.9}, {hollow * 0.8, height - depth * 0.3}, {hollow, height},
+                     {hollow + 0.2, height * 0.95}, {hollow + (radius - hollow) * 0.6, height * 0.4}, {radius, -0.1}}, 20, of_look_alike);
   Eigen::Affine3d stretched = Eigen::Affine3d::Identity();
   stretched.scale(Vector3d(stretch, 1.0, 1.0));
   for (const Triangle& t : round) drawn.thing.mesh.push_back({stretched * t.a, stretched * t.b, stretched * t.c, of_look_alike});
@@ -79,7 +82,8 @@ void add_lorry(DrawnLookAlike& drawn, double rear, double front, double width, d
 }
 
 void flat_bed(DrawnLookAlike& drawn, Random& random) {
-  const double length = random.uniform(4.8, 7.0), width = random.uniform(2.40, 2.55), floor = random.uniform(1.05, 1.35), board = random.uniform(0.6, 1.4);
+  const double length = random.uniform(4.8, 7.0), width = random.uniform(2.40, 2.55);
+  const double floor = random.uniform(1.05, 1.35), board = random.uniform(0.6, 1.4);
   Mesh& m = drawn.thing.mesh;
   add_box(m, {-length / 2, -width / 2, floor - 0.15}, {length / 2, width / 2, floor}, of_look_alike);
   add_box(m, {length / 2, -width / 2, floor - 0.15}, {length / 2 + 0.08, width / 2, floor + board}, of_look_alike);
@@ -89,7 +93,8 @@ void flat_bed(DrawnLookAlike& drawn, Random& random) {
 }
 
 void box_trailer(DrawnLookAlike& drawn, Random& random) {
-  const double length = random.uniform(4.8, 7.5), width = random.uniform(2.40, 2.55), floor = random.uniform(1.05, 1.30), height = random.uniform(1.2, 2.5);
+  const double length = random.uniform(4.8, 7.5), width = random.uniform(2.40, 2.55);
+  const double floor = random.uniform(1.05, 1.30), height = random.uniform(1.2, 2.5);
   add_box(drawn.thing.mesh, {-length / 2, -width / 2, floor}, {length / 2, width / 2, floor + height}, of_look_alike);
   add_lorry(drawn, -length / 2, length / 2, width, floor, random);
   drawn.box = {length, width, height};

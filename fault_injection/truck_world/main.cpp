@@ -35,8 +35,8 @@ int run(int argc, char** argv) {
   }
   if (terminal) fmt::print(stderr, "\n");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  fmt::print("{} scenes in {}: {} with a truck, {} with something like one, {} with neither; {:.1f} scenes/s\n", end - first, o.out, trucks, look_alikes,
-             end - first - trucks - look_alikes, (end - first) / std::max(seconds, 1e-9));
+  fmt::print("{} scenes in {}: {} with a truck, {} with something like one, {} with neither; {:.1f} scenes/s\n", end - first, o.out, trucks,
+             look_alikes, end - first - trucks - look_alikes, (end - first) / std::max(seconds, 1e-9));
   return 0;
 }
 

@@ -73,7 +73,9 @@ void add_placed(Mesh& mesh, const Mesh& part, const Eigen::Isometry3d& placement
 Eigen::Isometry3d placed_at(const Vector3d& origin, double yaw, double pitch, double roll) {
   Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();
   placement.translate(origin);
-  placement.rotate(Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Vector3d::UnitY()) * Eigen::AngleAxisd(roll, Vector3d::UnitX()));
+  placement.rotate(Eigen::AngleAxisd(yaw, Vector3d::UnitZ()));
+  placement.rotate(Eigen::AngleAxisd(pitch, Vector3d::UnitY()));
+  placement.rotate(Eigen::AngleAxisd(roll, Vector3d::UnitX()));
   return placement;
 }
 

@@ -92,7 +92,8 @@ std::optional<Occluder> draw_occluder(const OcclusionTask& task, double share, R
     if (heap_first && i < places / 2) {
       const Vector2d place = sight.head.head<2>() + distance * sight.along;
       const double room = std::min(sight.free - distance, place.norm() - own_radius);
-      if (const auto o = sized(task, share, 0.3, std::min(heap_high, room * heap_slope), [&](double height) { return heap(task, place, height); })) return o;
+      const auto make = [&](double height) { return heap(task, place, height); };
+      if (const auto o = sized(task, share, 0.3, std::min(heap_high, room * heap_slope), make)) return o;
       continue;
     }
     const auto make = [&](double width) { return arm(task, sight, distance, width); };

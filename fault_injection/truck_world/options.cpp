@@ -24,7 +24,8 @@ std::optional<int> read_options(int argc, char** argv, const std::string& classe
   app.add_option("--noise", o.scene.noise.stddev, "standard deviation of a range, m")->check(CLI::Range(0.0, 0.5))->capture_default_str();
   app.add_option("--outliers", o.scene.noise.outlier_share, "share of samples with a range drawn anywhere before what is hit")
       ->check(CLI::Range(0.0, 0.5))->capture_default_str();
-  app.add_option("--dropouts", o.scene.noise.dropout_share, "share of samples that come back with nothing")->check(CLI::Range(0.0, 0.5))->capture_default_str();
+  app.add_option("--dropouts", o.scene.noise.dropout_share, "share of samples that come back with nothing")
+      ->check(CLI::Range(0.0, 0.5))->capture_default_str();
   app.add_option("--hidden", o.scene.hidden_max, "most of the opening's edge that an occluder hides; 0: no occluders")
       ->check(CLI::Range(0.0, 0.3))->capture_default_str();
   app.add_option("--swinging", o.scene.swinging_share, "share of scenes in which the machine swings during the sweep")

@@ -17,7 +17,10 @@ namespace {
 std::string label_lines(const std::vector<PointTruth>& points) {
   std::string text = "label,sample\n";
   text.reserve(points.size() * 20);
-  for (const PointTruth& p : points) fmt::format_to(std::back_inserter(text), "{},{}\n", p.outlier ? std::string_view("outlier") : name_of(p.surface), p.sample);
+  for (const PointTruth& p : points) {
+    const std::string_view label = p.outlier ? "outlier" : name_of(p.surface);
+    fmt::format_to(std::back_inserter(text), "{},{}\n", label, p.sample);
+  }
   return text;
 }
 

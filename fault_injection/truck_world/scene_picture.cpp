@@ -50,7 +50,9 @@ void draw_points(run::SvgPanel& panel, const Scene& scene, double size, const Pr
   for (std::size_t i = 0; i < scene.cloud.size(); ++i) {
     const app::ScanPoint& p = scene.cloud[i];
     const auto at = project(Vector3d(p.x, p.y, p.z));
-    if (at) panel.rectangle(at->first - size / 2, at->second - size / 2, size, size, fmt::format("fill:{}", colours[colour_of(scene.point_truth[i])].fill));
+    if (!at) continue;
+    const std::string style = fmt::format("fill:{}", colours[colour_of(scene.point_truth[i])].fill);
+    panel.rectangle(at->first - size / 2, at->second - size / 2, size, size, style);
   }
 }
 
@@ -71,8 +73,8 @@ std::string words_of(const SceneTruth& t) {
   std::string words = fmt::format("scene {} of seed {}: ", t.scene, t.seed);
   if (t.truck) {
     const TruckTruth& k = t.of_truck;
-    words += fmt::format("{}, {:.2f} x {:.2f} x {:.2f} m, tailgate {}, {} ({:.1f} of {:.1f} m3)", k.truck_class, k.inside_length, k.inside_width, k.wall_height,
-                         k.tailgate, k.fill, k.fill_m3, k.struck_m3);
+    words += fmt::format("{}, {:.2f} x {:.2f} x {:.2f} m, tailgate {}, {} ({:.1f} of {:.1f} m3)", k.truck_class, k.inside_length, k.inside_width,
+                         k.wall_height, k.tailgate, k.fill, k.fill_m3, k.struck_m3);
   } else {
     words += t.look_alike.empty() ? "no truck" : fmt::format("no truck, {}", t.look_alike);
   }
@@ -84,7 +86,8 @@ std::string second_line(const SceneTruth& t) {
   if (t.swing_rate != 0.0) words += fmt::format(", swinging at {:.2f} rad/s", t.swing_rate);
   if (!t.truck) return words;
   const TruckTruth& k = t.of_truck;
-  words += fmt::format(", {} on the truck; edge without a return {:.0f} %, out of sight {:.0f} %", k.returns, 100 * k.hidden_share, 100 * k.occluded_share);
+  words += fmt::format(", {} on the truck; edge without a return {:.0f} %, out of sight {:.0f} %", k.returns, 100 * k.hidden_share,
+                       100 * k.occluded_share);
   if (!k.occluder.empty()) words += " (" + k.occluder + (k.wall_hidden.empty() ? "" : " before " + k.wall_hidden) + ")";
   return words;
 }
@@ -122,13 +125,14 @@ void write_picture(const std::string& path, const Scene& scene) {
   side.axes(1.0, t.truck ? "along the bed, m (to the cab)" : "across the line of sight, m", "z, m");
   side.title(fmt::format("from the side: what is within {:g} m of the {}", strip, t.truck ? "bed's long axis" : "place"));
 
-  std::string extra = fmt::format("<text x=\"{0}\" y=\"26\" style=\"font:bold 15px sans-serif\">{1}</text>\n<text x=\"{0}\" y=\"48\" style=\"font:13px sans-serif\">{2}</text>\n",
-                                  left, words_of(t), second_line(t));
+  std::string extra = fmt::format(
+      "<text x=\"{0}\" y=\"26\" style=\"font:bold 15px sans-serif\">{1}</text>\n<text x=\"{0}\" y=\"48\" style=\"font:13px sans-serif\">{2}</text>\n", left,
+      words_of(t), second_line(t));
   const double legend = left + std::max(above.pixel_width(), 560.0) + 20.0;
   for (std::size_t i = 0; i < colours.size(); ++i) {
     const double y = 100.0 + 20.0 * static_cast<double>(i);
-    extra += fmt::format("<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"11\" height=\"11\" fill=\"{}\"/><text x=\"{:.0f}\" y=\"{:.0f}\" style=\"font:12px sans-serif\">{}</text>\n",
-                         legend, y, colours[i].fill, legend + 16, y + 10, colours[i].name);
+    extra += fmt::format("<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"11\" height=\"11\" fill=\"{}\"/>\n", legend, y, colours[i].fill);
+    extra += fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" style=\"font:12px sans-serif\">{}</text>\n", legend + 16, y + 10, colours[i].name);
   }
   run::write_svg(path, std::max(picture_width, legend + 150.0), top + side.pixel_height() + 50.0, {&above, &side}, extra);
 }

@@ -52,7 +52,8 @@ nlohmann::ordered_json json_of(const SceneTruth& t) {
     if (t.no_truck.floor_missing) because.push_back("floor_missing");
     if (t.no_truck.roofed) because.push_back("roofed");
     const OpenBox& box = t.look_alike_box;
-    json["look_alike"] = {{"kind", t.look_alike}, {"length", box.length}, {"width", box.width}, {"height", box.height}, {"no_truck_because", because}};
+    json["look_alike"] = {
+        {"kind", t.look_alike}, {"length", box.length}, {"width", box.width}, {"height", box.height}, {"no_truck_because", because}};
   }
   json["clutter"] = t.clutter;
   json["place"] = point(t.place);

@@ -16,8 +16,8 @@ namespace berm::truck_world {
 // The truck of a scene; all zero in a scene without one.
 struct TruckTruth {
   std::string truck_class;
-  // On the inner top edge of the walls, in order round the opening, counter-clockwise from above: front left, rear left, rear right, front right as seen
-  // from the bed towards the cab.
+  // On the inner top edge of the walls, in order round the opening, counter-clockwise from above: front left, rear left, rear right, front right as
+  // seen from the bed towards the cab.
   std::array<Vector3d, 4> corners{};
   double yaw = 0.0, pitch = 0.0, roll = 0.0;            // of the bed; yaw of its long axis, towards the cab
   double inside_length = 0.0, inside_width = 0.0, wall_height = 0.0, wall_thickness = 0.0, floor_height = 0.0;

@@ -17,8 +17,8 @@ struct SiteGround {
 
   // Without roughness.
   [[nodiscard]] double height(const Vector2d& at) const;
-  // Fine round the place, coarse far away, 60 m to every side of it. hole: half length and half width of a rectangle round the place that is left out,
-  // turned by hole_yaw; a cell that reaches into it is left out whole.
+  // Fine round the place, coarse far away, 60 m to every side of it. hole: half length and half width of a rectangle round the place that is left
+  // out, turned by hole_yaw; a cell that reaches into it is left out whole.
   [[nodiscard]] Mesh mesh(Random& random, const Vector2d& hole = Vector2d::Zero(), double hole_yaw = 0.0) const;
 };
 

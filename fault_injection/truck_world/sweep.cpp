@@ -76,7 +76,8 @@ Sweep draw_sweep(bool lidar, int samples, const Vector2d& place, double swinging
   s.samples = samples;
   s.time_begin = std::floor(random.uniform(1.0, 1000.0) * 1000.0) / 1000.0;
   const bool swings = chance(random, swinging_share);
-  double rate = swings ? random.uniform(0.1, 0.35) * (chance(random, 0.5) ? 1.0 : -1.0) : 0.0;
+  const double sense_of_swing = chance(random, 0.5) ? 1.0 : -1.0;
+  double rate = swings ? random.uniform(0.1, 0.35) * sense_of_swing : 0.0;
   const double jitter = random.uniform(-0.1, 0.1);
   const bool outwards = chance(random, 0.5);
   if (lidar) {
@@ -106,8 +107,8 @@ Sweep draw_sweep(bool lidar, int samples, const Vector2d& place, double swinging
   return s;
 }
 
-void take_sweep(const Sweep& sweep, const RangeNoise& noise, const Mesh& mesh, const BoundingTree& tree, Random& random, std::vector<app::ScanPoint>& cloud,
-                std::vector<PointTruth>& truth) {
+void take_sweep(const Sweep& sweep, const RangeNoise& noise, const Mesh& mesh, const BoundingTree& tree, Random& random,
+                std::vector<app::ScanPoint>& cloud, std::vector<PointTruth>& truth) {
   for (int sample = 0; sample < sweep.samples; ++sample) {
     const double normal = random.normal(), what = random.uniform(), where = random.uniform();
     const SampleRay ray = sweep.ray(sample);

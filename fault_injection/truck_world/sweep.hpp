@@ -71,7 +71,7 @@ struct PointTruth {
 };
 
 // The points that the kernel would publish, and beside each its truth. The draws of noise do not depend on what is hit.
-void take_sweep(const Sweep& sweep, const RangeNoise& noise, const Mesh& mesh, const BoundingTree& tree, Random& random, std::vector<app::ScanPoint>& cloud,
-                std::vector<PointTruth>& truth);
+void take_sweep(const Sweep& sweep, const RangeNoise& noise, const Mesh& mesh, const BoundingTree& tree, Random& random,
+                std::vector<app::ScanPoint>& cloud, std::vector<PointTruth>& truth);
 
 }  // namespace berm::truck_world

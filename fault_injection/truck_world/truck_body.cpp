@@ -35,7 +35,8 @@ void add_wall(Mesh& mesh, const Wall& wall, Random& random) {
   add_grid(mesh, columns, rows, face(wall.thickness, 1.0), wall.surface);
   const Vector2d out = outwards * wall.thickness;
   const auto at = [](const Vector2d& p, double z) { return Vector3d(p.x(), p.y(), z); };
-  add_quad(mesh, at(wall.start, wall.z_high), at(wall.end, wall.z_high), at(wall.end + out, wall.z_high), at(wall.start + out, wall.z_high), wall.surface);
+  const double top = wall.z_high;
+  add_quad(mesh, at(wall.start, top), at(wall.end, top), at(wall.end + out, top), at(wall.start + out, top), wall.surface);
   for (const Vector2d& end : {wall.start, wall.end})
     add_quad(mesh, at(end, wall.z_low), at(end + out, wall.z_low), at(end + out, wall.z_high), at(end, wall.z_high), wall.surface);
 }
@@ -103,7 +104,8 @@ void add_cab(Mesh& mesh, const TruckBody& body) {
   // A sheet that begins behind the top of the front wall, so that the wall's own top stays what bounds the opening.
   const double rear = front_wall, front = front_wall + body.canopy_length, thickness = 0.05;
   const Vector3d rise(0, 0, body.canopy_rise), down(0, 0, -thickness);
-  const Vector3d a(rear, -y, body.top()), b(rear, y, body.top()), c = Vector3d(front, y, body.top()) + rise, d = Vector3d(front, -y, body.top()) + rise;
+  const Vector3d a(rear, -y, body.top()), b(rear, y, body.top());
+  const Vector3d c = Vector3d(front, y, body.top()) + rise, d = Vector3d(front, -y, body.top()) + rise;
   add_quad(mesh, a, b, c, d, Surface::truck_body);
   add_quad(mesh, a + down, b + down, c + down, d + down, Surface::truck_body);
   add_quad(mesh, d, c, c + down, d + down, Surface::truck_body);

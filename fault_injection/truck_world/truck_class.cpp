@@ -55,7 +55,8 @@ TruckClass read_class(StrictTable& t) {
   if (least > c.volume_m3[1] || most < c.volume_m3[0])
     t.fail("volume_m3", fmt::format("no bed of these sizes has it: they hold {:.2f} to {:.2f}", least, most));
   if (c.floor_height[0] + c.wall_height[0] > c.wall_top[1] || c.floor_height[1] + c.wall_height[1] < c.wall_top[0])
-    t.fail("wall_top", fmt::format("floor_height and wall_height give {:.2f} to {:.2f}", c.floor_height[0] + c.wall_height[0], c.floor_height[1] + c.wall_height[1]));
+    t.fail("wall_top", fmt::format("floor_height and wall_height give {:.2f} to {:.2f}", c.floor_height[0] + c.wall_height[0],
+                                   c.floor_height[1] + c.wall_height[1]));
   return c;
 }
 

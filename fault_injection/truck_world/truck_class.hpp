@@ -31,8 +31,8 @@ struct TruckClass {
   Range mud{};                          // thickest mud on the walls
 };
 
-// Reads a file of classes. Throws config::ConfigError, one line with file, field and limit: a key that is missing, unknown, of the wrong type or out of
-// range, no class, a name twice, ranges that leave no truck.
+// Reads a file of classes. Throws config::ConfigError, one line with file, field and limit: a key that is missing, unknown, of the wrong type or out
+// of range, no class, a name twice, ranges that leave no truck.
 std::vector<TruckClass> read_truck_classes(const std::string& file);
 
 // A box that some look-alike offers as a bed, inside, metres; length is the longer side.

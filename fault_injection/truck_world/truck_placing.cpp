@@ -11,7 +11,8 @@ namespace {
 constexpr double azimuth_low = 0.45, azimuth_high = 2.0;  // rad from the dig face to either side
 constexpr int attempts = 2000;
 
-std::optional<PlacedTruck> try_truck(const std::vector<TruckClass>& classes, const SceneOptions& options, std::uint64_t seed, int number, int attempt) {
+std::optional<PlacedTruck> try_truck(const std::vector<TruckClass>& classes, const SceneOptions& options, std::uint64_t seed, int number,
+                                     int attempt) {
   const auto own = [&](Stream subject) { return stream(seed, number, subject, attempt); };
   Random random = own(Stream::place), body_random = own(Stream::body);
   const std::size_t which = below(body_random, classes.size());
@@ -57,7 +58,8 @@ std::optional<PlacedTruck> try_truck(const std::vector<TruckClass>& classes, con
 
 SitePlace draw_place(Random& random) {
   SitePlace p;
-  const double distance = random.uniform(place_near, place_far), azimuth = random.uniform(azimuth_low, azimuth_high) * (chance(random, 0.5) ? 1.0 : -1.0);
+  const double side = chance(random, 0.5) ? 1.0 : -1.0;
+  const double distance = random.uniform(place_near, place_far), azimuth = side * random.uniform(azimuth_low, azimuth_high);
   p.at = {distance * std::cos(azimuth), distance * std::sin(azimuth)};
   p.yaw = random.uniform(-pi, pi);
   p.drop = chance(random, 0.2) ? 0.0 : random.uniform(0.0, drop_most);
@@ -83,7 +85,8 @@ SiteGround ground_before(const SitePlace& place, const GroundRectangle& standing
 PlacedTruck place_truck(const std::vector<TruckClass>& classes, const SceneOptions& options, std::uint64_t seed, int number) {
   for (int attempt = 0; attempt < attempts; ++attempt)
     if (auto truck = try_truck(classes, options, seed, number, attempt)) return *std::move(truck);
-  throw std::runtime_error("scene " + std::to_string(number) + ": no truck of these classes fits the site within " + std::to_string(attempts) + " draws");
+  throw std::runtime_error("scene " + std::to_string(number) + ": no truck of these classes fits the site within " + std::to_string(attempts) +
+                           " draws");
 }
 
 }  // namespace berm::truck_world

@@ -51,7 +51,9 @@ TEST(TruckWorldBoundingTree, MeetsWhatAllTrianglesTriedMeet) {
       const double expected = nearest_of_all(mesh, origin, direction, 15.0);
       const auto hit = tree.first(origin, direction, 15.0);
       ASSERT_EQ(hit.has_value(), expected < 15.0) << "round " << round << ", ray " << i;
-      if (hit) ASSERT_NEAR(hit->range, expected, 1e-9) << "round " << round << ", ray " << i;
+      if (hit) {
+        ASSERT_NEAR(hit->range, expected, 1e-9) << "round " << round << ", ray " << i;
+      }
       ++(hit ? hits : misses);
     }
   }
@@ -68,7 +70,9 @@ TEST(TruckWorldBoundingTree, MeetsWhatAllTrianglesTriedMeetInAScene) {
     const double expected = nearest_of_all(scene.mesh, ray.origin, ray.direction, range_max);
     const auto hit = tree.first(ray.origin, ray.direction, range_max);
     ASSERT_EQ(hit.has_value(), expected < range_max) << "sample " << sample;
-    if (hit) ASSERT_NEAR(hit->range, expected, 1e-8) << "sample " << sample;
+    if (hit) {
+      ASSERT_NEAR(hit->range, expected, 1e-8) << "sample " << sample;
+    }
     hits += hit ? 1 : 0;
   }
   EXPECT_GT(hits, 50);

@@ -114,8 +114,12 @@ TEST(TruckWorldScenes, ScenesWithoutATruckHaveNoneAndWhatIsLikeOneIsNone) {
         EXPECT_GE(most, 0.3) << scene.truth.look_alike << " against " << c.name;
       }
     }
-    if (why.roofed) EXPECT_GT(height_over_place(scene), -scene.truth.drop + 2.0);
-    if (scene.truth.look_alike == "trench_box") EXPECT_LT(height_over_place(scene), -50.0) << "a floor";
+    if (why.roofed) {
+      EXPECT_GT(height_over_place(scene), -scene.truth.drop + 2.0);
+    }
+    if (scene.truth.look_alike == "trench_box") {
+      EXPECT_LT(height_over_place(scene), -50.0) << "a floor";
+    }
   }
   EXPECT_EQ(kinds.size(), look_alike_names.size());
   EXPECT_EQ(clutter.size(), clutter_names.size());

@@ -89,8 +89,12 @@ TEST(TruckWorldTruth, FillIsWhatLiesBetweenFloorAndSoil) {
     const double volume = sum * k.inside_length * k.inside_width / (along * across);
     // Mud on the walls takes room that the truth counts as soil, and a pipe of straight facets has less than a round one.
     EXPECT_NEAR(volume, k.fill_m3, 0.035 * k.struck_m3) << number << ' ' << k.truck_class << ' ' << k.fill;
-    if (k.fill == "empty") EXPECT_EQ(k.fill_m3, 0.0);
-    if (k.fill == "heaped") EXPECT_GT(k.fill_m3, 0.6 * k.struck_m3);
+    if (k.fill == "empty") {
+      EXPECT_EQ(k.fill_m3, 0.0);
+    }
+    if (k.fill == "heaped") {
+      EXPECT_GT(k.fill_m3, 0.6 * k.struck_m3);
+    }
   }
   EXPECT_EQ(fills.size(), 4U);
 }
