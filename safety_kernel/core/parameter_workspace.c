@@ -76,6 +76,7 @@ static int32_t separation_rule(const berm_parameters *p)
 
 int32_t sk_check_workspace(const berm_parameters *p)
 {
+  int32_t rule;
   if (!sk_is_within(p->workspace_watched, 0, 1)) { return SK_RULE_WORKSPACE_WATCHED; }
   if (!sk_is_within(p->workspace_radius_mm, p->own_body_radius_mm, 15000)) { return SK_RULE_WORKSPACE_RADIUS; }
   if (!heights_ok(p)) { return SK_RULE_WORKSPACE_HEIGHTS; }
@@ -84,6 +85,7 @@ int32_t sk_check_workspace(const berm_parameters *p)
   if (!sk_is_within(p->workspace_follows, 0, 1)) { return SK_RULE_WORKSPACE_FOLLOWS; }
   if (!sk_is_within(p->lanes, 0, BERM_LANES)) { return SK_RULE_LANE_COUNT; }
   if (!lanes_ok(p)) { return SK_RULE_LANE_BOUNDS; }
-  if (!lidar_times_ok(p)) { return SK_RULE_WORKSPACE_LIDAR_TIMES; }
-  return separation_rule(p);
+  rule = separation_rule(p);
+  if (rule != SK_RULE_NONE) { return rule; }
+  return lidar_times_ok(p) ? SK_RULE_NONE : SK_RULE_WORKSPACE_LIDAR_TIMES;
 }

@@ -9,9 +9,9 @@ WorkspaceWatch::WorkspaceWatch(const berm_parameters& parameters)
     : parameters_(parameters),
       lidars_(std::clamp<int>(parameters.lidars, 0, BERM_LIDARS)),
       scanners_(parameters, parameters.workspace_wait_us, parameters.workspace_period_us),
-      lidar_{{parameters, 0}, {parameters, 1}},
+      lidar_{{parameters, 0}, {parameters, 1}, {parameters, 2}, {parameters, 3}},
       space_(parameters) {
-  static_assert(BERM_LIDARS == 2);
+  static_assert(BERM_LIDARS == 4);
 }
 
 void WorkspaceWatch::begin() {
