@@ -126,8 +126,9 @@ void write_picture(const std::string& path, const Scene& scene) {
   side.title(fmt::format("from the side: what is within {:g} m of the {}", strip, t.truck ? "bed's long axis" : "place"));
 
   std::string extra = fmt::format(
-      "<text x=\"{0}\" y=\"26\" style=\"font:bold 15px sans-serif\">{1}</text>\n<text x=\"{0}\" y=\"48\" style=\"font:13px sans-serif\">{2}</text>\n", left,
-      words_of(t), second_line(t));
+      "<text x=\"{0}\" y=\"26\" style=\"font:bold 15px sans-serif\">{1}</text>\n"
+      "<text x=\"{0}\" y=\"48\" style=\"font:13px sans-serif\">{2}</text>\n",
+      left, words_of(t), second_line(t));
   const double legend = left + std::max(above.pixel_width(), 560.0) + 20.0;
   for (std::size_t i = 0; i < colours.size(); ++i) {
     const double y = 100.0 + 20.0 * static_cast<double>(i);
