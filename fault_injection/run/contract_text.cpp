@@ -21,7 +21,8 @@ std::string stop_reason_name(unsigned reason) {
   static constexpr std::array<const char*, BERM_STOP_REASONS> names{
       "none",           "collision_predicted", "unknown_ground", "stale_ground", "dig_floor",   "request_hold", "app_silent", "state_frame",
       "scanner_silent", "operator",            "emergency",      "joint_range",  "braking",     "machine_fault", "internal",  "clock",
-      "base_moved",     "uncommanded",         "overpass",       "tail",         "intruder",        "separation"};
+      "base_moved",     "uncommanded",         "overpass",       "tail",         "intruder",        "separation",
+      "sensor_blocked", "dust"};
   return name(names, reason);
 }
 

@@ -250,7 +250,8 @@ class LoadRun {
       } else if (name == "stopped") {
         say(fmt::format("{:7.1f} s  the kernel stopped the machine: {}", recorder_.time_s(), event.value("reason", "?")));
       } else if (name == "full_speed" && event.value("slowed_s", 0.0) >= kSlowedWorthTelling_s) {
-        say(fmt::format("{:7.1f} s  was slowed by the kernel for {:.1f} s, to {:.0f} %", recorder_.time_s(), event.value("slowed_s", 0.0), 100 * event.value("least_share", 1.0)));
+        say(fmt::format("{:7.1f} s  was slowed by the kernel for {:.1f} s, to {:.0f} %{}", recorder_.time_s(), event.value("slowed_s", 0.0),
+                        100 * event.value("least_share", 1.0), event.value("dust", false) ? " (dust)" : ""));
       } else if (name == "held") {
         say(fmt::format("{:7.1f} s  the app holds back: {}", recorder_.time_s(), held_by(event)));
       } else if (name == "operator_needed") {

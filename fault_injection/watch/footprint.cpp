@@ -56,16 +56,16 @@ bool meets_square(const Footprint& f, double x, double y, double side) {
 
 double outer_radius(const Footprint& f) { return f.length > 0.0 ? 0.5 * std::hypot(f.length, f.width) : f.radius; }
 
-bool watched_at(const sk_monitor_rules& rules, double x, double y) {
+bool watched_at(const Region& region, double x, double y) {
   const int ix = cell_of(x), iy = cell_of(y);
-  return in_map(ix) && in_map(iy) && rules.watched[iy][ix] != 0;
+  return in_map(ix) && in_map(iy) && region.watched(iy, ix);
 }
 
-bool meets_region(const Footprint& f, const sk_monitor_rules& rules) {
+bool meets_region(const Footprint& f, const Region& region) {
   const Cells cells = around(f.x, f.y, outer_radius(f));
   for (int iy = cells.y_first; iy <= cells.y_last; ++iy)
     for (int ix = cells.x_first; ix <= cells.x_last; ++ix)
-      if (rules.watched[iy][ix] != 0 && meets_square(f, origin_m + cell_m * ix, origin_m + cell_m * iy, cell_m)) return true;
+      if (region.watched(iy, ix) && meets_square(f, origin_m + cell_m * ix, origin_m + cell_m * iy, cell_m)) return true;
   return false;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/monitor_rules.h"
+#include "io/space_watch.hpp"
 #include "plant/oracle/oracle.hpp"
 #include "plant/process/world_config.hpp"
 #include "plant/world/world.hpp"
@@ -22,10 +23,18 @@ bool meets_square(const Footprint& footprint, double x, double y, double side);
 // Of the smallest circle about its middle that holds it.
 double outer_radius(const Footprint& footprint);
 
+// The cells in which the kernel now tells of somebody: by heights, or by free space, which watches a part of the truck zones as well.
+struct Region {
+  const sk_monitor_rules* rules = nullptr;
+  const kernel::SpaceWatch* space = nullptr;  // null: not kept
+
+  bool watched(int iy, int ix) const { return rules->watched[iy][ix] != 0 || (space != nullptr && space->kept() && space->watched(iy, ix)); }
+};
+
 // Whether the cell that holds a point is watched; no cell of the map is not.
-bool watched_at(const sk_monitor_rules& rules, double x, double y);
+bool watched_at(const Region& region, double x, double y);
 // Whether the footprint covers some part of a watched cell.
-bool meets_region(const Footprint& footprint, const sk_monitor_rules& rules);
+bool meets_region(const Footprint& footprint, const Region& region);
 // Whether a watched cell with its middle no farther from the footprint than within holds an obstacle of the monitor's.
 bool obstacle_near(const Footprint& footprint, double within, const sk_monitor& monitor, const sk_monitor_rules& rules);
 

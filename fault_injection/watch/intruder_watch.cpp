@@ -12,6 +12,12 @@ constexpr double cycle_s = 0.01, rounding_s = 1e-6;
 constexpr double track_every_s = 0.1;
 }  // namespace
 
+std::array<const sk_monitor*, 1 + BERM_LIDARS> monitors_of(const kernel::WorkspaceWatch& workspace) {
+  std::array<const sk_monitor*, 1 + BERM_LIDARS> monitors{};
+  for (int i = 0; i < workspace.monitors(); ++i) monitors[static_cast<std::size_t>(i)] = &workspace.monitor(i);
+  return monitors;
+}
+
 IntruderWatch::IntruderWatch(const std::vector<std::string>& names) : track_(names.size()), distance_when_still_(names.size(), 0.0) {
   for (const auto& name : names) {
     records_.emplace_back();
@@ -25,7 +31,7 @@ int IntruderWatch::false_alarms() const {
 
 // What a cell shows may be as old as the monitor lets it wait, and two comparisons.
 void IntruderWatch::keep_track(const Moment& now, const std::vector<Presence>& presences) {
-  const double oldest_s = now.time_s - (now.rules->wait_us + 2.0 * now.rules->period_us) * 1e-6;
+  const double oldest_s = now.time_s - (now.region.rules->wait_us + 2.0 * now.region.rules->period_us) * 1e-6;
   for (std::size_t i = 0; i < track_.size(); ++i) {
     auto& track = track_[i];
     while (!track.empty() && track.front().time_s < oldest_s) track.pop_front();
@@ -41,8 +47,8 @@ double IntruderWatch::nearest_on_track(std::size_t i, double x, double y) const 
 }
 
 void IntruderWatch::enter(const Moment& now, const Presence& presence, IntruderRecord& record) const {
-  record.inside = presence.present && meets_region(presence.footprint, *now.rules);
-  if (presence.present && watched_at(*now.rules, presence.footprint.x, presence.footprint.y)) record.inside_s += cycle_s;
+  record.inside = presence.present && meets_region(presence.footprint, now.region);
+  if (presence.present && watched_at(now.region, presence.footprint.x, presence.footprint.y)) record.inside_s += cycle_s;
   if (!begun_ && record.inside) record.stood = presence.footprint;
   if (!record.inside) record.stood.reset();
   if (!record.inside || record.entered_s) return;
@@ -62,7 +68,9 @@ void IntruderWatch::detect(const Moment& now, const Presence& presence, std::siz
   bool found = false;
   if (now.stop_reason == BERM_STOP_INTRUDER) {
     found = nearest_on_track(i, now.cell_x, now.cell_y) <= alarm_within_m || std::any_of(track_[i].begin(), track_[i].end(), [&](const Seen& s) {
-              return obstacle_near(s.footprint, alarm_within_m, *now.monitor, *now.rules);
+              return std::any_of(now.monitors.begin(), now.monitors.end(), [&](const sk_monitor* monitor) {
+                return monitor != nullptr && obstacle_near(s.footprint, alarm_within_m, *monitor, *now.region.rules);
+              });
             });
   } else if (stops_now && BERM_STOP_HAS_CELL(now.stop_reason)) {
     found = nearest_on_track(i, now.cell_x, now.cell_y) <= alarm_within_m;

@@ -22,6 +22,8 @@ constexpr double beside_sweep = 25 * degree, beyond_reach = 1.5;  // nobody begi
 constexpr double last_step = 0.6;          // m, how near to the machine's own circle a way ends
 constexpr double beside_face = 2.5;        // m: some come up beside what is dug
 constexpr double clear_of_truck = 0.1;     // m
+constexpr double least_gap = 0.1, most_gap = 0.3;  // m, beside the truck's side
+constexpr double beside_truck_s = 20.0;    // there: more than a whole pass, so that what is measured is the detection and not where the scanners look
 
 struct Point { double x, y; };
 
@@ -92,22 +94,23 @@ void draw_dig_face(Draw& draw, const IntrusionSite& s, Intrusion& in) {
   in.mover.waypoints = {{from.x, from.y, 0.0}, {to.x, to.y, 0.0}};
 }
 
-// From beyond the end that lies farther from the sweep, along the side that faces the machine, and from somewhere there towards the machine.
+// Beside the truck from the first: from near the end that lies farther from the sweep, along the side that faces the machine, to somewhere there, and
+// later on towards the machine.
 void draw_truck_side(Draw& draw, const IntrusionSite& s, Intrusion& in) {
   const TruckOutline o = outline_of(s.truck);
   const double c = std::cos(s.truck.yaw), sn = std::sin(s.truck.yaw);
   const double side = -sn * -s.truck.x + c * -s.truck.y > 0.0 ? 1.0 : -1.0;
-  in.side_gap_m = draw.between(0.1, 1.0);
+  in.side_gap_m = draw.between(least_gap, most_gap);
   const double across = side * (o.half_width + in.side_gap_m + half_size(in.mover));
   const auto off_sweep = [&](double along) {
     const Point p = out_of(s.truck, along, across);
     return std::fabs(std::remainder(std::atan2(p.y, p.x) - 0.5 * (s.swing_low + s.swing_high), 2.0 * std::numbers::pi));
   };
   const bool from_cab = off_sweep(o.x_high) > off_sweep(o.x_low);
-  const double begin = from_cab ? o.x_high + draw.between(0.0, 2.0) : o.x_low - draw.between(0.0, 2.0), turn = draw.between(o.x_low, o.x_high);
+  const double begin = from_cab ? o.x_high - draw.between(0.0, 1.0) : o.x_low + draw.between(0.0, 1.0), turn = draw.between(o.x_low, o.x_high);
   const Point from = out_of(s.truck, begin, across), corner = out_of(s.truck, turn, across);
   const Point to = at(s.own_radius + last_step, std::atan2(corner.y, corner.x));
-  in.mover.waypoints = {{from.x, from.y, 0.0}, {corner.x, corner.y, 0.0}, {to.x, to.y, 0.0}};
+  in.mover.waypoints = {{from.x, from.y, 0.0}, {corner.x, corner.y, beside_truck_s}, {to.x, to.y, 0.0}};
 }
 
 void draw_towards(Draw& draw, const IntrusionSite& s, Intrusion& in) {
@@ -166,10 +169,11 @@ Intrusion draw_intrusion(std::uint64_t seed, int run, const IntrusionSite& site)
 }
 
 double way_time(const plant::MoverConfig& mover) {
-  double length = 0.0;
+  double length = 0.0, waits_s = 0.0;
+  for (const WaypointConfig& w : mover.waypoints) waits_s += w.wait_s;
   for (std::size_t i = 0; i + 1 < mover.waypoints.size(); ++i)
     length += std::hypot(mover.waypoints[i + 1].x - mover.waypoints[i].x, mover.waypoints[i + 1].y - mover.waypoints[i].y);
-  return length / mover.speed;
+  return length / mover.speed + waits_s;
 }
 
 std::string describe(const Intrusion& in) {

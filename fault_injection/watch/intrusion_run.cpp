@@ -92,11 +92,12 @@ class Trial {
     const berm_state& state = machine_.state();
     const auto& workspace = machine_.supervisor().cycle()->workspace();
     const bool stands = still(machine_.joints());
+    const Region region{&workspace.rules(), &workspace.space()};
     watch_.step({machine_.time_s(), state.kernel_state, state.stop_reason, state.blocked_x_mm * 1e-3, state.blocked_y_mm * 1e-3,
-                 state.blocked_height_mm * 1e-3, stands, &workspace.monitor(), &workspace.rules()},
+                 state.blocked_height_mm * 1e-3, stands, monitors_of(workspace), region},
                 {{present, footprint_of(shape_, pose.x, pose.y, pose.yaw), implements_m}});
     if (present) judge_danger(state, body, implements_m, stands);
-    if (present) note_seen(workspace.rules());
+    if (present) note_seen(region);
     if (watch_.records().front().detected_s && !result_.truck_distance_m)
       result_.truck_distance_m =
           std::max(0.0, distance_from_truck(bench_.intrusion_site.truck, pose.x, pose.y) - outer_radius(footprint_of(shape_, pose.x, pose.y, 0.0)));
@@ -114,10 +115,10 @@ class Trial {
     if (implements_m <= 0.0 || (due && reach_.holds(box_of(state, machine_.joints().angle), body))) result_.unsafe_s = t;
   }
 
-  void note_seen(const sk_monitor_rules& rules) {
+  void note_seen(const Region& region) {
     if (result_.seen_s) return;
     for (const auto& met : machine_.world().mover_returns())
-      if (watched_at(rules, met.x, met.y)) result_.seen_s = machine_.time_s();
+      if (watched_at(region, met.x, met.y)) result_.seen_s = machine_.time_s();
   }
 
   bool over() const {

@@ -45,7 +45,7 @@ class Follower {
     const bool still = std::all_of(joints.velocity.begin(), joints.velocity.end(), [](double v) { return std::fabs(v) < standstill_rad_s; });
     const auto& workspace = cycle.workspace();
     watch_.step({t, s.kernel_state, s.stop_reason, s.blocked_x_mm * 1e-3, s.blocked_y_mm * 1e-3, s.blocked_height_mm * 1e-3, still,
-                 &workspace.monitor(), &workspace.rules()},
+                 monitors_of(workspace), {&workspace.rules(), &workspace.space()}},
                 presences_);
     if (picture_ != nullptr && watch_.alarms().size() == 1 && !pictured_) {
       keep_picture(workspace, fmt::format("the first alarm, {:.2f} s", t));

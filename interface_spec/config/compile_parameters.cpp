@@ -8,7 +8,7 @@ namespace berm::config {
 
 namespace {
 
-constexpr double kMicro = 1e6, kMilli = 1e3;
+constexpr double kMicro = 1e6, kMilli = 1e3;  // of shares: per mille
 constexpr double kSlack = 1e-6;  // a decimal that is meant to be whole stays whole
 
 // Which way each field is rounded, and why that is the safe way: CONFIG.md, IF-CF-9 to IF-CF-13.
@@ -130,6 +130,14 @@ void compile_workspace(const WorkspaceFile& w, const SiteFile& site, berm_parame
   }
 }
 
+void compile_sight(const SightFile& s, berm_parameters& p) {
+  p.sight_blind_permille = down(s.blind, kMilli);
+  p.dust_slow_permille = down(s.dust_slow, kMilli);
+  p.dust_stop_permille = down(s.dust_stop, kMilli);
+  p.dust_speed_permille = down(s.dust_speed, kMilli);
+  p.dust_dwell_us = up(s.dust_dwell, kMicro);
+}
+
 void compile_overpass(const SiteFile& site, berm_parameters& p) {
   p.pass_over_mm = down(site.pass_over, kMilli);
   p.ground_zones = static_cast<std::int32_t>(site.ground_zone.size());
@@ -168,6 +176,7 @@ berm_parameters compile_parameters(const MachineFile& m, const SiteFile& site) {
   compile_overpass(site, p);
   compile_tail(m.tail, p);
   compile_workspace(m.workspace, site, p);
+  compile_sight(m.sight, p);
   p.crc32 = parameters_crc(p);
   return p;
 }

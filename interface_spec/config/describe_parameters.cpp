@@ -142,6 +142,14 @@ void workspace(const berm_parameters& p, Listing& out) {
   }
 }
 
+void sight(const berm_parameters& p, Listing& out) {
+  out.row("sight_blind_permille", p.sight_blind_permille);
+  out.row("dust_slow_permille", p.dust_slow_permille);
+  out.row("dust_stop_permille", p.dust_stop_permille);
+  out.row("dust_speed_permille", p.dust_speed_permille);
+  out.row("dust_dwell_us", p.dust_dwell_us);
+}
+
 }  // namespace
 
 std::string describe(const berm_parameters& p) {
@@ -155,6 +163,7 @@ std::string describe(const berm_parameters& p) {
   overpass(p, out);
   tail(p, out);
   workspace(p, out);
+  sight(p, out);
   out.row("crc32", fmt::format("{:08x}", static_cast<std::uint32_t>(p.crc32)));
   return out.text();
 }

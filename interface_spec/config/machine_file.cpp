@@ -156,6 +156,18 @@ WorkspaceFile read_workspace(StrictTable table, double own_body_radius) {
   return w;
 }
 
+SightFile read_sight(StrictTable table) {
+  SightFile s{};
+  s.blind = table.number("blind", 0.05, 1.0);
+  s.dust_slow = table.number("dust_slow", 0.001, 1.0);
+  s.dust_stop = table.number("dust_stop", 0.001, 1.0);
+  if (s.dust_stop < s.dust_slow) table.fail("dust_stop", "below dust_slow");
+  s.dust_speed = table.number("dust_speed", 0.05, 1.0);
+  s.dust_dwell = table.number("dust_dwell", 0.0, 60.0);
+  table.finish();
+  return s;
+}
+
 KernelFile read_kernel(StrictTable table) {
   KernelFile k{};
   k.cycle = table.number("cycle", 0.001, 0.1);
@@ -230,6 +242,7 @@ MachineFile load_machine_file(const std::string& path) {
   if (m.lidar.size() > BERM_LIDARS) file.fail("lidar", fmt::format("{} lidars, up to {} are taken", m.lidar.size(), BERM_LIDARS));
   m.tail = read_tail(file.table("tail"), m.own_body_radius, m.kernel.fresh);
   m.workspace = read_workspace(file.table("workspace"), m.own_body_radius);
+  m.sight = read_sight(file.table("sight"));
   if (m.kernel.dig_swing_limit > m.joint[0].velocity_max) file.fail("kernel.dig_swing_limit_deg_s", "above joint.swing.velocity_max_deg_s");
   file.finish();
   return m;

@@ -69,6 +69,13 @@ struct WorkspaceFile {
   double approach_speed, intrusion_distance;  // K, m/s, and C, m, of ISO 13855
 };
 
+struct SightFile {
+  double blind;                               // share of a strip's rays that must be blind
+  double dust_slow, dust_stop;                // shares of returns with more than one echo
+  double dust_speed;                          // share of the largest speeds
+  double dust_dwell;                          // s
+};
+
 struct MachineFile {
   std::string name;
   double boom_pin_x, boom_pin_z, boom, stick, bucket, own_body_radius;  // m
@@ -80,6 +87,7 @@ struct MachineFile {
   std::vector<LidarFile> lidar;
   TailFile tail;
   WorkspaceFile workspace;
+  SightFile sight;
   KernelFile kernel;
 };
 

@@ -25,7 +25,7 @@ extern "C" {
 #define BERM_TRUCK_ZONES 4
 #define BERM_SCANNER_MOUNTS 2
 #define BERM_LANES 4
-#define BERM_LIDARS 2           /* VLP-16 on the upper body */
+#define BERM_LIDARS 4           /* VLP-16 on the upper body */
 
 enum { BERM_SEPARATION_NONE = 0, BERM_SEPARATION_REPORTED = 1, BERM_SEPARATION_ENFORCED = 2 };
 
@@ -130,6 +130,12 @@ typedef struct berm_parameters {
   int32_t workspace_intrusion_mm;                 /* C: what of him may reach ahead before he is detected */
   int32_t lanes;
   berm_lane lane[BERM_LANES];                     /* where trucks come and go: not watched unless one is parked */
+  /* what the sensors can see: see safety_kernel/requirements/sight.md */
+  int32_t sight_blind_permille;                   /* a strip of a sensor of whose rays so many are blind is blocked: fault */
+  int32_t dust_slow_permille;                     /* so many returns with more than one echo: motion is slowed */
+  int32_t dust_stop_permille;                     /* so many: motion is held */
+  int32_t dust_speed_permille;                    /* of each joint's largest speed, while slowed */
+  int32_t dust_dwell_us;                          /* below the limit for so long before it is lifted */
   int32_t crc32;                                  /* bit pattern of the CRC-32 */
 } berm_parameters;
 

@@ -81,7 +81,9 @@ enum {
   BERM_STOP_TAIL = 19,               /* the upper body's tail would swing into what stands there: latched */
   BERM_STOP_INTRUDER = 20,           /* something moved into the safety region, and has not left it long enough */
   BERM_STOP_SEPARATION = 21,         /* the distance of ISO 13855 is not kept: who comes into the safety region would be told of too late */
-  BERM_STOP_REASONS = 22
+  BERM_STOP_SENSOR_BLOCKED = 22,     /* something lies on a sensor's window, all of it or a strip: fault */
+  BERM_STOP_DUST = 23,               /* so much dust that the sensors cannot be relied on */
+  BERM_STOP_REASONS = 24
 };
 
 /* Whether a reason is a cell of the map's: then the blocked_* fields say which. */
@@ -132,6 +134,11 @@ typedef struct berm_request_segment {
 #define BERM_UNWATCHED_TAIL 1u      /* the ground round the upper body's tail: it must be fenced */
 #define BERM_UNWATCHED_WORKSPACE 2u /* the safety region: nobody may come into it */
 
+#define BERM_SIGHT_BLOCKED(eye) (1u << (eye)) /* an eye cannot see, or a strip of it: 0, 1 the scanners, 2 to 5 the lidars on the upper body */
+#define BERM_SIGHT_EYES 6
+#define BERM_SIGHT_DUST_SLOW 0x100u /* dust: every joint's request is cut to a share of its largest speed */
+#define BERM_SIGHT_DUST_STOP 0x200u /* dust: motion is held */
+
 /* Machine state and verdict of one cycle. */
 typedef struct berm_state {
   uint64_t cycle;                                    /* cycles since start */
@@ -163,6 +170,8 @@ typedef struct berm_state {
   uint32_t unwatched;                                /* BERM_UNWATCHED_*: what the kernel does not check, for no sensor sees it */
   int16_t separation_bearing_deg;                    /* base frame, from x to y: where the distance of ISO 13855 leaves the least; -1: not evaluated */
   int16_t separation_stop_ms;                        /* the most stopping time that keeps it there; -1: none */
+  int32_t dust_permille;                             /* of the dustiest sensor: returns with a second echo in front of the last */
+  uint32_t sight;                                    /* BERM_SIGHT_* */
 } berm_state;
 
 /* A block of consecutive samples of one scanline, as received. Range 0 means no return. */
@@ -246,7 +255,7 @@ typedef struct berm_state_segment {
 BERM_STATIC_ASSERT(sizeof(berm_request) == 64, "request layout");
 BERM_STATIC_ASSERT(offsetof(berm_request, crc32) == sizeof(berm_request) - 4, "the CRC is the last field");
 BERM_STATIC_ASSERT(sizeof(berm_request_segment) == 128, "request segment layout");
-BERM_STATIC_ASSERT(sizeof(berm_state) == 280, "state layout");
+BERM_STATIC_ASSERT(sizeof(berm_state) == 296, "state layout");
 BERM_STATIC_ASSERT(sizeof(berm_scan_block) == 40 + BERM_SCAN_BLOCK_SAMPLES * 18, "scan block layout");
 BERM_STATIC_ASSERT(sizeof(berm_decision) == 176, "decision layout");
 BERM_STATIC_ASSERT(sizeof(berm_slice) == 8 + BERM_SLICE_VERTICES * 12, "slice layout");

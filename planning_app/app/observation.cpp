@@ -36,6 +36,7 @@ Observation observe(const berm_state& state) {
   o.payload_kg = state.payload_kg;
   o.kernel_state = state.kernel_state;
   o.stop_reason = state.stop_reason;
+  o.slowed_by_dust = (state.sight & BERM_SIGHT_DUST_SLOW) != 0;
   o.latched = state.kernel_state == BERM_STATE_FAULT || (state.kernel_state == BERM_STATE_STOPPED && state.stop_category != category_held);
   const double behind = state.blocked_link == BERM_SWING ? -1.0 : 1.0;  // the upper body's tail meets it: the arm points the other way
   o.blocked_bearing = std::atan2(behind * state.blocked_y_mm, behind * state.blocked_x_mm);
@@ -74,7 +75,7 @@ const char* stop_reason_name(std::uint8_t reason) {
                                                            "request hold", "app silent", "state frame", "scanner silent", "operator",
                                                            "emergency", "joint range", "braking", "machine fault", "internal", "clock",
                                                            "base moved", "uncommanded", "overpass", "tail", "intruder",
-                                                           "separation"};
+                                                           "separation", "sensor blocked", "dust"};
   return reason < BERM_STOP_REASONS ? names[reason] : "unnamed";
 }
 

@@ -19,6 +19,7 @@ struct Observation {
   double payload_kg = -1.0;     // negative: unknown
   std::uint8_t kernel_state = BERM_STATE_INIT;
   std::uint8_t stop_reason = BERM_STOP_NONE;
+  bool slowed_by_dust = false;
   bool latched = false;         // stopped until the operator resets
   Joints commanded{};           // what the kernel told the machine in this cycle
   // Speeds permitted now, low <= 0 <= high: where a request was cut what of it went out, else the joint's largest; nothing unless running.

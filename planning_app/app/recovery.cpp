@@ -28,8 +28,11 @@ bool by_ground(std::uint8_t reason) {
   return (BERM_STOP_HAS_CELL(reason) && reason != BERM_STOP_INTRUDER) || reason == BERM_STOP_JOINT_RANGE;
 }
 
-// What another look may end: the same, an intruder, who is waited for wherever the implements are, and a direction that was not seen for too long.
-bool by_place(std::uint8_t reason) { return by_ground(reason) || reason == BERM_STOP_INTRUDER || reason == BERM_STOP_SEPARATION; }
+// What another look may end: the same, an intruder, who is waited for wherever the implements are, a direction that was not seen for too long,
+// and dust.
+bool by_place(std::uint8_t reason) {
+  return by_ground(reason) || reason == BERM_STOP_INTRUDER || reason == BERM_STOP_SEPARATION || reason == BERM_STOP_DUST;
+}
 
 const char* advice_for(const Observation& o) {
   switch (o.stop_reason) {
@@ -37,6 +40,9 @@ const char* advice_for(const Observation& o) {
     case BERM_STOP_JOINT_RANGE: return "move the joint back into its range by hand";
     case BERM_STOP_INTRUDER: return "send away who or what came; if nobody is there, press relearn";
     case BERM_STOP_SEPARATION: return "make the sensors see all round the machine again, or take it out of where they cannot";
+    case BERM_STOP_SENSOR_BLOCKED:
+      return "look what lies on the sensors' windows, clean them, then press reset; relearn before it if that does not help";
+    case BERM_STOP_DUST: return "wait until the dust has settled, or lay it with water; if there is none, clean the sensors' windows";
     case BERM_STOP_OVERPASS: return "send away who or what stands there, or admit the truck; if nothing stands there, press relearn";
     default: return o.latched ? "mend the cause, then press reset" : "clear the place; if nothing stands there, press relearn";
   }

@@ -22,7 +22,7 @@ private:
   double seconds_ = 0.0;
   int spans_ = 0;
   double least_share_ = 1.0;
-  bool open_ = false;
+  bool open_ = false, span_dust_ = false;  // dust slowed in it, perhaps beside other causes
   double from_s_ = 0.0, last_s_ = 0.0, span_least_ = 1.0;
 };
 

@@ -6,6 +6,7 @@
 #include "parameter_range.h"
 #include "parameter_rectangle.h"
 #include "parameter_tail.h"
+#include "parameter_sight.h"
 #include "parameter_workspace.h"
 
 /*@ requires \valid_read(v + (0 .. SK_JOINTS - 1));
@@ -312,5 +313,6 @@ int32_t sk_parameters_check(const berm_parameters *p)
   if (rule == SK_RULE_NONE) { rule = sk_check_tail(p); }
   if (rule == SK_RULE_NONE) { rule = sk_check_lidars(p); }
   if (rule == SK_RULE_NONE) { rule = sk_check_workspace(p); }
+  if (rule == SK_RULE_NONE) { rule = sk_check_sight(p); }
   return rule;
 }

@@ -100,6 +100,11 @@ SK_BEGIN
   @ ensures why_separation_intrusion: \result == SK_RULE_SEPARATION_INTRUSION ==> !sk_rule_separation_intrusion(p);
   @ ensures why_workspace_lidar_times: \result == SK_RULE_WORKSPACE_LIDAR_TIMES ==> !sk_rule_workspace_lidar_times(p);
   @ ensures why_workspace_histogram: \result == SK_RULE_WORKSPACE_HISTOGRAM ==> !sk_rule_workspace_histogram(p);
+  @ ensures why_sight_blind: \result == SK_RULE_SIGHT_BLIND ==> !sk_rule_sight_blind(p);
+  @ ensures why_dust_slow: \result == SK_RULE_DUST_SLOW ==> !sk_rule_dust_slow(p);
+  @ ensures why_dust_stop: \result == SK_RULE_DUST_STOP ==> !sk_rule_dust_stop(p);
+  @ ensures why_dust_speed: \result == SK_RULE_DUST_SPEED ==> !sk_rule_dust_speed(p);
+  @ ensures why_dust_dwell: \result == SK_RULE_DUST_DWELL ==> !sk_rule_dust_dwell(p);
   @*/
 int32_t sk_parameters_check(const berm_parameters *p);
 

@@ -36,7 +36,8 @@ enum {
   SK_RULE_WORKSPACE_FOREIGN = 82, SK_RULE_WORKSPACE_FOLLOWS = 83, SK_RULE_LANE_COUNT = 84, SK_RULE_LANE_BOUNDS = 85,
   SK_RULE_SEPARATION_MODE = 86, SK_RULE_SEPARATION_APPROACH = 87, SK_RULE_SEPARATION_INTRUSION = 88, SK_RULE_WORKSPACE_LIDAR_TIMES = 89,
   SK_RULE_WORKSPACE_HISTOGRAM = 90,
-  SK_RULES = 91
+  SK_RULE_SIGHT_BLIND = 91, SK_RULE_DUST_SLOW = 92, SK_RULE_DUST_STOP = 93, SK_RULE_DUST_SPEED = 94, SK_RULE_DUST_DWELL = 95,
+  SK_RULES = 96
 };
 
 /*@ predicate sk_within(integer v, integer low, integer high) = low <= v <= high;
@@ -247,9 +248,18 @@ enum {
   @   sk_rule_separation_mode(p) && sk_rule_separation_approach(p) && sk_rule_separation_intrusion(p) && sk_rule_workspace_lidar_times(p) &&
   @   sk_rule_workspace_histogram(p);
   @
+  @ // what the sensors can see
+  @ predicate sk_rule_sight_blind(berm_parameters *p) = sk_within(p->sight_blind_permille, 50, 1000);
+  @ predicate sk_rule_dust_slow(berm_parameters *p) = sk_within(p->dust_slow_permille, 1, 1000);
+  @ predicate sk_rule_dust_stop(berm_parameters *p) = sk_within(p->dust_stop_permille, p->dust_slow_permille, 1000);
+  @ predicate sk_rule_dust_speed(berm_parameters *p) = sk_within(p->dust_speed_permille, 50, 1000);
+  @ predicate sk_rule_dust_dwell(berm_parameters *p) = sk_within(p->dust_dwell_us, 0, 60000000);
+  @ predicate sk_sight_ok(berm_parameters *p) =
+  @   sk_rule_sight_blind(p) && sk_rule_dust_slow(p) && sk_rule_dust_stop(p) && sk_rule_dust_speed(p) && sk_rule_dust_dwell(p);
+  @
   @ predicate sk_parameters_ok(berm_parameters *p) =
   @   sk_head_ok(p) && sk_kinematics_ok(p) && sk_joints_ok(p) && sk_braking_ok(p) && sk_parts_ok(p) && sk_sensors_ok(p) && sk_map_rules_ok(p) &&
-  @   sk_times_ok(p) && sk_base_ok(p) && sk_overpass_ok(p) && sk_tail_ok(p) && sk_lidars_ok(p) && sk_workspace_ok(p);
+  @   sk_times_ok(p) && sk_base_ok(p) && sk_overpass_ok(p) && sk_tail_ok(p) && sk_lidars_ok(p) && sk_workspace_ok(p) && sk_sight_ok(p);
   @*/
 
 SK_END

@@ -76,6 +76,7 @@ static int32_t separation_rule(const berm_parameters *p)
 
 int32_t sk_check_workspace(const berm_parameters *p)
 {
+  int32_t rule;
   if (!sk_is_within(p->workspace_watched, 0, 1)) { return SK_RULE_WORKSPACE_WATCHED; }
   if (!sk_is_within(p->workspace_radius_mm, p->own_body_radius_mm, 15000)) { return SK_RULE_WORKSPACE_RADIUS; }
   if (!heights_ok(p)) { return SK_RULE_WORKSPACE_HEIGHTS; }
@@ -84,7 +85,8 @@ int32_t sk_check_workspace(const berm_parameters *p)
   if (!sk_is_within(p->workspace_follows, 0, 1)) { return SK_RULE_WORKSPACE_FOLLOWS; }
   if (!sk_is_within(p->lanes, 0, BERM_LANES)) { return SK_RULE_LANE_COUNT; }
   if (!lanes_ok(p)) { return SK_RULE_LANE_BOUNDS; }
+  rule = separation_rule(p);
+  if (rule != SK_RULE_NONE) { return rule; }
   if (!lidar_times_ok(p)) { return SK_RULE_WORKSPACE_LIDAR_TIMES; }
-  if (!sk_is_within(p->workspace_histogram, 0, 1)) { return SK_RULE_WORKSPACE_HISTOGRAM; }
-  return separation_rule(p);
+  return sk_is_within(p->workspace_histogram, 0, 1) ? SK_RULE_NONE : SK_RULE_WORKSPACE_HISTOGRAM;
 }

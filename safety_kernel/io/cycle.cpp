@@ -18,7 +18,8 @@ Cycle::Cycle(const berm_parameters& parameters, bool map_only)
       motion_watch_(parameters),
       registration_(parameters),
       workspace_(parameters),
-      sectors_(parameters) {
+      sectors_(parameters),
+      sight_(parameters) {
   sk_map_clear(&map_);
   sk_stop_init(&stop_);
 }
@@ -51,10 +52,12 @@ void Cycle::step(const CycleInputs& in, CycleOutputs& out) {
   map_points_ += scans_.points() - points_before;
   take_points(in);
   take_lidars(in);
+  sight_.step(in.now_us);
   if (!map_only_) {
     register_terrain(out.blocks, in.now_us);
     // Nothing is kept while the base has moved, for it may still be moving, nor while the operator has the map learned anew.
     if (frames_.base().moved || relearns(in.now_us)) begin_map();
+    if (relearns(in.now_us)) sight_.begin();
     watch_workspace(out.blocks, in.now_us);
     own_cells_.stamp(map_, in.now_us, parameters_.generation_us);
     take_request(in);
@@ -75,8 +78,11 @@ void Cycle::take_frames(const CycleInputs& in) {
 void Cycle::take_scans(const CycleInputs& in, ScanBlocks& blocks) {
   // Without joint angles nothing can be placed in the base frame.
   if (map_only_ || joints_.size() == 0) return;
-  for (int i = 0; i < in.packet_count; ++i)
-    if (!scans_.take(in.packet[i], joints_, in.now_us, map_, blocks)) ++scans_rejected_;
+  const double swing = joints_.at(in.now_us).angles.swing;
+  for (int i = 0; i < in.packet_count; ++i) {
+    if (scans_.take(in.packet[i], joints_, in.now_us, map_, blocks)) sight_.take(in.packet[i], swing, in.now_us);
+    else ++scans_rejected_;
+  }
   scans_.flush(joints_, in.now_us, map_, blocks);
 }
 
@@ -102,14 +108,20 @@ void Cycle::take_lidars(const CycleInputs& in) {
   const std::uint32_t before = lidars_.points();
   for (int i = 0; i < in.lidar_count; ++i) {
     const CycleInputs::LidarPacket& packet = in.lidar[i];
-    if (lidars_.take(packet.lidar, packet.bytes, kVlp16PacketBytes, joints_, in.now_us, map_, scans_.shadow())) watch_lidar(packet.lidar, in.now_us);
-    else ++lidars_rejected_;
+    if (!lidars_.take(packet.lidar, packet.bytes, kVlp16PacketBytes, joints_, in.now_us, map_, scans_.shadow())) {
+      ++lidars_rejected_;
+      continue;
+    }
+    sight_.take(packet.lidar, packet.bytes, joints_.at(in.now_us).angles.swing, in.now_us);
+    watch_lidar(packet.lidar, in.now_us);
   }
   map_points_ += lidars_.points() - before;
 }
 
 void Cycle::watch_lidar(int lidar, std::int64_t now_us) {
-  if (!frames_.base().moved) workspace_.take(lidar, lidars_.packet(), joints_.at(lidars_.middle_us(lidar)).angles, now_us);
+  if (frames_.base().moved || !workspace_.watched()) return;
+  workspace_.take(lidar, lidars_.packet(), joints_.at(lidars_.middle_us(lidar)).angles, now_us);
+  sectors_.take(workspace_.lidar_returns(lidar), now_us);
 }
 
 void Cycle::learn_base(std::int64_t now_us) {
@@ -188,6 +200,7 @@ void Cycle::judge_motion(std::int64_t now_us) {
   std::copy(requested_urad_s_, requested_urad_s_ + SK_JOINTS, query.requested_urad_s);
   commands_.range(now_us, query.under_way_low_urad_s, query.under_way_high_urad_s);
   query.truck_admitted = frames_.truck_admitted(now_us);
+  if (sight_.dust() == SK_DUST_SLOW) query.speed_permille = parameters_.dust_speed_permille;
   query.sectors = sectors_.evaluated() ? &sectors_ : nullptr;
   motion_.check(query, map_, verdict_);
   motion_fault_ = motion_watch_.check(query, verdict_.box, frames_.angle_us(), frames_.velocity_us());
@@ -198,6 +211,7 @@ std::uint8_t Cycle::judge_hold(std::int64_t now_us) const {
   if (stop_.latched) return BERM_STOP_NONE;
   if (intruder_) return BERM_STOP_INTRUDER;
   if (app_.holds(now_us, parameters_.request_hold_us)) return BERM_STOP_REQUEST_HOLD;
+  if (sight_.dust() == SK_DUST_STOP) return BERM_STOP_DUST;
   if (verdict_.permission == Permission::kHeld) return verdict_.reason;
   // Creep recovery counts as running only while it is used.
   const bool at_rest = !motion_wanted_ && !standstill_watch_.moving();
@@ -209,7 +223,7 @@ void Cycle::step_stop_logic(const CycleInputs& in) {
   const bool panel_fresh = frames_.operator_fresh(in.now_us);
   sk_stop_input stop_in{};
   stop_in.now_us = in.now_us;
-  supervise(frames_, {scans_.health(), lidars_}, app_, in.clock_fault, parameters_, stop_in);
+  supervise(frames_, {scans_.health(), lidars_, sight_}, app_, in.clock_fault, parameters_, stop_in);
   if (motion_fault_ != BERM_STOP_NONE) {  // before any other fault: it alone removes power at once
     stop_in.fault_reason = motion_fault_;
     stop_in.fault_category_0 = true;
@@ -220,7 +234,7 @@ void Cycle::step_stop_logic(const CycleInputs& in) {
   if (met_tail && stop_in.latch_reason == BERM_STOP_NONE) stop_in.latch_reason = BERM_STOP_TAIL;
   hold_reason_ = judge_hold(in.now_us);
   stop_in.hold_reason = hold_reason_;
-  stop_in.inputs_ready = inputs_ready(frames_, {scans_.health(), lidars_}, parameters_, in.now_us);
+  stop_in.inputs_ready = inputs_ready(frames_, {scans_.health(), lidars_, sight_}, parameters_, in.now_us);
   stop_in.standstill = standstill_;
   stop_in.operator_run = panel_fresh && panel.run && app_.heard;
   stop_in.operator_reset = panel_fresh && panel.reset;

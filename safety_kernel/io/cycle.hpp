@@ -23,6 +23,7 @@
 #include "io/own_cells.hpp"
 #include "io/scan_intake.hpp"
 #include "io/sector_watch.hpp"
+#include "io/sight_watch.hpp"
 #include "io/supervision.hpp"
 #include "io/vlp16.hpp"
 #include "io/workspace_watch.hpp"
@@ -87,6 +88,7 @@ class Cycle {
   const TerrainRegistration& registration() const { return registration_; }
   const WorkspaceWatch& workspace() const { return workspace_; }
   const SectorWatch& sectors() const { return sectors_; }
+  const SightWatch& sight() const { return sight_; }
   std::uint64_t frames_rejected() const { return frames_.rejected(); }
   std::uint64_t scans_rejected() const { return scans_rejected_; }
   std::uint64_t lidars_rejected() const { return lidars_rejected_; }
@@ -136,6 +138,7 @@ class Cycle {
   TerrainRegistration registration_;
   WorkspaceWatch workspace_;
   SectorWatch sectors_;
+  SightWatch sight_;
   sk_request_state request_state_{};
   sk_request request_{};            // newest accepted
   sk_stop_state stop_{};

@@ -83,6 +83,11 @@ void Cycle::report_state(const CycleInputs& in, berm_state& state) const {
     const std::int32_t stop_us = verdict_.separation.stop_us;
     if (stop_us >= 0) state.separation_stop_ms = static_cast<std::int16_t>(std::min(stop_us / 1000, 32767));
   }
+  state.dust_permille = sight_.dust_permille();
+  state.sight = sight_.blocked_eyes();
+  static_assert(SightWatch::kEyes == BERM_SIGHT_EYES);
+  if (sight_.dust() == SK_DUST_SLOW) state.sight |= BERM_SIGHT_DUST_SLOW;
+  if (sight_.dust() == SK_DUST_STOP) state.sight |= BERM_SIGHT_DUST_STOP;
   const std::int64_t confirmed_us = registration_.confirmed_us();
   state.terrain_confirmed_ms = UINT32_MAX;
   if (confirmed_us >= 0) state.terrain_confirmed_ms = static_cast<std::uint32_t>(std::clamp<std::int64_t>((in.now_us - confirmed_us) / 1000, 0, UINT32_MAX - 1));

@@ -25,6 +25,7 @@ bool LidarIntake::accept(Mount& mount, const std::uint8_t* bytes, std::int64_t n
   if (!anew && (ahead_us == 0 || ahead_us > kAheadMaxUs)) return false;
   if (anew) mount.clock.begin(clock_us, now_us);
   else mount.clock.advance(clock_us, now_us);
+  if (now_us - mount.clock.time_us() > kLateMaxUs) return false;
   mount.heard_us = now_us;
   return true;
 }

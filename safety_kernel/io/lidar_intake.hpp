@@ -22,11 +22,12 @@ class LidarIntake {
   static constexpr std::uint32_t kTakenMdeg = 1600;   // of the turn one firing is taken, and stands for all of it
   static constexpr double kFarthestM = 8.0;           // from the swing axis
   static constexpr std::uint32_t kAheadMaxUs = 1000000;
+  static constexpr std::int64_t kLateMaxUs = 100000;  // more than the one that came with the least delay
 
   explicit LidarIntake(const berm_parameters& parameters);
 
-  // One packet of a lidar, its joint angles being those of now. False when it was refused: no packet of a VLP-16, of no lidar there is, or not
-  // later than the one before it, by the sensor's own clock, by at most a second.
+  // One packet of a lidar, its joint angles being those of now. False when it was refused: no packet of a VLP-16, of no lidar there is, not later
+  // than the one before it, by the sensor's own clock, by at most a second, or too late.
   bool take(int lidar, const std::uint8_t* bytes, std::size_t size, const JointHistory& joints, std::int64_t now_us, sk_height_map& map,
             OwnShadow& shadow);
 

@@ -47,6 +47,7 @@ LidarWatch::LidarWatch(const berm_parameters& parameters, int lidar)
 void LidarWatch::begin() {
   monitor_.begin();
   columns_ = 0;
+  returns_.count = 0;
   line_ = turn_ = 0;
 }
 
@@ -114,11 +115,18 @@ void LidarWatch::insert(const Column& column, const bool (&counting)[kVlp16Chann
   }
 }
 
+void LidarWatch::note(const Column& column, const bool (&counting)[kVlp16Channels], bool lined) {
+  for (int channel = 0; channel < kVlp16Channels; ++channel)
+    if (counting[channel] && returns_.count < LidarReturns::kCapacity) returns_.hit[returns_.count++] = {column.head, column.point[channel], lined};
+}
+
 void LidarWatch::finish(const Column& column, const Column* before, const Column* after, std::int64_t now_us) {
   bool counting[kVlp16Channels];
   for (int c = 0; c < kVlp16Channels; ++c) counting[c] = column.met[c] == Met::kThing && counts(column, c, before, after);
   insert(column, counting, now_us);
-  if (draws_lines(column.azimuth_mdeg)) draw(column, now_us);
+  const bool lined = draws_lines(column.azimuth_mdeg);
+  note(column, counting, lined);
+  if (lined) draw(column, now_us);
 }
 
 // A beam that came back from the own machine, or did not come back, cuts the line: what lies between its neighbours is not known.
@@ -153,6 +161,7 @@ void LidarWatch::draw_line(const sk_point& from, const sk_point& to, std::int64_
 void LidarWatch::take(const Vlp16Packet& packet, const JointAngles& joints, std::int64_t now_us) {
   Pose pose{self_.pose(joints), std::cos(joints.swing), std::sin(joints.swing), {}};
   pose.head = lidar_base_point(mount_.place, pose.cosine, pose.sine);
+  returns_.count = 0;
   int next = 0;
   for (int first = 0; first < packet.count; first = next) {
     while (next < packet.count && packet.point[next].firing == packet.point[first].firing) ++next;

@@ -17,6 +17,17 @@
 
 namespace berm::kernel {
 
+// Returns of one packet that count, by the base frame.
+struct LidarReturns {
+  static constexpr int kCapacity = kVlp16MaxPoints;
+  struct Return {
+    sk_point head, point;
+    bool lined;  // of a bearing in which lines are drawn
+  };
+  int count = 0;
+  Return hit[kCapacity];
+};
+
 class LidarWatch {
  public:
   // Of the firings every second is taken, of 0.2 degrees at ten turns a second: 0.10 m at 15 m, so that a child 0.4 m wide gets three, and two of
@@ -31,6 +42,7 @@ class LidarWatch {
   // next.
   static constexpr std::uint32_t kLineMdeg = 800;
   static constexpr std::uint32_t kTurnsOfLines = 4;
+  static constexpr std::int64_t kWaitUs = 3000;  // from a firing to the end of the packet after its own, which it may wait for
 
   LidarWatch(const berm_parameters& parameters, int lidar);
 
@@ -38,6 +50,8 @@ class LidarWatch {
   // joints: at the time of the packet, which lasts 1.3 ms: at 50 degrees/s the swing turns by 0.07 degrees in it, 17 mm at 15 m.
   void take(const Vlp16Packet& packet, const JointAngles& joints, std::int64_t now_us);
 
+  // Of the newest packet taken, the last firing of the one before it for the last of its own.
+  const LidarReturns& returns() const { return returns_; }
   MonitorWatch& monitor() { return monitor_; }
   const MonitorWatch& monitor() const { return monitor_; }
 
@@ -60,6 +74,7 @@ class LidarWatch {
   void see(const Vlp16Return* hit, int count, const Pose& pose, Column& column) const;
   bool counts(const Column& column, int channel, const Column* before, const Column* after) const;
   void insert(const Column& column, const bool (&counting)[kVlp16Channels], std::int64_t now_us);
+  void note(const Column& column, const bool (&counting)[kVlp16Channels], bool lined);
   void finish(const Column& column, const Column* before, const Column* after, std::int64_t now_us);
   void draw(const Column& column, std::int64_t now_us);
   void draw_nearest(const sk_point& head, const sk_point& nearest, std::int64_t now_us);
@@ -69,6 +84,7 @@ class LidarWatch {
   SelfFilter self_;
   std::int32_t rise_mm_, spurious_mm_;
   MonitorWatch monitor_;
+  LidarReturns returns_;
   Column newest_[3];                   // columns of the newest firings, turn about
   std::uint32_t columns_ = 0;          // that there were since begin()
   std::uint32_t line_ = 0, turn_ = 0;  // newest bearing and turn in which lines were drawn or left out

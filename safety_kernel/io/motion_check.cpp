@@ -221,6 +221,13 @@ void MotionCheck::certify(const MotionQuery& query, const sk_height_map& map, Mo
   }
 }
 
+void MotionCheck::cut_to_share(MotionQuery& query) const {
+  for (int j = 0; j < SK_JOINTS; ++j) {
+    const auto speed = static_cast<std::int32_t>(std::int64_t{parameters_.velocity_max_urad_s[j]} * query.speed_permille / 1000);
+    query.requested_urad_s[j] = sk_governor_clamp(query.requested_urad_s[j], -speed, speed);
+  }
+}
+
 bool MotionCheck::separate(MotionQuery& query, MotionVerdict& verdict) const {
   if (query.sectors == nullptr) return true;
   sk_reach_box box{};
@@ -265,6 +272,7 @@ void MotionCheck::check(const MotionQuery& query, const sk_height_map& map, Moti
     return;
   }
   MotionQuery cut = query;
+  cut_to_share(cut);
   const bool may_move = separate(cut, verdict);
   certify(cut, map, verdict);
   if (verdict.permission == Permission::kHeld) return;

@@ -32,6 +32,7 @@ struct MotionQuery {
   std::int32_t under_way_high_urad_s[4];
   bool truck_admitted;                   // by the spotter, now: trucks in the truck zones may be passed over
   const SectorWatch* sectors;            // null: the separation is not evaluated
+  std::int32_t speed_permille = 1000;    // of each joint's largest speed, that may be asked for
 };
 
 struct MotionVerdict {
@@ -74,6 +75,7 @@ class MotionCheck {
   // Room (urad from the measured angle) that is clear in the swing's direction of the request, as far as the box and wanted reach.
   std::int64_t room_ahead(const MotionQuery& query, const sk_height_map& map, std::int64_t wanted_urad, MotionVerdict& verdict);
   void govern_swing(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
+  void cut_to_share(MotionQuery& query) const;
   // What the separation leaves of the request; false where no joint may move at all.
   bool separate(MotionQuery& query, MotionVerdict& verdict) const;
   // Whether everything that moves, or may by the verdict's commands, stands in the time that the separation leaves over the verdict's box.

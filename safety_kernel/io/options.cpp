@@ -58,7 +58,7 @@ bool take_value(const std::string& name, const char* value, Options& options, bo
     return true;
   }
   if (name == "--lidar-port") {
-    limit = "must be a port from 1 to 65535, given at most twice";
+    limit = "must be a port from 1 to 65535, given at most four times";
     if (options.lidar_ports >= BERM_LIDARS || !parse_integer(value, 1, 65535, number)) return false;
     options.lidar_port[options.lidar_ports++] = static_cast<std::uint16_t>(number);
     return true;

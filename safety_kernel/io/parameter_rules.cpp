@@ -99,6 +99,11 @@ constexpr const char* kText[] = {
     "workspace_intrusion_mm: within 0..3000",
     "workspace_lidar_wait_us: within 0..10000000; workspace_lidar_period_us: within 1..1000000",
     "workspace_histogram: 0 or 1",
+    "sight_blind_permille: within 50..1000",
+    "dust_slow_permille: within 1..1000",
+    "dust_stop_permille: within dust_slow_permille..1000",
+    "dust_speed_permille: within 50..1000",
+    "dust_dwell_us: within 0..60000000",
 };
 static_assert(sizeof kText / sizeof kText[0] == SK_RULES, "one text a rule");
 

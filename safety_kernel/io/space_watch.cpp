@@ -35,7 +35,6 @@ void SpaceWatch::forget(const berm_lane& lane) {
 }
 
 void SpaceWatch::take(const sk_point& head, const sk_point& point, bool learning) {
-  blank_ = false;
   const double dx = point.x_mm - head.x_mm, dy = point.y_mm - head.y_mm, dz = point.z_mm - head.z_mm, length = std::sqrt(dx * dx + dy * dy + dz * dz);
   const double free_mm = std::min(length - kShortMm, kReachMm);
   const int steps = static_cast<int>(free_mm / kStepMm);
@@ -48,6 +47,11 @@ void SpaceWatch::take(const sk_point& head, const sk_point& point, bool learning
     sk_space_pass(&space_, v);
     passed = v;
   }
+  meet(point, learning);
+}
+
+void SpaceWatch::meet(const sk_point& point, bool learning) {
+  blank_ = false;
   sk_space_return(&space_, sk_voxel_of(point.x_mm, point.y_mm, point.z_mm), learning);
 }
 

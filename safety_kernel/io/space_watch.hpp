@@ -21,6 +21,8 @@ class SpaceWatch {
   void forget(const berm_lane& lane);
   // A return that is not of the own machine, and the space between it and the sensor's head, base frame. learning: what is there now belongs there.
   void take(const sk_point& head, const sk_point& point, bool learning);
+  // The return alone.
+  void meet(const sk_point& point, bool learning);
   // The region, less what the machine itself changes: as the Workspace Monitor's; but of a truck zone only the box round what stands in it is left
   // out, higher than may be passed over: the truck and its load. While nobody knows what stands there, the whole zone is.
   void watch(bool lanes_open, bool truck_learned);

@@ -29,6 +29,7 @@ std::uint8_t fault_of(const FrameIntake& frames, const RangeSensors& sensors, bo
   if (frames.base().learned && !sk_base_fresh(&frames.base(), &p, now_us)) return BERM_STOP_STATE_FRAME;
   if (!machine_healthy(frames.picture())) return BERM_STOP_MACHINE_FAULT;
   if (sensors.silent(now_us, p.scanner_silent_us)) return BERM_STOP_SCANNER_SILENT;
+  if (sensors.sight.blocked()) return BERM_STOP_SENSOR_BLOCKED;
   return BERM_STOP_NONE;
 }
 
@@ -59,7 +60,7 @@ bool StandstillWatch::check(const std::int32_t (&velocity_urad_s)[4], bool fresh
 
 bool inputs_ready(const FrameIntake& frames, const RangeSensors& sensors, const berm_parameters& parameters, std::int64_t now_us) {
   return frames.state_heard() && frames.base().learned && frames.joints_fresh(now_us) && frames.machine_fresh(now_us) && frames.operator_heard() && frames.operator_fresh(now_us) &&
-         sensors.all_heard() && !sensors.silent(now_us, parameters.scanner_silent_us);
+         sensors.all_heard() && !sensors.silent(now_us, parameters.scanner_silent_us) && !sensors.sight.blocked();
 }
 
 void supervise(const FrameIntake& frames, const RangeSensors& sensors, const AppPulse& app, bool clock_fault, const berm_parameters& parameters,

@@ -8,6 +8,7 @@
 #include "io/frame_intake.hpp"
 #include "io/lidar_intake.hpp"
 #include "io/scan_health.hpp"
+#include "io/sight_watch.hpp"
 
 namespace berm::kernel {
 
@@ -35,6 +36,7 @@ class StandstillWatch {
 struct RangeSensors {
   const ScanHealth& scans;
   const LidarIntake& lidars;
+  const SightWatch& sight;
   bool all_heard() const { return scans.both_heard() && lidars.all_heard(); }
   bool silent(std::int64_t now_us, std::int32_t limit_us) const { return scans.silent(now_us, limit_us) || lidars.silent(now_us, limit_us); }
 };

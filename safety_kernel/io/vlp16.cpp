@@ -1,5 +1,6 @@
 #include "io/vlp16.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace berm::kernel {
@@ -93,6 +94,25 @@ Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packe
     }
   }
   return Vlp16Result::kOk;
+}
+
+bool vlp16_is_dual(const std::uint8_t* bytes) { return bytes[kModeOffset] == kModeDual; }
+
+int vlp16_firings(const std::uint8_t* bytes) { return vlp16_is_dual(bytes) ? kBlocks : 2 * kBlocks; }
+
+Vlp16Firing vlp16_firing(const std::uint8_t* bytes, int firing) {
+  const int step = vlp16_is_dual(bytes) ? 2 : 1, block = firing / 2 * step, half = firing % 2;
+  const std::uint8_t* p = bytes + kBlockBytes * static_cast<std::size_t>(block);
+  Vlp16Firing f{};
+  f.azimuth_mdeg = (u16(p + 2) * 10U + static_cast<std::uint32_t>(half) * gap_cdeg(bytes, block, step) * 5U) % (kTurnCdeg * 10U);
+  for (int laser = 0; laser < kVlp16Channels; ++laser) {
+    const std::uint8_t* record = p + 4 + 3 * (half * kVlp16Channels + laser);
+    const std::uint32_t one = u16(record), pair = step == 2 ? u16(record + kBlockBytes) : one;
+    // A lone return may stand in either block.
+    f.last_mm[kChannelOfLaser[laser]] = static_cast<std::int32_t>(std::max(one, pair)) * kRangeLsbMm;
+    f.other_mm[kChannelOfLaser[laser]] = static_cast<std::int32_t>(std::min(one, pair)) * kRangeLsbMm;
+  }
+  return f;
 }
 
 Vlp16Elevation vlp16_elevation(std::uint8_t channel) { return {kChannelCosine[channel % kVlp16Channels], kChannelSine[channel % kVlp16Channels]}; }

@@ -44,6 +44,16 @@ struct Vlp16Mount {
 // All last returns of at least kVlp16RangeMinMm, in firing order. On any result but kOk packet is unchanged.
 Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packet& packet);
 
+// All sixteen lasers once, also those without a return. Millimetres, 0: nothing came back. other: the nearer return of a dual pair, or the same.
+struct Vlp16Firing {
+  std::uint32_t azimuth_mdeg;  // 0..359999, of the first laser
+  std::int32_t last_mm[kVlp16Channels], other_mm[kVlp16Channels];
+};
+// Of a packet that vlp16_decode takes; firing: 0 to vlp16_firings - 1.
+bool vlp16_is_dual(const std::uint8_t* bytes);
+int vlp16_firings(const std::uint8_t* bytes);
+Vlp16Firing vlp16_firing(const std::uint8_t* bytes, int firing);
+
 // Cosine and sine of a channel's elevation in the sensor's frame.
 struct Vlp16Elevation {
   double cosine, sine;

@@ -9,9 +9,9 @@ WorkspaceWatch::WorkspaceWatch(const berm_parameters& parameters)
     : parameters_(parameters),
       lidars_(std::clamp<int>(parameters.lidars, 0, BERM_LIDARS)),
       scanners_(parameters, parameters.workspace_wait_us, parameters.workspace_period_us),
-      lidar_{{parameters, 0}, {parameters, 1}},
+      lidar_{{parameters, 0}, {parameters, 1}, {parameters, 2}, {parameters, 3}},
       space_(parameters) {
-  static_assert(BERM_LIDARS == 2);
+  static_assert(BERM_LIDARS == 4);
 }
 
 void WorkspaceWatch::begin() {
@@ -60,7 +60,14 @@ void WorkspaceWatch::take(const ScanBlocks& blocks, const JointHistory& joints, 
 }
 
 void WorkspaceWatch::take(int lidar, const Vlp16Packet& packet, const JointAngles& joints, std::int64_t now_us) {
-  if (watched() && lidar >= 0 && lidar < lidars_) lidar_[lidar].take(packet, joints, now_us);
+  if (!watched() || lidar < 0 || lidar >= lidars_) return;
+  lidar_[lidar].take(packet, joints, now_us);
+  const LidarReturns& returns = lidar_[lidar].returns();
+  for (int i = 0; space_.kept() && i < returns.count; ++i) {
+    const LidarReturns::Return& r = returns.hit[i];
+    if (r.lined) space_.take(r.head, r.point, learning(r.point));
+    else space_.meet(r.point, learning(r.point));
+  }
 }
 
 void WorkspaceWatch::trucks(bool spotter_fresh, bool parked, std::int64_t now_us) {

@@ -28,7 +28,8 @@ class WorkspaceWatch {
   // one to the other passes over (leger-1998, section 3.1; it counts in EMPTY cells only).
   // Their rays tell of free space; the swing at the block's time places the scanner.
   void take(const ScanBlocks& blocks, const JointHistory& joints, std::int64_t now_us);
-  // A packet of a lidar. joints: at the time of the packet.
+  // A packet of a lidar. joints: at the time of the packet. Its returns meet free space too; of its rays those tell of it in whose bearing lines are
+  // drawn.
   void take(int lidar, const Vlp16Packet& packet, const JointAngles& joints, std::int64_t now_us);
   // Once a cycle. With no fresh word of the spotter the lanes stay as they were. A truck that has parked is learned with its lane; until it leaves the
   // lane is watched.
@@ -40,6 +41,8 @@ class WorkspaceWatch {
   // Of the newest step, of a monitor that says stop: a cell with somebody in it, its centre and what is seen there; false when there is none (any
   // more).
   bool place(std::int32_t& x_mm, std::int32_t& y_mm, std::int32_t& height_mm) const;
+  // Of the newest packet of a lidar.
+  const LidarReturns& lidar_returns(int lidar) const { return lidar_[lidar].returns(); }
   int monitors() const { return 1 + lidars_; }
   // Of a monitor: the cycle in which it was last given a return; -1: none since begin().
   std::int64_t newest_us(int number) const { return of(number).newest_us(); }

@@ -12,7 +12,8 @@ std::string name(const char* const (&names)[N], unsigned code) {
 
 constexpr const char* kReasons[] = {"none",           "collision_predicted", "unknown_ground", "stale_ground", "dig_floor", "request_hold",  "app_silent", "state_frame",
                                     "scanner_silent", "operator",            "emergency",      "joint_range",  "braking",   "machine_fault", "internal",   "clock",
-                                    "base_moved", "uncommanded", "overpass", "tail", "intruder", "separation"};
+                                    "base_moved", "uncommanded", "overpass", "tail", "intruder", "separation",
+                                    "sensor_blocked", "dust"};
 static_assert(sizeof kReasons / sizeof kReasons[0] == BERM_STOP_REASONS, "every reason has a name");
 constexpr const char* kStates[] = {"init", "standby", "run", "stopping", "stopped", "fault"};
 static_assert(sizeof kStates / sizeof kStates[0] == BERM_STATE_COUNT, "every state has a name");

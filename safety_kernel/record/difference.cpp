@@ -40,7 +40,8 @@ constexpr Field kState[] = {
     BERM_FIELD(berm_state, blocked_x_mm),     BERM_FIELD(berm_state, blocked_y_mm),      BERM_FIELD(berm_state, blocked_height_mm),
     BERM_FIELD(berm_state, blocked_link),     BERM_FIELD(berm_state, stop_count),        BERM_FIELD(berm_state, cycle_cpu_us),
     BERM_FIELD(berm_state, panel),            BERM_FIELD(berm_state, journal_lost),      BERM_FIELD(berm_state, terrain_confirmed_ms),
-    BERM_FIELD(berm_state, unwatched),        BERM_FIELD(berm_state, separation_bearing_deg), BERM_FIELD(berm_state, separation_stop_ms)};
+    BERM_FIELD(berm_state, unwatched),        BERM_FIELD(berm_state, separation_bearing_deg), BERM_FIELD(berm_state, separation_stop_ms),
+    BERM_FIELD(berm_state, dust_permille),   BERM_FIELD(berm_state, sight)};
 
 template <std::size_t N>
 constexpr std::size_t total(const Field (&fields)[N]) {

@@ -7,10 +7,11 @@ import subprocess
 import sys
 import tempfile
 
-PROGRAMS = ("berm_bench_600", "berm_bench_150")
+PROGRAMS = ("berm_bench_600", "berm_bench_150", "berm_bench_gathering")
 PLAIN_LOOP_TIMES = 1.5   # the certified check against the plain loop
 INSERT_PLAIN_SHARE = 0.5  # insertion against the plain loop
 INSERT_PEER_TIMES = 5.0   # insertion against updateNode
+GATHER_PEER_TIMES = 5.0   # gathering against insertPointCloud with its ray casting
 
 
 def arguments():
@@ -38,6 +39,10 @@ def misses(rows):
             said.add(f"{name}: {ours / reference:.2f} of the plain loop, at least {INSERT_PLAIN_SHARE} wanted")
         if name.startswith("insert") and r["ratio"] < INSERT_PEER_TIMES:
             said.add(f"{name}: {r['ratio']:.1f} times {r['peer']}, at least {INSERT_PEER_TIMES:.0f} wanted")
+        if name.startswith("gathering_speed") and r["ratio"] < GATHER_PEER_TIMES:
+            said.add(f"{name}: {r['ratio']:.1f} times {r['peer']}, at least {GATHER_PEER_TIMES:.0f} wanted")
+        if name.startswith("gathering_memory") and r["ratio"] < 1.0:
+            said.add(f"{name}: {1 / r['ratio']:.2f} of the memory of {r['peer']}, less than 1 wanted")
         if name.startswith("grazing") and ours > 0:
             said.add(f"{name}: {ours:.0f} wrong decisions of ours")
     return sorted(said)

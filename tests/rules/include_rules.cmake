@@ -9,12 +9,13 @@ endif()
 set(interface_rooms contract can scan config journal)
 set(kernel_rooms core geometry io)
 set(record_rooms record)
-set(app_rooms motion planning perception app)
+set(app_rooms points gathering motion planning perception app)
 set(plant_rooms plant)
 set(run_rooms plant run map)
 set(in_process_rooms plant in_process io)
 set(validate_rooms plant run in_process validate)
 set(watch_rooms plant run in_process watch io core record ${app_rooms})  # the app's own pan schedule moves the scanners
+set(truck_world_rooms plant run truck_world points)  # points: clouds as files
 set(identify_rooms identify run)  # never the plant: it measures what is on the bus
 
 set(violations 0)
@@ -65,6 +66,7 @@ check_folder(safety_kernel/record "${record_rooms};${kernel_rooms};${interface_r
 check_folder(planning_app "${app_rooms};${interface_rooms}" "CGAL/")
 check_folder(fault_injection/plant "${plant_rooms};${interface_rooms}" "")
 check_folder(fault_injection/run "${run_rooms};${interface_rooms}" "")
+check_folder(fault_injection/truck_world "${truck_world_rooms};${interface_rooms}" "")
 check_folder(fault_injection/identify "${identify_rooms};${interface_rooms}" "")
 check_folder(fault_injection/map "${run_rooms};${interface_rooms}" "")
 # Join plant and kernel in one process, for speed.

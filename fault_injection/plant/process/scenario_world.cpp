@@ -151,14 +151,31 @@ ScannerConfig read_scanner(StrictTable t) {
   return scanner;
 }
 
-LidarFault read_lidar_fault(StrictTable t) {
-  LidarFault fault;
-  fault.lidar = static_cast<std::size_t>(t.integer("lidar", 1, 2) - 1);
+SensorFault read_sensor_fault(StrictTable t, const char* sensor, int sensors, const char* turn) {
+  SensorFault fault;
+  fault.sensor = static_cast<std::size_t>(t.integer(sensor, 1, sensors) - 1);
   fault.silent = t.choice("kind", {"blocked", "silent"}) == "silent";
   fault.at_s = t.number("at_s", 0.0, 36000.0);
   fault.for_s = t.number("for_s", 0.05, 36000.0);
+  if (t.has(turn)) {
+    const auto degrees = t.array<2>(turn, 0.0, 360.0);
+    if (degrees[0] >= degrees[1]) t.fail(turn, "low must be below high");
+    if (fault.silent) t.fail(turn, "is for a window that is blocked in part");
+    fault.turn = {radians(degrees[0]), radians(degrees[1])};
+  }
   t.finish();
   return fault;
+}
+
+DustConfig read_dust(StrictTable t) {
+  DustConfig dust;
+  dust.at_s = t.number("at_s", 0.0, 36000.0);
+  dust.for_s = t.number("for_s", 0.05, 36000.0);
+  dust.probability = t.number("probability", 0.0, 1.0);
+  dust.lost = t.number("lost", 0.0, 1.0);
+  if (dust.probability + dust.lost > 1.0) t.fail("lost", "above 1 together with probability");
+  t.finish();
+  return dust;
 }
 
 }  // namespace
@@ -178,7 +195,9 @@ WorldConfig read_world(StrictTable& file) {
   for (StrictTable& t : file.tables("dig_zone")) world.dig_zones.push_back(read_dig_zone(t));
   if (world.dig_zones.empty()) file.fail("dig_zone", "is missing");
   world.scanner = read_scanner(file.table("scanner"));
-  for (StrictTable& t : file.tables("lidar_fault")) world.lidar_faults.push_back(read_lidar_fault(t));
+  for (StrictTable& t : file.tables("scanner_fault")) world.scanner_faults.push_back(read_sensor_fault(t, "scanner", 2, "mirror_deg"));
+  for (StrictTable& t : file.tables("lidar_fault")) world.lidar_faults.push_back(read_sensor_fault(t, "lidar", 4, "sector_deg"));
+  for (StrictTable& t : file.tables("dust")) world.dust.push_back(read_dust(t));
   return world;
 }
 

@@ -86,10 +86,17 @@ struct ScannerConfig {
   double window_percent = 100.0;
 };
 
-struct LidarFault {                       // of a lidar on the upper body, for a time
-  std::size_t lidar = 0;
-  bool silent = false;                    // sends nothing; else something lies on its window, and nothing comes back
+struct SensorFault {                      // of a panning scanner, or of a lidar on the upper body, for a time
+  std::size_t sensor = 0;
+  bool silent = false;                    // sends nothing; else something lies on its window
   double at_s = 0.0, for_s = 0.0;
+  std::optional<std::array<double, 2>> turn;  // only over this part of the mirror's circle, or of the lidar's azimuth; 0..2 pi, low first
+};
+
+struct DustConfig {                       // in the air about every sensor, for a time
+  double at_s = 0.0, for_s = 0.0;
+  double probability = 0.0;               // of an additional, nearer echo
+  double lost = 0.0;                      // of the target's echo not coming back, but the dust's alone
 };
 
 struct WorldConfig {
@@ -101,7 +108,8 @@ struct WorldConfig {
   std::vector<BoxConfig> boxes;
   std::vector<DigZoneConfig> dig_zones{DigZoneConfig{}};
   ScannerConfig scanner;
-  std::vector<LidarFault> lidar_faults;
+  std::vector<SensorFault> scanner_faults, lidar_faults;
+  std::vector<DustConfig> dust;
 };
 
 }  // namespace berm::plant

@@ -15,7 +15,8 @@ int32_t micro(double value) { return static_cast<int32_t>(std::llround(value * 1
 }  // namespace
 
 Scanner::Scanner(const ScannerConfig& config, const ScannerMount& mount, uint8_t number, uint64_t seed)
-    : config_(config), head_{mount.position[0], mount.position[1], mount.position[2]}, number_(number), rate_(std::llround(config.sample_rate_hz)), random_(seed) {
+    : config_(config), head_{mount.position[0], mount.position[1], mount.position[2]}, number_(number), rate_(std::llround(config.sample_rate_hz)), random_(seed),
+      dust_random_(~seed) {
   for (int i = 0; i < config.samples_per_revolution; ++i) {
     const double e = 2 * std::numbers::pi * i / config.samples_per_revolution;
     cosine_.push_back(std::cos(e));
@@ -30,11 +31,11 @@ Vec3 Scanner::direction(int index, double pan) const {
 
 uint16_t Scanner::raw(double range) const { return static_cast<uint16_t>(std::clamp<long long>(std::llround(range * 1000 / BERM_SCAN_RANGE_LSB_MM), 1, 65535)); }
 
-Scanner::Sample Scanner::measure(const Ray& world, const Ray& base, const Ray& upper, const Scene& scene, std::vector<MoverReturn>* returns) {
+Scanner::Sample Scanner::measure(const Shot& shot, const Scene& scene, const SensorAir& air, std::vector<MoverReturn>* returns) {
   Sample s;
   // The draws do not depend on what is hit, so that one changed object does not change every later sample's noise.
   const double noise = random_.normal(), what = random_.uniform(), where = random_.uniform(), film = random_.uniform();
-  const std::optional<SceneHit> hit = scene.meet(world, base, upper, config_.range_max);
+  const std::optional<SceneHit> hit = scene.meet(shot.world, shot.base, shot.upper, config_.range_max);
   int echoes = 0;
   const auto add = [&](double range) {  // nearest first; never more than three
     int k = echoes++;
@@ -42,25 +43,35 @@ Scanner::Sample Scanner::measure(const Ray& world, const Ray& base, const Ray& u
     for (; k > 0 && s.echo[k - 1] > r; --k) s.echo[k] = s.echo[k - 1];
     s.echo[k] = r;
   };
+  const double haze = air.dusty() ? dust_random_.uniform() : 1.0, haze_at = air.dusty() ? dust_random_.uniform() : 0.0;
+  if (air.covers(shot.mirror)) {
+    add(config_.range_min);
+    return s;
+  }
   // Part of the light comes back from a dirty window; the last echo is still the target.
   if (film * 200 < 100 - config_.window_percent) add(config_.range_min);
   double rate = config_.outlier_probability;
   const double reach = hit ? hit->range : config_.range_max;
   const double between = config_.range_min + where * std::max(0.0, reach - config_.range_min);
+  const double in_haze = config_.range_min + haze_at * std::max(0.0, reach - config_.range_min);
   if (what < rate) {
     add(between);
   } else if (what < (rate += config_.dropout_probability) || !hit || hit->range < config_.range_min) {
     // no return
+  } else if (haze < air.lost) {
+    add(in_haze);
   } else {
     if (what < rate + config_.dust_probability) add(between);
-    add(std::max(config_.range_min, hit->range + config_.range_stddev * noise));
-    note(*hit, world, returns);
+    const double range = std::max(config_.range_min, hit->range + config_.range_stddev * noise);
+    if (what >= rate + config_.dust_probability && haze < air.lost + air.dust) add(std::min(in_haze, range));
+    add(range);
+    note(*hit, shot.world, returns);
   }
   return s;
 }
 
 void Scanner::step(double t, double dt, const ScanPose& before, const ScanPose& now, const Scene& scene, std::vector<berm_scan_packet>& out,
-                   const BaseFrame& stand, std::vector<MoverReturn>* returns) {
+                   const BaseFrame& stand, std::vector<MoverReturn>* returns, const SensorAir& air) {
   const int64_t end = std::llround(t * 1e9), begin = end - std::llround(dt * 1e9);
   const auto fraction = [&](int64_t sample) {
     return std::clamp(static_cast<double>(time_ns(sample) - begin) / static_cast<double>(end - begin), 0.0, 1.0);
@@ -95,7 +106,7 @@ void Scanner::step(double t, double dt, const ScanPose& before, const ScanPose& 
       const Ray upper{head_, direction(index + i, pan_at(f))};
       const PlanarFrame body(0, 0, 0, before.swing + f * (now.swing - before.swing));
       const Ray base{body.out(upper.origin), body.out(upper.direction)};
-      const Sample s = measure(stand.out(base), base, upper, scene, returns);
+      const Sample s = measure({stand.out(base), base, upper, 2 * std::numbers::pi * (index + i) / turn}, scene, air, returns);
       for (int k = 0; k < BERM_SCAN_ECHOES; ++k) {
         p.range[i][k] = s.echo[k];
         if (s.echo[k] != 0) most = std::max(most, k + 1);

@@ -9,6 +9,7 @@
 #include "plant/world/base_pose.hpp"
 #include "plant/world/random.hpp"
 #include "plant/world/scene.hpp"
+#include "plant/world/sensor_air.hpp"
 #include "plant/world/world.hpp"
 #include "scan/scan_packet.h"
 
@@ -23,7 +24,7 @@ class Scanner {
   // The samples in (t - dt, t]. Sample n is taken at (n + 1) / rate, counted from the start in whole nanoseconds, so nothing drifts.
   // Packets do not span scanlines or calls. returns: takes what people and vehicles sent back, or null.
   void step(double t, double dt, const ScanPose& before, const ScanPose& now, const Scene& scene, std::vector<berm_scan_packet>& out,
-            const BaseFrame& stand = BaseFrame(), std::vector<MoverReturn>* returns = nullptr);
+            const BaseFrame& stand = BaseFrame(), std::vector<MoverReturn>* returns = nullptr, const SensorAir& air = {});
 
   // Direction of a sample in the upper body's frame.
   [[nodiscard]] Vec3 direction(int index, double pan) const;
@@ -31,7 +32,8 @@ class Scanner {
  private:
   struct Sample { uint16_t echo[BERM_SCAN_ECHOES] = {0, 0, 0}; };
   [[nodiscard]] int64_t time_ns(int64_t sample) const { return (sample + 1) * 1'000'000'000 / rate_; }
-  Sample measure(const Ray& world, const Ray& base, const Ray& upper, const Scene& scene, std::vector<MoverReturn>* returns);
+  struct Shot { Ray world, base, upper; double mirror; };
+  Sample measure(const Shot& shot, const Scene& scene, const SensorAir& air, std::vector<MoverReturn>* returns);
   [[nodiscard]] uint16_t raw(double range) const;
 
   ScannerConfig config_;
@@ -40,7 +42,7 @@ class Scanner {
   int64_t rate_;
   int64_t next_ = 0;        // number of the next sample
   uint32_t sequence_ = 0;
-  Random random_;
+  Random random_, dust_random_;  // dust of the air draws from its own, so that it leaves all else as it was
   std::vector<double> cosine_, sine_;  // of the mirror's angle
 };
 

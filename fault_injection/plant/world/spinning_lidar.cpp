@@ -37,7 +37,7 @@ void put_return(std::uint8_t* to, double range) {
 }  // namespace
 
 SpinningLidar::SpinningLidar(const ScannerConfig& noise, const LidarMount& mount, std::uint8_t number, std::uint64_t seed)
-    : noise_(noise), mount_(mount), number_(number), random_(seed) {
+    : noise_(noise), mount_(mount), number_(number), random_(seed), dust_random_(~seed) {
   const BaseFrame turn({0, 0, mount.yaw, mount.roll, mount.pitch});
   x_ = turn.turned({1, 0, 0});
   y_ = turn.turned({0, 1, 0});
@@ -66,7 +66,21 @@ SpinningLidar::Returns SpinningLidar::received(const std::optional<double>& hit,
   return back;
 }
 
-void SpinningLidar::fire(std::int64_t firing, double swing, bool blocked, const Scene& scene, const BaseFrame& stand, std::uint8_t* records,
+// Dust in the air, over what came back: a nearer return beside it, which single return does not tell of, or the dust's alone.
+void SpinningLidar::blow(const std::optional<double>& hit, const SensorAir& air, Returns& back) {
+  if (!air.dusty()) return;
+  const double haze = dust_random_.uniform(), at = dust_random_.uniform();
+  if (!back.met) return;
+  const double in_haze = range_least + at * std::max(0.0, *hit - range_least);
+  if (haze < air.lost) {
+    back.last = back.other = in_haze;
+    back.met = false;
+  } else if (mount_.dual && haze < air.lost + air.dust) {
+    back.other = std::min(in_haze, back.last);
+  }
+}
+
+void SpinningLidar::fire(std::int64_t firing, double swing, const SensorAir& air, const Scene& scene, const BaseFrame& stand, std::uint8_t* records,
                          std::uint8_t* others, std::vector<MoverReturn>* returns) {
   const double at = azimuth(firing);
   const bool in_sector = std::min(at, 2 * std::numbers::pi - at) <= mount_.sector_deg / 180.0 * std::numbers::pi;
@@ -82,15 +96,17 @@ void SpinningLidar::fire(std::int64_t firing, double swing, bool blocked, const 
     const Ray base{body.out(upper.origin), body.out(upper.direction)};
     const Ray world = stand.out(base);
     const std::optional<SceneHit> hit = scene.meet(world, base, upper, range_most);
-    const Returns back = received(hit ? std::optional<double>(hit->range) : std::nullopt, noise);
-    if (blocked || lost < noise_.dropout_probability) continue;
+    const std::optional<double> range = hit ? std::optional<double>(hit->range) : std::nullopt;
+    Returns back = received(range, noise);
+    blow(range, air, back);
+    if (air.covers(at) || lost < noise_.dropout_probability) continue;
     if (back.met) note(*hit, world, returns);
     put_return(records + record_bytes * static_cast<std::size_t>(laser), back.last);
     if (others != nullptr) put_return(others + record_bytes * static_cast<std::size_t>(laser), back.other);
   }
 }
 
-void SpinningLidar::step(double t, double dt, double swing_before, double swing_now, bool blocked, const Scene& scene, const BaseFrame& stand,
+void SpinningLidar::step(double t, double dt, double swing_before, double swing_now, const SensorAir& air, const Scene& scene, const BaseFrame& stand,
                          std::vector<LidarPacket>& out, std::vector<MoverReturn>* returns) {
   const std::int64_t end = std::llround(t * 1e9), begin = end - std::llround(dt * 1e9);
   const auto time_ns = [](std::int64_t firing) { return (firing + 1) * firing_ns; };
@@ -112,7 +128,7 @@ void SpinningLidar::step(double t, double dt, double swing_before, double swing_
       }
     }
     const std::size_t to = 4 + (place % 2) * lasers * record_bytes;
-    fire(next_, swing_before + f * (swing_now - swing_before), blocked, scene, stand, block + to, other == nullptr ? nullptr : other + to, returns);
+    fire(next_, swing_before + f * (swing_now - swing_before), air, scene, stand, block + to, other == nullptr ? nullptr : other + to, returns);
     if (place + 1 < firings_a_packet) continue;
     const auto stamp = static_cast<std::uint32_t>((time_ns(next_) / 1000) % hour_us);
     for (std::size_t i = 0; i < 4; ++i) packet_.bytes[1200 + i] = static_cast<std::uint8_t>(stamp >> (8 * i));

@@ -11,6 +11,7 @@
 #include "plant/world/base_pose.hpp"
 #include "plant/world/random.hpp"
 #include "plant/world/scene.hpp"
+#include "plant/world/sensor_air.hpp"
 
 namespace berm::plant {
 
@@ -24,8 +25,8 @@ class SpinningLidar {
  public:
   SpinningLidar(const ScannerConfig& noise, const LidarMount& mount, std::uint8_t number, std::uint64_t seed);
   // The firings in (t - dt, t], appended as packets when twelve blocks are full: of two firings each, or, dual return, each two of two.
-  // blocked: something lies on the window, and nothing comes back. returns: takes what people and vehicles sent back, or null.
-  void step(double t, double dt, double swing_before, double swing_now, bool blocked, const Scene& scene, const BaseFrame& stand,
+  // air.covered: something lies on the window, and nothing comes back. returns: takes what people and vehicles sent back, or null.
+  void step(double t, double dt, double swing_before, double swing_now, const SensorAir& air, const Scene& scene, const BaseFrame& stand,
             std::vector<LidarPacket>& out, std::vector<MoverReturn>* returns = nullptr);
 
  private:
@@ -36,14 +37,15 @@ class SpinningLidar {
   // What comes back of a laser's shot that something did, or nothing (hit), with what was drawn for it.
   [[nodiscard]] Returns received(const std::optional<double>& hit, double noise);
   // records: of the last returns; others: of the strongest, or null.
-  void fire(std::int64_t firing, double swing, bool blocked, const Scene& scene, const BaseFrame& stand, std::uint8_t* records, std::uint8_t* others,
+  void blow(const std::optional<double>& hit, const SensorAir& air, Returns& back);
+  void fire(std::int64_t firing, double swing, const SensorAir& air, const Scene& scene, const BaseFrame& stand, std::uint8_t* records, std::uint8_t* others,
             std::vector<MoverReturn>* returns);
   [[nodiscard]] Vec3 turned(const Vec3& v) const;
 
   ScannerConfig noise_;
   LidarMount mount_;
   std::uint8_t number_;
-  Random random_;
+  Random random_, dust_random_;  // dust of the air draws from its own, so that it leaves all else as it was
   Vec3 x_, y_, z_;             // the sensor's axes in the upper body
   std::int64_t next_ = 0;      // number of the next firing
   LidarPacket packet_{};

@@ -74,6 +74,24 @@ struct World::State {
     }
   }
 
+  // Of sensor i of these at time t; silent: it sends nothing.
+  [[nodiscard]] SensorAir air(const std::vector<SensorFault>& faults, size_t i, double t, bool& silent) const {
+    const auto during = [t](const auto& span) { return t >= span.at_s && t < span.at_s + span.for_s; };
+    SensorAir a;
+    for (const DustConfig& d : config.dust) {
+      if (!during(d)) continue;
+      a.dust = d.probability;
+      a.lost = d.lost;
+    }
+    for (const SensorFault& f : faults) {
+      if (f.sensor != i || !during(f)) continue;
+      silent = silent || f.silent;
+      if (f.silent) continue;
+      a.covered = true;
+      if (f.turn) a.from = (*f.turn)[0], a.to = (*f.turn)[1];
+    }
+    return a;
+  }
   [[nodiscard]] double loose_density() const { return config.soil.density_bank / config.soil.swell; }
   // The truck that is here or expected; the last one when all are gone.
   [[nodiscard]] const Truck* shown() const { return truck.empty() ? nullptr : &truck[std::min(current, truck.size() - 1)]; }
@@ -125,7 +143,10 @@ void World::scan(double t, double dt, const JointState& before, const JointState
   w.scene.place_machine(w.shape, link_frames(w.shape, now), std::max(0.0, w.load.volume() - w.load.struck()));
   const BaseFrame base(w.base);
   for (size_t i = 0; i < w.scanner.size(); ++i) {
-    w.scanner[i].step(t, dt, {before.angle[0], pan_before.angle[i]}, {now.angle[0], pan_now.angle[i]}, w.scene, out, base, &w.mover_returns);
+    bool silent = false;
+    const SensorAir air = w.air(w.config.scanner_faults, i, t, silent);
+    if (silent) continue;
+    w.scanner[i].step(t, dt, {before.angle[0], pan_before.angle[i]}, {now.angle[0], pan_now.angle[i]}, w.scene, out, base, &w.mover_returns, air);
   }
 }
 
@@ -133,12 +154,9 @@ void World::scan_lidars(double t, double dt, const JointState& before, const Joi
   State& w = *state_;
   const BaseFrame base(w.base);
   for (size_t i = 0; i < w.lidar.size(); ++i) {
-    bool blocked = false, silent = false;
-    for (const LidarFault& f : w.config.lidar_faults) {
-      if (f.lidar != i || t < f.at_s || t >= f.at_s + f.for_s) continue;
-      (f.silent ? silent : blocked) = true;
-    }
-    if (!silent) w.lidar[i].step(t, dt, before.angle[0], now.angle[0], blocked, w.scene, base, out, &w.mover_returns);
+    bool silent = false;
+    const SensorAir air = w.air(w.config.lidar_faults, i, t, silent);
+    if (!silent) w.lidar[i].step(t, dt, before.angle[0], now.angle[0], air, w.scene, base, out, &w.mover_returns);
   }
 }
 

@@ -21,7 +21,7 @@ sk_stop_state make(std::uint16_t code, std::uint8_t reason, std::uint8_t categor
 }  // namespace
 
 bool valid_state(const sk_stop_state& s) {
-  const bool reason_named = s.reason >= 1 && s.reason <= 21;
+  const bool reason_named = s.reason >= 1 && s.reason <= 23;
   const bool braked_or_cut = s.category == 0 || s.category == 1;
   if (s.latched != (s.rank == 2 || s.rank == 3)) return false;
   if ((s.rank == 0) == (s.reason != 0)) return false;
@@ -54,7 +54,7 @@ std::vector<sk_stop_state> valid_states() {
 
 std::vector<sk_stop_input> inputs(std::int64_t now_us) {
   std::vector<sk_stop_input> all;
-  const std::uint8_t codes[] = {0, 2, 14, 22};
+  const std::uint8_t codes[] = {0, 2, 14, 24};
   for (const std::uint8_t fault : codes)
     for (const std::uint8_t latch : codes)
       for (const std::uint8_t hold : codes)

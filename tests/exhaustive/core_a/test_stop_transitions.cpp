@@ -30,7 +30,7 @@ void for_every_step(Check check) {
       for (const sk_stop_input& in : all) {
         Step t{before, in, before, {}, false, false, in.operator_run && in.inputs_ready, false};
         sk_stop_step(&t.after, &in, &t.out);
-        t.named = in.fault_reason < 22 && in.latch_reason < 22 && in.hold_reason < 22;
+        t.named = in.fault_reason < 24 && in.latch_reason < 24 && in.hold_reason < 24;
         t.quiet = in.fault_reason == 0 && in.latch_reason == 0 && in.hold_reason == 0;
         t.cut = !t.named || (in.fault_reason && in.fault_category_0) || (in.latch_reason && in.latch_category_0);
         ++steps;

@@ -105,6 +105,32 @@ TEST(Recovery, WaitsUntilTheSeparationIsKeptAgain) {
   EXPECT_FALSE(advice.moved);
 }
 
+TEST(Recovery, WaitsUntilTheDustHasSettled) {
+  Recovery recovery(berm::app_bench::zx200());
+  const ProgressLog log(-1);
+  int calls = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const auto advice = recovery.step(stopped(0.01 * k, BERM_STOP_DUST), log);
+    ASSERT_TRUE(advice.in_charge);
+    ASSERT_EQ(advice.velocity, Joints{}) << "at " << 0.01 * k << " s";
+    calls += advice.operator_called;
+  }
+  EXPECT_EQ(calls, 1);
+  const auto advice = recovery.step(permitted(40.0), log);
+  EXPECT_TRUE(advice.resumed);
+  EXPECT_FALSE(advice.moved);
+}
+
+TEST(Recovery, CallsTheOperatorForABlockedSensorAtOnce) {
+  Recovery recovery(berm::app_bench::zx200());
+  const ProgressLog log(-1);
+  Observation o = stopped(0.0, BERM_STOP_SENSOR_BLOCKED);
+  o.latched = true;
+  const auto advice = recovery.step(o, log);
+  EXPECT_TRUE(advice.operator_called);
+  EXPECT_EQ(advice.velocity, Joints{});
+}
+
 // Standing is permitted, moving is not: no more than a few attempts, and in the end the operator.
 TEST(Recovery, AttemptsThatFailAtOnceFollowAtGrowingPauses) {
   Recovery recovery(berm::app_bench::zx200());

@@ -142,6 +142,14 @@ void expect_workspace_safe(const WorkspaceFile& w, const SiteFile& site, const b
   }
 }
 
+void expect_sight_safe(const SightFile& s, const berm_parameters& p) {
+  expect_down(s.blind * 1e3, p.sight_blind_permille, "sight blind");
+  expect_down(s.dust_slow * 1e3, p.dust_slow_permille, "sight dust_slow");
+  expect_down(s.dust_stop * 1e3, p.dust_stop_permille, "sight dust_stop");
+  expect_down(s.dust_speed * 1e3, p.dust_speed_permille, "sight dust_speed");
+  expect_up(s.dust_dwell * 1e6, p.dust_dwell_us, "sight dust_dwell");
+}
+
 void expect_places_safe(const MachineFile& m, const SiteFile& site, const berm_parameters& p) {
   expect_down(m.own_body_radius * 1e3, p.own_body_radius_mm, "own_body_radius");
   for (std::size_t i = 0; i < m.part.size(); ++i) {
@@ -212,6 +220,8 @@ void disturb(MachineFile& m, SiteFile& site, std::mt19937_64& random) {
   w.follows = random() % 2 == 0;
   w.histogram = random() % 2 == 0;
   w.separation = static_cast<int>(random() % 3);
+  SightFile& s = m.sight;
+  shake(s.blind, s.dust_slow, s.dust_stop, s.dust_speed, s.dust_dwell);
   for (LaneFile& lane : site.truck_lane) shake(lane.x_low, lane.x_high, lane.y_low, lane.y_high);
 }
 
@@ -228,6 +238,7 @@ TEST(Compile, EveryFieldIsRoundedToTheSafeSide) {
     expect_places_safe(d.machine, d.site, p);
     expect_tail_safe(d.machine.tail, p);
     expect_workspace_safe(d.machine.workspace, d.site, p);
+    expect_sight_safe(d.machine.sight, p);
     ASSERT_FALSE(testing::Test::HasFailure()) << "seed " << kSeed << " draw " << i;
   }
 }

@@ -93,6 +93,11 @@ std::vector<Limit> limits(const berm_parameters& ok) {
       limit(SK_RULE_SEPARATION_APPROACH, 500, 5000, FIELD(workspace_approach_mm_s)),
       limit(SK_RULE_SEPARATION_INTRUSION, 0, 3000, FIELD(workspace_intrusion_mm)),
       limit(SK_RULE_LANE_COUNT, 0, BERM_LANES, FIELD(lanes)),
+      limit(SK_RULE_SIGHT_BLIND, 50, 1000, FIELD(sight_blind_permille)),
+      limit(SK_RULE_DUST_SLOW, 1, ok.dust_stop_permille, FIELD(dust_slow_permille)),
+      limit(SK_RULE_DUST_STOP, ok.dust_slow_permille, 1000, FIELD(dust_stop_permille)),
+      limit(SK_RULE_DUST_SPEED, 50, 1000, FIELD(dust_speed_permille)),
+      limit(SK_RULE_DUST_DWELL, 0, 60000000, FIELD(dust_dwell_us)),
   };
   for (int j = 0; j < 4; ++j) {
     const std::int32_t bound = j == 0 ? 6283186 : 3141593;
@@ -137,7 +142,8 @@ TEST(ParameterCheck, AcceptsTheDemonstrationMachine) {
 // verifies: SK-PC-78, SK-PC-79, SK-PC-80, SK-PC-81, SK-PC-82, SK-PC-83, SK-PC-84, SK-PC-86, SK-PC-87, SK-PC-88, SK-PC-89
 // verifies: SK-PC-90, SK-PC-101
 TEST(ParameterCheck, EachFieldBeyondEachLimit) {
-  const berm_parameters ok = valid_parameters();
+  berm_parameters ok = valid_parameters();
+  ok.dust_stop_permille = 1000;  // so that what is above it is above the other's limit too
   for (const Limit& l : limits(ok)) {
     const std::int64_t beyond[] = {std::int64_t{l.low} - 1, std::int64_t{l.high} + 1, std::numeric_limits<std::int32_t>::min(),
                                    std::numeric_limits<std::int32_t>::max()};

@@ -37,6 +37,14 @@ Bytes packet(std::uint32_t clock_us, int laser = 0, double range_m = 0.0, double
   return b;
 }
 
+// The same, with a return of every shot.
+Bytes seeing(std::uint32_t clock_us) {
+  Bytes b = packet(clock_us);
+  for (std::size_t block = 0; block < 12; ++block)
+    for (std::size_t shot = 0; shot < 32; ++shot) b[100 * block + 5 + 3 * shot] = 0x08;  // 4.1 m
+  return b;
+}
+
 class LidarIntakeTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -118,6 +126,17 @@ TEST_F(LidarIntakeTest, RepeatedEarlierAndForeignPacketsAreRefused) {
   EXPECT_TRUE(take(packet(500), 0, kNow + 310000));
 }
 
+// verifies: SK-LI-7
+TEST_F(LidarIntakeTest, APacketMuchLaterThanTheOneWithTheLeastDelayIsRefused) {
+  ASSERT_TRUE(take(packet(1000000)));
+  EXPECT_TRUE(take(packet(1050000), 0, kNow + 150000)) << "100 ms late";
+  EXPECT_FALSE(take(packet(1060000), 0, kNow + 170000)) << "110 ms late";
+  ASSERT_TRUE(take(packet(1000), 1, kNow + 170000));
+  EXPECT_FALSE(intake->silent(kNow + 350000, 200000));
+  EXPECT_TRUE(intake->silent(kNow + 350001, 200000)) << "what is refused is no sign of life";
+  EXPECT_TRUE(take(packet(1180000), 0, kNow + 180000)) << "in time again";
+}
+
 // verifies: SK-LI-2
 TEST_F(LidarIntakeTest, SilenceOfEitherCountsOnceBothWereHeard) {
   EXPECT_FALSE(intake->all_heard());
@@ -143,7 +162,7 @@ TEST(CycleLidar, ASilentLidarIsAFault) {
   EXPECT_EQ(rig.state().kernel_state, BERM_STATE_INIT);
   const auto step = [&] {
     rig.gather();
-    const Bytes bytes = packet(1327 * (rig.machine.cycle() + 1));
+    const Bytes bytes = seeing(10000 * (rig.machine.cycle() + 1));
     ASSERT_TRUE(rig.in->take_lidar(0, bytes.data(), bytes.size()));
     rig.cycle->step(*rig.in, *rig.out);
     rig.obey();

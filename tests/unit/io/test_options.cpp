@@ -54,7 +54,7 @@ TEST(KernelOptions, BadOnesAreNamed) {
       {{"--scan-port", "12x"}, "--scan-port"},
       {{"--scan-port"}, "--scan-port"},
       {{"--lidar-port", "0"}, "--lidar-port"},
-      {{"--lidar-port", "1", "--lidar-port", "2", "--lidar-port", "3"}, "--lidar-port"},
+      {{"--lidar-port", "1", "--lidar-port", "2", "--lidar-port", "3", "--lidar-port", "4", "--lidar-port", "5"}, "--lidar-port"},
       {{"--app-uid", "-1"}, "--app-uid"},
       {{"--ready-fd", "5000"}, "--ready-fd"},
       {{"--vlp16-mount", "1,2,3"}, "--vlp16-mount"},

@@ -86,6 +86,34 @@ TEST_F(SectorWatchTest, WhatIsTakenForTheOwnMachineIsNoLook) {
   EXPECT_EQ(seen(90), kNow);
 }
 
+// verifies: SK-SD-4, SK-SD-9
+TEST_F(SectorWatchTest, WhereThereAreLidarsTheirLooksAloneCountAndTheirMonitorsTell) {
+  const auto blocks = std::make_unique<ScanBlocks>();
+  blocks->count = 1;
+  berm_scan_block& block = blocks->block[0] = berm_scan_block{};
+  block.count = 1;
+  block.point_mm[0][0] = 10'000;
+  block.used[0] = 1;
+  const auto returns = std::make_unique<LidarReturns>();
+  returns->count = 2;
+  returns->hit[0] = {{0, 0, 1000}, {0, 10'000, 0}, false};
+  returns->hit[1] = {{0, 0, 1000}, {0, -2'000, 0}, true};  // too near
+  parameters.workspace_wait_us = 2'000'000;
+  parameters.workspace_period_us = 500'000;
+  parameters.workspace_lidar_wait_us = 100'000;
+  parameters.workspace_lidar_period_us = 50'000;
+  for (const int lidars : {0, 1, 2}) {
+    parameters.lidars = lidars;
+    begin();
+    watch->take(*blocks, kNow);
+    watch->take(*returns, kNow + 1);
+    EXPECT_EQ(seen(0), lidars == 0 ? kNow : -1);
+    EXPECT_EQ(seen(90), lidars == 0 ? -1 : kNow + 1);
+    EXPECT_EQ(sectors_seen(), 1);
+    EXPECT_EQ(watch->rules().detect_us, lidars == 0 ? 140'000 + 2'520'000 : 103'000 + 170'000) << lidars << " lidars";
+  }
+}
+
 // verifies: SK-SD-7
 TEST_F(SectorWatchTest, NothingIsEvaluatedWhereNobodyWatchesOrItIsNotAskedFor) {
   EXPECT_TRUE(watch->evaluated());
@@ -154,7 +182,7 @@ TEST_F(SectorWatchTest, TheMonitorTellsOfSomebodyWithinItsLatency) {
     monitor.step(now_us);
     const std::int64_t every_us = one_of({10'000, 100'000, 330'000, 900'000, 600'000'000});
     const std::int64_t came_us = now_us + 10'000 * (1 + static_cast<std::int64_t>(random() % 60));
-    const std::int64_t latency_us = std::int64_t{watch->rules().detect_us} - SectorWatch::kSightUs - parameters.cycle_us;
+    const std::int64_t latency_us = std::int64_t{watch->rules().detect_us} - watch->sight_us() - parameters.cycle_us;
     for (bool told = false; !told;) {
       now_us += 10'000;
       if (now_us >= came_us && (now_us - came_us) % every_us == 0) look(9'150, 150, 1'750, now_us);

@@ -3,48 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "io/vlp16.hpp"
+#include "recording.hpp"
 
 namespace berm::kernel {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-std::string recording(const char* name) {
-  const char* folder = std::getenv("BERM_REAL_DATA");
-  return std::string(folder != nullptr ? folder : BERM_REAL_DATA) + "/vlp16_dual_return/" + name;
-}
-
-std::vector<std::uint8_t> bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-template <class T>
-T read_at(const std::uint8_t* p) {
-  T value;
-  std::memcpy(&value, p, sizeof value);
-  return value;
-}
-
-// UDP payloads of a classic little-endian pcap with Ethernet and IPv4 headers of 42 bytes.
-std::vector<std::vector<std::uint8_t>> payloads(const std::vector<std::uint8_t>& file) {
-  std::vector<std::vector<std::uint8_t>> all;
-  for (std::size_t at = 24; at + 16 <= file.size();) {
-    const auto length = read_at<std::uint32_t>(&file[at + 8]);
-    all.emplace_back(file.begin() + static_cast<std::ptrdiff_t>(at + 16 + 42), file.begin() + static_cast<std::ptrdiff_t>(at + 16 + length));
-    at += 16 + length;
-  }
-  return all;
-}
 
 struct ReferencePoint {
   float x, y, z;
@@ -58,12 +27,12 @@ static_assert(sizeof(ReferencePoint) == 32, "as in the file");
 constexpr std::uint8_t kIdenticalReturns = 6;  // the two blocks agree: first is last
 
 std::vector<ReferencePoint> reference_points() {
-  const auto file = bytes_of(recording("reference_sweep.pcd"));
+  const auto file = test::bytes_of(test::vlp16_recording("reference_sweep.pcd"));
   const std::string text(file.begin(), file.end());
   const std::size_t data = text.find("DATA binary\n");
   std::vector<ReferencePoint> points;
   if (data == std::string::npos) return points;
-  for (std::size_t at = data + 12; at + 32 <= file.size(); at += 32) points.push_back(read_at<ReferencePoint>(&file[at]));
+  for (std::size_t at = data + 12; at + 32 <= file.size(); at += 32) points.push_back(test::read_at<ReferencePoint>(&file[at]));
   return points;
 }
 
@@ -72,8 +41,8 @@ double turn_difference_deg(double a, double b) { return std::fabs(std::remainder
 class Vlp16Recording : public ::testing::Test {
  protected:
   void SetUp() override {
-    packets = payloads(bytes_of(recording("vlp16_dual_return.pcap")));
-    if (packets.empty()) GTEST_SKIP() << "SKIPPED: no recording at " << recording("vlp16_dual_return.pcap");
+    packets = test::payloads(test::bytes_of(test::vlp16_recording("vlp16_dual_return.pcap")));
+    if (packets.empty()) GTEST_SKIP() << "SKIPPED: no recording at " << test::vlp16_recording("vlp16_dual_return.pcap");
   }
   std::vector<std::vector<std::uint8_t>> packets;
 };
@@ -123,7 +92,7 @@ TEST_F(Vlp16Recording, OfTwoReturnsTheFartherIsTaken) {
     for (int block = 0; block < 12; block += 2) {
       for (int shot = 0; shot < 32; ++shot) {
         const std::size_t even = static_cast<std::size_t>(block * 100 + 4 + 3 * shot);
-        const int a = read_at<std::uint16_t>(&bytes[even]) * 2, b = read_at<std::uint16_t>(&bytes[even + 100]) * 2;
+        const int a = test::read_at<std::uint16_t>(&bytes[even]) * 2, b = test::read_at<std::uint16_t>(&bytes[even + 100]) * 2;
         const int farther = std::max(a, b);
         if (farther < kVlp16RangeMinMm) continue;
         ASSERT_LT(at, packet.count);

@@ -42,7 +42,7 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(Scenario, ShippedScenariosLoadAndStartWithTheBucketOneMetreUp) {
-  for (const char* name : {"bench.toml", "person.toml", "two_trucks.toml", "base_tilts.toml", "base_slips.toml", "base_shifts.toml", "identify.toml", "identify_empty.toml", "person_behind.toml", "lidar_blocked.toml"}) {
+  for (const char* name : {"bench.toml", "person.toml", "two_trucks.toml", "base_tilts.toml", "base_slips.toml", "base_shifts.toml", "dust.toml", "scanner_blocked.toml", "identify.toml", "identify_empty.toml", "person_behind.toml", "lidar_blocked.toml"}) {
     const Scenario s = load_scenario(std::string(BERM_SCENARIOS) + "/" + name, BERM_PLANT_PROFILES);
     EXPECT_EQ(s.name + ".toml", name);
     EXPECT_GE(bucket_underside(load_plant_profile(s.machine_file).shape, s.start), 1.0) << name;
@@ -103,8 +103,14 @@ TEST(Scenario, EveryKindOfMistakeIsNamed) {
   EXPECT_EQ(refusal(replaced(good, "centre = [-0.70, 6.75]", "centre = [-0.70]")), "truck[0].centre: must be an array of 2 numbers");
   EXPECT_EQ(refusal(replaced(good, "cell = 0.1", "cell = 0.02\ncells = 1")), "terrain.cells: is not a known key");
   EXPECT_EQ(refusal(replaced(good, "samples_per_revolution = 400", "samples_per_revolution = 400.5")), "scanner.samples_per_revolution: must be a whole number");
-  EXPECT_EQ(refusal(good + "\n[[lidar_fault]]\nlidar = 3\nkind = \"blocked\"\nat_s = 1\nfor_s = 1\n"), "lidar_fault[0].lidar: 3 is outside 1 .. 2");
+  EXPECT_EQ(refusal(good + "\n[[lidar_fault]]\nlidar = 5\nkind = \"blocked\"\nat_s = 1\nfor_s = 1\n"), "lidar_fault[0].lidar: 5 is outside 1 .. 4");
   EXPECT_EQ(refusal(good + "\n[[lidar_fault]]\nlidar = 1\nkind = \"wet\"\nat_s = 1\nfor_s = 1\n"), "lidar_fault[0].kind: 'wet' is not one of blocked, silent");
+  const std::string fault = "\n[[scanner_fault]]\nscanner = 2\nkind = \"blocked\"\nat_s = 1\nfor_s = 1\n";
+  EXPECT_EQ(refusal(good + fault), "accepted");
+  EXPECT_EQ(refusal(good + replaced(fault, "= 2", "= 0")), "scanner_fault[0].scanner: 0 is outside 1 .. 2");
+  EXPECT_EQ(refusal(good + fault + "mirror_deg = [30, 20]\n"), "scanner_fault[0].mirror_deg: low must be below high");
+  EXPECT_EQ(refusal(good + replaced(fault, "blocked", "silent") + "mirror_deg = [20, 30]\n"), "scanner_fault[0].mirror_deg: is for a window that is blocked in part");
+  EXPECT_EQ(refusal(good + "\n[[dust]]\nat_s = 1\nfor_s = 1\nprobability = 0.7\nlost = 0.4\n"), "dust[0].lost: above 1 together with probability");
   EXPECT_EQ(refusal(good + "\n[[panel]]\naction = \"jump\"\nat_s = 1\nfor_s = 1\n"), "panel[0].action: 'jump' is not one of stop, reset, relearn, emergency, pause");
   EXPECT_EQ(refusal(good + "\n[[person]]\nname = \"Anna B\"\n"), "person[0].name: may hold a-z, 0-9 and _ only: it becomes a column's name");
   EXPECT_EQ(refusal(good + "\n[[person]]\nname = \"truck_1\"\n"), "person[0].name: 'truck_1' is taken");
@@ -118,6 +124,26 @@ TEST(Scenario, BallastIsOptionalAndChecked) {
   EXPECT_EQ(refusal(replaced(good, key, key + "ballast_kg = \"much\"\n")), "start.ballast_kg: must be a number");
   EXPECT_EQ(load_scenario(std::string(BERM_SCENARIOS) + "/identify.toml", BERM_PLANT_PROFILES).world.ballast_kg, 1800.0);
   EXPECT_EQ(load_scenario(std::string(BERM_SCENARIOS) + "/identify_empty.toml", BERM_PLANT_PROFILES).world.ballast_kg, 0.0);
+}
+
+TEST(Scenario, FaultsOfSensorsAndDustAreRead) {
+  const WorldConfig plain = loaded(text_of("bench.toml")).world;
+  EXPECT_TRUE(plain.scanner_faults.empty() && plain.dust.empty());
+  const WorldConfig w = loaded(text_of("scanner_blocked.toml")).world;
+  ASSERT_EQ(w.scanner_faults.size(), 1u);
+  EXPECT_EQ(w.scanner_faults[0].sensor, 0u);
+  EXPECT_FALSE(w.scanner_faults[0].silent);
+  EXPECT_EQ(w.scanner_faults[0].at_s, 25.0);
+  EXPECT_EQ(w.scanner_faults[0].for_s, 10.0);
+  ASSERT_TRUE(w.scanner_faults[0].turn.has_value());
+  EXPECT_NEAR((*w.scanner_faults[0].turn)[0], 300 * config::radians(1.0), 1e-12);
+  EXPECT_NEAR((*w.scanner_faults[0].turn)[1], 330 * config::radians(1.0), 1e-12);
+  const WorldConfig d = loaded(text_of("dust.toml")).world;
+  ASSERT_EQ(d.dust.size(), 2u);
+  EXPECT_EQ(d.dust[1].at_s, 45.0);
+  EXPECT_EQ(d.dust[1].for_s, 12.0);
+  EXPECT_EQ(d.dust[1].probability, 0.5);
+  EXPECT_EQ(d.dust[1].lost, 0.02);
 }
 
 TEST(Scenario, MachineFaultsAreReadAndChecked) {

@@ -138,6 +138,90 @@ TEST(Scanner, WallAndGroundStandingStill) { expect_wall_and_ground(0, 0); }
 TEST(Scanner, WallAndGroundWhilePanning) { expect_wall_and_ground(0, 0.4); }
 TEST(Scanner, WallAndGroundWhileSwinging) { expect_wall_and_ground(0.3, -0.4); }
 
+// Samples that looked down at the open site by more than 20 degrees, by what came back.
+struct Downwards { int all = 0, whole = 0, window = 0, two = 0, alone = 0; };
+
+Downwards downwards(const ScanRun& run, int scanner, double from_deg = 200, double to_deg = 340) {
+  Downwards d;
+  for (const berm_scan_packet& p : run.out) {
+    if (p.scanner != scanner) continue;
+    for (int i = 0; i < p.count; ++i) {
+      const double mirror = 360.0 * (p.first_index + i) / 400;
+      if (mirror < from_deg || mirror >= to_deg) continue;
+      const double ground = 3.3 / -std::sin(mirror * degree);
+      const int last = p.range[i][1] != 0 ? 1 : 0;
+      const bool met = std::abs(range_of(p, i, last) - ground) < 0.05;
+      ++d.all;
+      d.window += p.range[i][0] == 75 && last == 0 ? 1 : 0;
+      d.two += met && last == 1 ? 1 : 0;
+      d.whole += met && last == 0 ? 1 : 0;
+      d.alone += !met && last == 0 && p.range[i][0] > 75 ? 1 : 0;
+    }
+  }
+  return d;
+}
+
+TEST(Scanner, AWindowThatIsCoveredSendsBackItsOwnEchoAlone) {
+  WorldConfig c = open_site();
+  c.terrain.roughness = 0;
+  c.scanner_faults = {{0, false, 0.0, 5.0, std::array<double, 2>{300 * degree, 330 * degree}}, {1, false, 1.0, 1.0, {}}};
+  ScanRun run(c, heads_only());
+  run.steps(90, tucked);
+  const Downwards covered = downwards(run, 0, 300, 330), left = downwards(run, 0, 200, 300), right = downwards(run, 1);
+  EXPECT_GT(covered.all, 800);
+  EXPECT_EQ(covered.window, covered.all);
+  EXPECT_EQ(left.whole, left.all);
+  EXPECT_EQ(right.whole, right.all) << "not yet";
+  run.out.clear();
+  run.t = 1.0;
+  run.steps(90, tucked);
+  const Downwards all = downwards(run, 1);
+  EXPECT_GT(all.all, 3000);
+  EXPECT_EQ(all.window, all.all);
+}
+
+TEST(Scanner, ASilentScannerSendsNothingForItsTime) {
+  WorldConfig c = open_site();
+  c.scanner_faults = {{1, true, 0.5, 0.5, {}}};
+  ScanRun run(c, heads_only());
+  run.steps(200, tucked);
+  for (const berm_scan_packet& p : run.out)
+    if (p.scanner == 1) { EXPECT_FALSE(p.time_us > 500'000 && p.time_us < 980'000) << p.time_us; }
+  EXPECT_GT(downwards(run, 1).all, 6500);
+}
+
+TEST(Scanner, DustOfTheAirAddsEchoesAndLosesTargetsForItsTime) {
+  WorldConfig c = open_site();
+  c.terrain.roughness = 0;
+  c.dust = {{0.0, 1.0, 0.3, 0.1}};
+  ScanRun run(c, heads_only());
+  run.steps(98, tucked);
+  const Downwards dusty = downwards(run, 0);
+  EXPECT_NEAR(1.0 * dusty.two / dusty.all, 0.3, 0.02);
+  EXPECT_NEAR(1.0 * dusty.alone / dusty.all, 0.1, 0.02);
+  run.steps(4, tucked);
+  run.out.clear();
+  run.steps(50, tucked);
+  const Downwards clear = downwards(run, 0);
+  EXPECT_EQ(clear.whole, clear.all);
+}
+
+TEST(Scanner, WhatIsDrawnOfNoiseIsTheSameInDust) {
+  WorldConfig clear = open_site(), dusty = open_site();
+  clear.scanner.range_stddev = dusty.scanner.range_stddev = 0.03;
+  clear.scanner.dropout_probability = dusty.scanner.dropout_probability = 0.01;
+  dusty.dust = {{0.0, 5.0, 0.4, 0.0}};
+  ScanRun a(clear, heads_only()), b(dusty, heads_only());
+  a.steps(50, tucked);
+  b.steps(50, tucked);
+  ASSERT_EQ(a.out.size(), b.out.size());
+  for (std::size_t k = 0; k < a.out.size(); ++k)
+    for (int i = 0; i < a.out[k].count; ++i) {
+      const auto* e = b.out[k].range[i];
+      ASSERT_EQ(a.out[k].range[i][0], e[1] != 0 ? e[1] : e[0]) << "the last echo";
+    }
+}
+
 TEST(Scanner, PanIsReportedForTheFirstAndLastSample) {
   ScanRun run(open_site(), heads_only());
   run.steps(30, tucked, 0, 0.5, 1.0);

@@ -85,7 +85,7 @@ TEST(SpinningLidar, MeasuresTheGroundAndBlanksWhatLooksElsewhere) {
 
 TEST(SpinningLidar, FaultsBlockOrSilenceItForTheirTime) {
   WorldConfig config = level_site();
-  config.lidar_faults = {{0, false, 0.5, 0.5}, {0, true, 1.5, 0.5}};
+  config.lidar_faults = {{0, false, 0.5, 0.5, {}}, {0, true, 1.5, 0.5, {}}};
   World world(config, one_lidar(), 1, 0);
   const auto returns = [](const std::vector<LidarPacket>& packets) {
     long count = 0;
@@ -94,7 +94,8 @@ TEST(SpinningLidar, FaultsBlockOrSilenceItForTheirTime) {
         for (std::size_t k = 0; k < 32; ++k) count += u16(&p.bytes[100 * block + 4 + 3 * k]) != 0 ? 1 : 0;
     return count;
   };
-  const auto clear = steps(world, 48), edge = steps(world, 3, 0.48), blocked = steps(world, 45, 0.51), again = steps(world, 50, 1.0), none = steps(world, 45, 1.51);
+  const auto clear = steps(world, 48);
+  const auto edge = steps(world, 3, 0.48), blocked = steps(world, 45, 0.51), again = steps(world, 50, 1.0), none = steps(world, 45, 1.51);
   EXPECT_GT(returns(clear), 10000);
   EXPECT_GT(blocked.size(), 300u);
   EXPECT_EQ(returns({blocked.begin() + 1, blocked.end()}), 0);
@@ -116,6 +117,39 @@ std::vector<double> lowest(const std::vector<LidarPacket>& packets, std::size_t 
     for (std::size_t block = first; block < 12; block += step)
       for (const std::size_t firing : {4u, 52u}) all.push_back(u16(&p.bytes[100 * block + firing]) * 0.002);
   return all;
+}
+
+TEST(SpinningLidar, APartOfItsWindowIsCoveredOrTheAirIsDusty) {
+  WorldConfig config = level_site();
+  config.lidar_faults = {{0, false, 0.0, 5.0, std::array<double, 2>{std::numbers::pi / 2, std::numbers::pi}}};
+  World covered(config, level_lidar(180, true, false), 1, 0);
+  for (const LidarPacket& p : steps(covered, 20))
+    for (std::size_t block = 0; block < 12; ++block) {
+      const double azimuth = u16(&p.bytes[100 * block + 2]) / 100.0;
+      if (azimuth > 90.5 && azimuth < 179.5) { EXPECT_EQ(u16(&p.bytes[100 * block + 4]), 0u) << azimuth; }
+      if (azimuth < 89.5 || azimuth > 180.5) { EXPECT_NEAR(u16(&p.bytes[100 * block + 4]) * 0.002, 4.64, 0.02) << azimuth; }
+    }
+  config.lidar_faults.clear();
+  config.dust = {{0.0, 5.0, 0.3, 0.1}};
+  World dusty(config, level_lidar(180, true, false), 1, 0);
+  const auto packets = steps(dusty, 30);
+  const auto last = lowest(packets, 0, 2), other = lowest(packets, 1, 2);
+  double two = 0, alone = 0;
+  for (std::size_t i = 0; i < last.size(); ++i) {
+    alone += last[i] < 4.6 ? 1 : 0;
+    two += last[i] > 4.6 && other[i] < last[i] ? 1 : 0;
+  }
+  const double count = static_cast<double>(last.size());
+  EXPECT_NEAR(two / count, 0.3, 0.03);
+  EXPECT_NEAR(alone / count, 0.1, 0.02);
+}
+
+TEST(SpinningLidar, WhatIsDrawnOfNoiseIsTheSameInDust) {
+  WorldConfig clear = level_site(), dusty = level_site();
+  clear.scanner.range_stddev = dusty.scanner.range_stddev = 0.05;
+  dusty.dust = {{0.0, 5.0, 0.5, 0.0}};
+  World a(clear, level_lidar(180, true, false), 1, 0), b(dusty, level_lidar(180, true, false), 1, 0);
+  EXPECT_EQ(lowest(steps(a, 20), 0, 2), lowest(steps(b, 20), 0, 2)) << "the last returns";
 }
 
 TEST(SpinningLidar, TheSectorIsTheProfiles) {

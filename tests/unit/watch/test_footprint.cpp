@@ -60,13 +60,14 @@ TEST(footprint, is_in_the_region_with_its_rim_and_has_its_middle_there_later) {
   const auto rules = std::make_unique<sk_monitor_rules>();
   const int ix = 60, iy = 40;
   rules->watched[iy][ix] = 1;
+  const Region region{rules.get(), nullptr};
   const double x = origin + cell * ix, y = origin + cell * (iy + 0.5);
-  EXPECT_FALSE(meets_region({x - 0.26, y, 0.0, 0.25}, *rules));
-  EXPECT_TRUE(meets_region({x - 0.24, y, 0.0, 0.25}, *rules));
-  EXPECT_FALSE(watched_at(*rules, x - 0.24, y));
-  EXPECT_TRUE(watched_at(*rules, x + 0.01, y));
-  EXPECT_FALSE(watched_at(*rules, 1000.0, 0.0));
-  EXPECT_FALSE(meets_region({1000.0, 0.0, 0.0, 0.25}, *rules));
+  EXPECT_FALSE(meets_region({x - 0.26, y, 0.0, 0.25}, region));
+  EXPECT_TRUE(meets_region({x - 0.24, y, 0.0, 0.25}, region));
+  EXPECT_FALSE(watched_at(region, x - 0.24, y));
+  EXPECT_TRUE(watched_at(region, x + 0.01, y));
+  EXPECT_FALSE(watched_at(region, 1000.0, 0.0));
+  EXPECT_FALSE(meets_region({1000.0, 0.0, 0.0, 0.25}, region));
 }
 
 TEST(footprint, an_obstacle_counts_only_in_a_watched_cell_within_reach) {

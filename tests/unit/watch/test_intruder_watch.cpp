@@ -22,7 +22,7 @@ class IntruderWatchTest : public testing::Test {
 
   void step(double x, double y) {
     ++cycle;
-    watch.step({0.01 * cycle, state, reason, cell_x, cell_y, 1.5, still, monitor.get(), rules.get()}, {{present, {x, y, 0.0, 0.25}, 3.0 - 0.01 * cycle}});
+    watch.step({0.01 * cycle, state, reason, cell_x, cell_y, 1.5, still, {monitor.get()}, {rules.get(), nullptr}}, {{present, {x, y, 0.0, 0.25}, 3.0 - 0.01 * cycle}});
   }
   void steps(int n, double x, double y) {
     for (int i = 0; i < n; ++i) step(x, y);

@@ -103,7 +103,8 @@ TEST_F(IntrusionTest, beside_the_truck_it_keeps_the_drawn_gap_on_the_machines_si
     ++seen;
     ASSERT_EQ(in.mover.waypoints.size(), 3U);
     EXPECT_GE(in.side_gap_m, 0.1);
-    EXPECT_LE(in.side_gap_m, 1.0);
+    EXPECT_LE(in.side_gap_m, 0.3);
+    EXPECT_GT(in.mover.waypoints[1].wait_s, 15.0) << "until the scanners have looked";
     const auto& turn = in.mover.waypoints[1];
     EXPECT_NEAR(distance_from_truck(site().truck, turn.x, turn.y) - in.mover.radius, in.side_gap_m, 1e-9);
     EXPECT_LT(turn.y, site().truck.y) << "not the side that faces the machine";  // the truck stands along x, to the left

@@ -1,0 +1,53 @@
+// berm truck_world: scenes for a truck recogniser, as files.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <exception>
+#include <filesystem>
+
+#include "truck_world/options.hpp"
+#include "truck_world/scene_files.hpp"
+
+namespace berm::truck_world {
+namespace {
+
+int run(int argc, char** argv) {
+  ProgramOptions o;
+  if (const auto status = read_options(argc, argv, BERM_TRUCK_CLASSES, o)) return *status;
+  const std::vector<TruckClass> classes = read_truck_classes(o.classes);
+  std::error_code error;
+  std::filesystem::create_directories(o.out, error);
+  if (!std::filesystem::is_directory(o.out)) throw std::runtime_error(fmt::format("--out: {}: cannot be made a folder", o.out));
+
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const auto begin = std::chrono::steady_clock::now();
+  const int first = o.only >= 0 ? o.only : 0, end = o.only >= 0 ? o.only + 1 : o.scenes;
+  int trucks = 0, look_alikes = 0;
+  for (int number = first; number < end; ++number) {
+    const Scene scene = draw_scene(classes, o.scene, o.seed, number);
+    write_scene(o.out, scene, o.picture);
+    trucks += scene.truth.truck ? 1 : 0;
+    look_alikes += scene.truth.look_alike.empty() ? 0 : 1;
+    const int done = number - first + 1;
+    if (terminal) fmt::print(stderr, "\r{} of {} scenes", done, end - first);
+    else if (done % 100 == 0) fmt::print(stderr, "{} of {} scenes\n", done, end - first);
+  }
+  if (terminal) fmt::print(stderr, "\n");
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  fmt::print("{} scenes in {}: {} with a truck, {} with something like one, {} with neither; {:.1f} scenes/s\n", end - first, o.out, trucks,
+             look_alikes, end - first - trucks - look_alikes, (end - first) / std::max(seconds, 1e-9));
+  return 0;
+}
+
+}  // namespace
+}  // namespace berm::truck_world
+
+int main(int argc, char** argv) {
+  try {
+    return berm::truck_world::run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "berm truck_world: {}\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,140 @@
+// berm gather: point-cloud gathering over recorded scans.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "gathering/gather_picture.hpp"
+#include "gathering/gather_recording.hpp"
+#include "points/file_bytes.hpp"
+#include "points/pcd.hpp"
+#include "points/recording.hpp"
+
+namespace berm::app {
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  std::vector<std::string> mounts;
+  std::string json, pcd, picture;
+  GatheringOptions gathering;
+  ScannerDeviations deviations;
+};
+
+Eigen::Isometry3d mount_of(const std::string& text) {
+  double x = 0.0, y = 0.0, z = 0.0, yaw_deg = 0.0;
+  char rest = 0;
+  const bool four = std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf%c", &x, &y, &z, &yaw_deg, &rest) == 4;
+  if (!four || !(std::abs(x) < 1e5 && std::abs(y) < 1e5 && std::abs(z) < 1e5 && std::abs(yaw_deg) <= 360.0))
+    throw PointFileError(fmt::format("--mount: {}: is not x,y,z,yaw (metres within 1e5, degrees within 360)", text.substr(0, 80)));
+  Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
+  out.linear() = Eigen::AngleAxisd(yaw_deg * 3.14159265358979323846 / 180.0, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  out.translation() << x, y, z;
+  return out;
+}
+
+int run(const Options& options) {
+  if (options.mounts.size() > 1 && options.mounts.size() != options.files.size())
+    throw PointFileError(fmt::format("--mount: given {} times for {} files: once for all, or each", options.mounts.size(), options.files.size()));
+  GatheringOptions gathering = options.gathering;
+  gathering.epoch = kEpochRuleOfRecordings;
+  PointCloudGatherer gatherer(gathering);
+  double seconds = 0.0;
+  std::size_t unplanned = 0;
+  const bool show = isatty(2) != 0;
+  for (std::size_t i = 0; i < options.files.size(); ++i) {
+    const std::string& file = options.files[i];
+    if (show) fmt::print(stderr, "reading {}\n", file);
+    const PointCloud recording = read_recording(file);
+    Eigen::Isometry3d mount = Eigen::Isometry3d::Identity();
+    if (!options.mounts.empty()) mount = mount_of(options.mounts[options.mounts.size() == 1 ? 0 : i]);
+    const std::size_t scanner = gatherer.add_scanner(options.deviations);
+    auto shown = std::chrono::steady_clock::now();
+    const auto begin = shown;
+    unplanned += gather_recording(recording, scanner, mount, gatherer, [&](std::size_t done) {
+      if (!show || std::chrono::steady_clock::now() - shown < std::chrono::milliseconds(500)) return;
+      shown = std::chrono::steady_clock::now();
+      fmt::print(stderr, "\r{}: {} of {} points", file, done, recording.points.size());
+    });
+    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (show) fmt::print(stderr, "\r{}: {} points gathered   \n", file, recording.points.size());
+  }
+  const GatheringCounts counts = gatherer.counts();
+  const double rate = static_cast<double>(counts.points_in) / std::max(seconds, 1e-9);
+  const std::size_t kept = gatherer.store().size();
+  if (!options.json.empty()) {
+    const nlohmann::json result{
+        {"files", options.files},           {"scans", counts.scans},      {"points_in", counts.points_in},   {"points_kept", kept},
+        {"deleted", counts.deleted},        {"merged", counts.merged},    {"overflowed", counts.overflowed}, {"ignored", counts.ignored},
+        {"scans_without_plane", unplanned}, {"epochs", gatherer.epoch()}, {"points_per_second", rate},       {"bytes", gatherer.bytes()}};
+    write_file_bytes(options.json, result.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  }
+  const auto points = gatherer.points();
+  if (!options.pcd.empty()) write_pcd(options.pcd, points);
+  fmt::print("{} scans, {} points in: {} kept, {} merged, {} deleted, {} overflowed, {} ignored; {:.0f} points/s, {:.1f} MB\n", counts.scans,
+             counts.points_in, kept, counts.merged, counts.deleted, counts.overflowed, counts.ignored, rate,
+             static_cast<double>(gatherer.bytes()) * 1e-6);
+  if (unplanned > 0) fmt::print("{} scans are no plane through the scanner: merged, and nothing deleted for them\n", unplanned);
+  if (!options.picture.empty()) fmt::print("picture: {} (grid {:g} m)\n", options.picture, write_cloud_picture(options.picture, points));
+  return kept > 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace berm::app
+
+int main(int argc, char** argv) {
+  berm::app::Options options;
+  CLI::App app{
+      "Gathers recorded scans into one point cloud: merges what is measured again, deletes what was seen through. A FILE is a PCD with "
+      "scanline and time, a capture (pcap) of a VLP-16, or a JSON export of an LMS1xx session; files are played one after another. Exit status 1: no "
+      "point was kept.",
+      "berm gather"};
+  app.add_option("FILE", options.files, "recordings, each of a scanner of its own")->required();
+  app.add_option("--json", options.json,
+                 "write scans, points_in, points_kept, deleted, merged, overflowed, ignored, scans_without_plane, epochs, "
+                 "points_per_second, bytes");
+  app.add_option("--pcd", options.pcd, "write the cloud");
+  app.add_option("--picture", options.picture, "write a view from above (PNG)");
+  app.add_option("--mount", options.mounts,
+                 "a scanner's place in the cloud's frame: x,y,z in metres, yaw in degrees; once for all files or once for each")
+      ->take_all();
+  app.add_option("--capacity", options.gathering.capacity, "points kept at most; the lowest epochs go first")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 200'000'000));
+  app.add_option("--range-limit", options.gathering.range_limit_m, "farther returns are not used, metres")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 1000.0));
+  app.add_option("--shrink", options.gathering.shrink_m, "of the deletion volumes, metres, beside the deviations")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 10.0));
+  app.add_option("--range-deviation", options.deviations.range_m, "standard deviation of a range, metres")
+      ->capture_default_str()
+      ->check(CLI::Range(0.001, 1.0));
+  app.add_option("--along-deviation", options.deviations.along_rad, "of the angle along the scan plane, radians")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-5, 0.1));
+  app.add_option("--across-deviation", options.deviations.across_rad, "of the angle across it, radians")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-5, 0.1));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    std::string what = error.what();
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    fmt::print(stderr, "berm gather: {} (see --help)\n", what);
+    return 2;
+  }
+  try {
+    return berm::app::run(options);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "berm gather: {}\n", error.what());
+    return 2;
+  }
+}

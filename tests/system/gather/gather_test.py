@@ -1,0 +1,97 @@
+"""berm gather: made-up sweeps and real recordings into one cloud; refusals are one line."""
+import json
+import math
+import pathlib
+import struct
+import tempfile
+
+from berm_command import REAL_DATA, main, one_clear_line, run
+
+scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-gather-"))
+KEYS = {"scans", "points_in", "points_kept", "deleted", "merged", "points_per_second"}
+
+
+def sweep(name, distance, reverse=False):
+    """A PCD of 41 upright scanlines of 51 points, all at one distance from the viewpoint."""
+    rows = []
+    for line in range(41):
+        pan = math.radians(40 - line if reverse else line)
+        for k in range(51):
+            up = math.radians(k - 25)
+            rows.append((distance * math.cos(up) * math.cos(pan), distance * math.cos(up) * math.sin(pan), 1 + distance * math.sin(up), line, 0.02 * line))
+    text = "\n".join(" ".join(f"{v:.6f}" if i != 3 else str(v) for i, v in enumerate(row)) for row in rows)
+    path = scratch / name
+    path.write_text(f"VERSION 0.7\nFIELDS x y z scanline time\nSIZE 4 4 4 4 8\nTYPE F F F U F\nCOUNT 1 1 1 1 1\nWIDTH {len(rows)}\nHEIGHT 1\n"
+                    f"VIEWPOINT 0 0 1 1 0 0 0\nPOINTS {len(rows)}\nDATA ascii\n{text}\n")
+    return path, len(rows)
+
+
+def gather(*arguments):
+    out = scratch / "result.json"
+    out.unlink(missing_ok=True)
+    done = run("berm_gather", *arguments, "--json", out)
+    print(done.stdout, done.stderr)
+    assert done.returncode == 0, done.stderr
+    return json.loads(out.read_text())
+
+
+def what_stood_before_the_wall_goes():
+    near, count = sweep("near.pcd", 2.0)
+    far, _ = sweep("far.pcd", 5.0, reverse=True)
+    cloud, picture = scratch / "cloud.pcd", scratch / "cloud.png"
+    result = gather(near, far, "--pcd", cloud, "--picture", picture)
+    assert KEYS <= result.keys(), result.keys()
+    assert result["scans"] == 82 and result["points_in"] == 2 * count
+    assert result["deleted"] == count, f"{result['deleted']} of {count} deleted"
+    assert result["points_kept"] == count and result["merged"] == 0
+    assert picture.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    head, data = cloud.read_bytes().split(b"DATA binary\n", 1)
+    assert f"POINTS {count}".encode() in head and len(data) == 24 * count
+    for x, y, z, _, _ in struct.iter_unpack("<fffId", data):
+        assert abs(math.hypot(x, y, z - 1) - 5.0) < 1e-3
+    again = gather(cloud)  # what it writes it reads
+    assert again["points_in"] == count
+
+
+def what_is_seen_again_is_merged():
+    near, count = sweep("once.pcd", 3.0)
+    result = gather(near, near)
+    assert result["merged"] == count and result["points_kept"] == count and result["deleted"] == 0
+    few = gather(near, "--capacity", 500)
+    assert few["points_kept"] <= 500 and few["overflowed"] == count - few["points_kept"]
+
+
+def refusals():
+    near, _ = sweep("good.pcd", 2.0)
+    result = scratch / "none.json"
+    empty, broken = scratch / "empty.pcd", scratch / "broken.pcd"
+    empty.write_bytes(b"")
+    broken.write_bytes(near.read_bytes()[:-40])
+    for path in (empty, broken, scratch / "missing.pcd", scratch):
+        done = run("berm_gather", path, "--json", result)
+        one_clear_line(done, path.name)
+        assert done.returncode == 2 and not result.exists()
+    for options, word in (((), "FILE"), ((near, "--no-such-option"), "no-such-option"), ((near, "--capacity", "0"), "capacity"), ((near, "--mount", "1,2"), "mount"),
+                          ((near, "--mount", "1,2,3,nan"), "mount"), ((near, "--pcd", scratch / "no/such/folder.pcd"), "no/such")):
+        done = run("berm_gather", *options)
+        one_clear_line(done, word)
+        assert done.returncode == 2
+    none = scratch / "none.pcd"
+    none.write_text("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 0\nHEIGHT 1\nPOINTS 0\nDATA ascii\n")
+    assert run("berm_gather", none).returncode == 1
+    done = run("berm_gather", "--help")
+    assert done.returncode == 0 and "--picture" in done.stdout
+
+
+def real_recordings():
+    if not REAL_DATA.exists():
+        print(f"SKIPPED: no recordings at {REAL_DATA}")
+        return
+    result = gather(REAL_DATA / "lms111/20210302_lms111.pcapng.json", "--picture", scratch / "lms.png")
+    assert result["scans"] == 175 and result["merged"] > 0.9 * result["points_in"]
+    result = gather(REAL_DATA / "vlp16_dual_return/vlp16_dual_return.pcap", "--mount", "0,0,1.8,0", "--range-deviation", "0.03", "--pcd", scratch / "vlp.pcd")
+    assert result["points_in"] > 50000 and result["merged"] > result["points_in"] / 2
+    assert len((scratch / "vlp.pcd").read_bytes()) > 24 * result["points_kept"]
+
+
+main([what_stood_before_the_wall_goes, what_is_seen_again_is_merged, refusals, real_recordings])
