@@ -24,6 +24,7 @@ static void sk_blank_bins(sk_monitor_histogram *h, int32_t iy, int32_t ix)
 static void sk_blank_histogram(sk_monitor_histogram *h, int32_t iy, int32_t ix)
 {
   sk_blank_bins(h, iy, ix);
+  /*@ assert other_bins: \forall integer j, i; sk_in_map(j, i) && !(j == iy && i == ix) ==> sk_bins_kept{Pre, Here}(h, j, i); */
   h->state[iy][ix] = SK_CELL_LEARNING;
   h->observed[iy][ix] = 0U;
   h->line_mm[iy][ix] = 0;
@@ -31,6 +32,10 @@ static void sk_blank_histogram(sk_monitor_histogram *h, int32_t iy, int32_t ix)
   h->departed_mm[iy][ix] = 0;
   h->departed_us[iy][ix] = -1;
   h->ground_us[iy][ix] = SK_NO_GROUND;
+  /*@ assert own_bins: sk_bins_blank(h, iy, ix); */
+  /*@ assert still: \forall integer j, i; sk_in_map(j, i) && !(j == iy && i == ix) ==> sk_bins_kept{Pre, Here}(h, j, i); */
+  /*@ assert ground: \forall integer j, i; sk_in_map(j, i) && !(j == iy && i == ix) ==> sk_ground_kept{Pre, Here}(h, j, i); */
+  /*@ assert times: \forall integer j, i; sk_in_map(j, i) && !(j == iy && i == ix) ==> sk_times_kept{Pre, Here}(h, j, i); */
 }
 
 /*@ requires \valid(h) && 0 <= iy < SK_MAP_CELLS;
@@ -55,6 +60,9 @@ static void sk_forget_histograms(sk_monitor_histogram *h, int32_t iy, int32_t x_
     @*/
   for (ix = 0; ix < SK_MAP_CELLS; ix++) {
     if (sk_is_touched(iy, ix, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) { sk_blank_histogram(h, iy, ix); }
+    /*@ assert kept: \forall integer i; 0 <= i < ix ==> sk_cell_kept{LoopCurrent, Here}(h, iy, i); */
+    /*@ assert kept_bins: \forall integer i, b; 0 <= i < ix && sk_in_bins(b) ==> h->seen[iy][i][b] == \at(h->seen[iy][i][b], LoopCurrent); */
+    /*@ assert bins: \forall integer i; 0 <= i < ix && sk_bins_blank{LoopCurrent}(h, iy, i) ==> sk_bins_blank(h, iy, i); */
   }
 }
 

@@ -156,28 +156,39 @@ static bool sk_is_raise_due(const sk_monitor_histogram *h, const sk_monitor_rule
   return now_us - (int64_t)h->ground_us[iy][ix] > 2 * (int64_t)r->period_us;
 }
 
+/*@ requires \valid_read(h) && sk_in_map(iy, ix) && sk_in_bins(b);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_above_lines(h, iy, ix, b);
+  @*/
+static bool sk_is_above_lines(const sk_monitor_histogram *h, int32_t iy, int32_t ix, int32_t b)
+{
+  if (h->state[iy][ix] == SK_CELL_LEARNING || h->observed[iy][ix] >= SK_HISTOGRAM_ENOUGH) { return false; }
+  return h->lines[iy][ix] >= SK_LINES_ENOUGH && SK_HISTOGRAM_BIN_MM * b + SK_HISTOGRAM_FLOOR_MM > h->line_mm[iy][ix];
+}
+
 /* A point in bin b that does not depart. */
 /*@ requires \valid(h) && \valid_read(r) && \separated(h, r) && sk_in_map(iy, ix) && sk_in_bins(b) && now_us >= 0;
-  @ assigns h->seen[iy][ix][0 .. SK_HISTOGRAM_BINS - 1], h->ground_us[iy][ix];
-  @ ensures counted: sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_counted{Pre, Post}(h, iy, ix, b);
-  @ ensures kept: !sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_bins_kept{Pre, Post}(h, iy, ix);
+  @ assigns h->seen[iy][ix][0 .. SK_HISTOGRAM_BINS - 1], h->observed[iy][ix], h->ground_us[iy][ix];
+  @ ensures counted: sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_counted{Pre, Post}(h, iy, ix, b) && sk_observed{Pre, Post}(h, iy, ix);
+  @ ensures kept: !sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_bins_kept{Pre, Post}(h, iy, ix) && h->observed[iy][ix] == \old(h->observed[iy][ix]);
   @ ensures time: h->ground_us[iy][ix] == \old(h->ground_us[iy][ix]) || (h->ground_us[iy][ix] == now_us && h->state[iy][ix] == SK_CELL_CLEAR);
   @*/
 static void sk_count_ground(sk_monitor_histogram *h, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t b, int64_t now_us)
 {
+  if (sk_is_above_lines(h, iy, ix, b)) { return; }
   if (sk_is_raising(h, iy, ix, b)) {
     if (!sk_is_raise_due(h, r, iy, ix, now_us)) { return; }
     h->ground_us[iy][ix] = (uint64_t)now_us;
   }
   sk_count_point(h, iy, ix, b);
+  if (h->observed[iy][ix] < SK_HISTOGRAM_ENOUGH) { h->observed[iy][ix] = h->observed[iy][ix] + 1U; }
 }
 
 /*@ requires \valid(h) && \valid_read(r) && \separated(h, r) && sk_in_map(iy, ix) && now_us >= 0;
   @ assigns h->seen[iy][ix][0 .. SK_HISTOGRAM_BINS - 1], h->observed[iy][ix], h->state[iy][ix], h->ground_us[iy][ix];
-  @ ensures counted: \exists integer b; sk_is_bin(b, z_mm) && (sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_counted{Pre, Post}(h, iy, ix, b)) &&
-  @   (!sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_bins_kept{Pre, Post}(h, iy, ix));
-  @ ensures observed: h->observed[iy][ix] ==
-  @   (\old(h->observed[iy][ix]) < SK_HISTOGRAM_ENOUGH ? \old(h->observed[iy][ix]) + 1 : \old(h->observed[iy][ix]));
+  @ ensures counted: \exists integer b; sk_is_bin(b, z_mm) && (sk_counts{Pre}(h, r, now_us, iy, ix, b) ==>
+  @     sk_counted{Pre, Post}(h, iy, ix, b) && sk_observed{Pre, Post}(h, iy, ix)) &&
+  @   (!sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_bins_kept{Pre, Post}(h, iy, ix) && h->observed[iy][ix] == \old(h->observed[iy][ix]));
   @ ensures stays: sk_somebody_at{Pre}(h, iy, ix) && !sk_ground_is_back{Pre}(h, r, now_us, iy, ix) ==> sk_somebody_at(h, iy, ix);
   @ ensures nobody: !sk_somebody_at{Pre}(h, iy, ix) ==> h->state[iy][ix] == \old(h->state[iy][ix]);
   @*/
@@ -185,7 +196,6 @@ static void sk_take_ground(sk_monitor_histogram *h, const sk_monitor_rules *r, i
 {
   sk_count_ground(h, r, iy, ix, sk_bin_of(z_mm), now_us);
   sk_see_ground_again(h, r, iy, ix, now_us);
-  if (h->observed[iy][ix] < SK_HISTOGRAM_ENOUGH) { h->observed[iy][ix] = h->observed[iy][ix] + 1U; }
 }
 
 /*@ requires \valid(h) && \valid_read(r) && \separated(h, r) && sk_in_map(iy, ix) && now_us >= 0;

@@ -83,6 +83,10 @@ typedef struct sk_monitor_histogram {
   @   sk_recent_at{L}(h, sk_window{L}(r), now, iy, ix) == 0 && sk_recent_beside{L}(h, sk_window{L}(r), now, iy, ix) == 0 &&
   @   \at(h->ground_us[iy][ix], L) <= now && now - \at(h->ground_us[iy][ix], L) >= \at(r->wait_us, L);
   @
+  @ // where too little was seen, a bin wholly above the lines: nothing there is counted, or who stands there would be his own ground
+  @ predicate sk_above_lines{L}(sk_monitor_histogram *h, integer iy, integer ix, integer b) = \at(h->state[iy][ix], L) != SK_CELL_LEARNING &&
+  @   \at(h->observed[iy][ix], L) < SK_HISTOGRAM_ENOUGH && \at(h->lines[iy][ix], L) >= SK_LINES_ENOUGH &&
+  @   sk_bin_low(b) > \at(h->line_mm[iy][ix], L);
   @ // higher than what has been seen twice, if not by so much that it departs. Within a window one such point is counted: somebody who is scanned
   @ // from the feet upwards would else be his own ground
   @ predicate sk_raises{L}(sk_monitor_histogram *h, integer iy, integer ix, integer b) = \at(h->state[iy][ix], L) != SK_CELL_LEARNING &&
@@ -90,7 +94,7 @@ typedef struct sk_monitor_histogram {
   @ predicate sk_may_raise{L}(sk_monitor_histogram *h, sk_monitor_rules *r, integer now, integer iy, integer ix) =
   @   \at(h->state[iy][ix], L) == SK_CELL_CLEAR && (\at(h->ground_us[iy][ix], L) > now || now - \at(h->ground_us[iy][ix], L) > sk_window{L}(r));
   @ predicate sk_counts{L}(sk_monitor_histogram *h, sk_monitor_rules *r, integer now, integer iy, integer ix, integer b) =
-  @   sk_raises{L}(h, iy, ix, b) ==> sk_may_raise{L}(h, r, now, iy, ix);
+  @   !sk_above_lines{L}(h, iy, ix, b) && (sk_raises{L}(h, iy, ix, b) ==> sk_may_raise{L}(h, r, now, iy, ix));
   @
   @ predicate sk_bins_kept{A, B}(sk_monitor_histogram *h, integer iy, integer ix) =
   @   \forall integer b; sk_in_bins(b) ==> \at(h->seen[iy][ix][b], A) == \at(h->seen[iy][ix][b], B);
@@ -108,6 +112,9 @@ typedef struct sk_monitor_histogram {
   @     \forall integer c; sk_in_bins(c) && c != b ==> \at(h->seen[iy][ix][c], B) == \at(h->seen[iy][ix][c], A)) &&
   @   (\at(h->seen[iy][ix][b], A) == SK_HISTOGRAM_FULL ==> \at(h->seen[iy][ix][b], B) == SK_HISTOGRAM_FULL / 2 + 1 &&
   @     \forall integer c; sk_in_bins(c) && c != b ==> \at(h->seen[iy][ix][c], B) == \at(h->seen[iy][ix][c], A) / 2);
+  @ predicate sk_observed{A, B}(sk_monitor_histogram *h, integer iy, integer ix) =
+  @   (\at(h->observed[iy][ix], A) < SK_HISTOGRAM_ENOUGH ==> \at(h->observed[iy][ix], B) == \at(h->observed[iy][ix], A) + 1) &&
+  @   (\at(h->observed[iy][ix], A) >= SK_HISTOGRAM_ENOUGH ==> \at(h->observed[iy][ix], B) == \at(h->observed[iy][ix], A));
   @ // the height that more lines than not agree on outlives those that do not, and follows those that do
   @ predicate sk_lines_agree(integer line, integer z) = -SK_LINE_NEAR_MM <= z - line <= SK_LINE_NEAR_MM;
   @ predicate sk_line_taken(integer line, integer lines, integer z, integer line2, integer lines2) =
@@ -146,7 +153,8 @@ void sk_histogram_begin(sk_monitor_histogram *h);
   @   \exists integer b; sk_is_bin(b, z_mm) && (sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_counted{Pre, Post}(h, iy, ix, b)) &&
   @     (!sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_bins_kept{Pre, Post}(h, iy, ix));
   @ ensures observed: \result == false && sk_in_map(iy, ix) && now_us >= 0 ==> h->departed_us[iy][ix] == \old(h->departed_us[iy][ix]) &&
-  @   h->observed[iy][ix] == (\old(h->observed[iy][ix]) < SK_HISTOGRAM_ENOUGH ? \old(h->observed[iy][ix]) + 1 : \old(h->observed[iy][ix]));
+  @   \exists integer b; sk_is_bin(b, z_mm) && (sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_observed{Pre, Post}(h, iy, ix)) &&
+  @     (!sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> h->observed[iy][ix] == \old(h->observed[iy][ix]));
   @ ensures others: \forall integer j, i; sk_in_map(j, i) && (now_us < 0 || !(j == iy && i == ix)) ==> sk_cell_kept{Pre, Post}(h, j, i);
   @*/
 bool sk_histogram_insert(sk_monitor_histogram *h, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us);

@@ -61,6 +61,8 @@ bool ReferenceHistogram::insert(const ReferenceRules& r, Place at, std::int64_t 
   }
   int as_high = 0;
   for (const auto& entry : c.seen) as_high += entry.first >= bin_of(z) ? entry.second : 0;
+  const bool above_lines = c.votes >= 3 && kFloor + kBin * bin_of(z) > static_cast<double>(c.line);
+  if (c.state != State::kLearning && c.observed < kEnough && above_lines) return false;
   if (c.state != State::kLearning && c.observed >= kEnough && as_high < 2) {
     if (was != State::kClear || (c.ground >= 0 && c.ground <= now && now <= c.ground + r.period + r.period)) return false;
     c.ground = now;

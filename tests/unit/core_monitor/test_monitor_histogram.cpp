@@ -120,8 +120,11 @@ TEST_F(MonitorHistogram, WhereTooLittleWasSeenALineIsTheGround) {
   line(100);
   EXPECT_EQ(h->observed[50][50], 1U) << "a line is no observation";
   EXPECT_FALSE(see(50, 50, 600)) << "not by more than the rise";
+  EXPECT_EQ(h->observed[50][50], 1U) << "and above the lines: not counted";
   EXPECT_TRUE(see(50, 50, 1600));
-  EXPECT_FALSE(see(50, 50, 1000)) << "600 was seen there";
+  EXPECT_TRUE(see(50, 50, 1000)) << "600 is no ground of his";
+  EXPECT_FALSE(see(50, 50, 120));
+  EXPECT_EQ(h->observed[50][50], 2U) << "of a bin that reaches down to the lines";
   line(-4000);
   EXPECT_EQ(h->line_mm[50][50], 100) << "one to a spurious return";
   EXPECT_FALSE(see(50, 50, 1800)) << "and now too few agree";
