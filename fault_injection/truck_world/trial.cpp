@@ -18,6 +18,19 @@ Json percentile(std::vector<double> values, double share) {
   return values[std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())))];
 }
 
+app::BedPose pose_of(const TruckTruth& k) {
+  app::BedPose pose;
+  for (const Vector3d& corner : k.corners) pose.middle += corner / 4.0;
+  pose.yaw = k.yaw;
+  pose.pitch = k.pitch;
+  pose.roll = k.roll;
+  pose.length = k.inside_length;
+  pose.width = k.inside_width;
+  pose.thickness = k.wall_thickness;
+  pose.open_end = k.tailgate == name_of(Tailgate::up) ? 0 : -1;
+  return pose;
+}
+
 Json accuracy(const std::vector<Trial>& trials) {
   std::vector<double> corner, yaw, size, length, width, height;
   int trucks = 0, recognised = 0;
@@ -53,6 +66,11 @@ Json accuracy(const std::vector<Trial>& trials) {
 
 }  // namespace
 
+std::array<double, 3> viewpoint_of(const Scene& scene) {
+  const Vector3d& v = scene.truth.viewpoint;
+  return {v.x(), v.y(), v.z()};
+}
+
 Trial judge(const Scene& scene, const app::RecognisedTruck& answer) {
   const SceneTruth& truth = scene.truth;
   const TruckTruth& k = truth.of_truck;
@@ -68,7 +86,10 @@ Trial judge(const Scene& scene, const app::RecognisedTruck& answer) {
   t.milliseconds = answer.milliseconds;
   t.evidence = answer.evidence;
   t.pose = answer.pose;
-  if (!t.truck || !t.found) return t;
+  if (!t.truck) return t;
+  const app::BedPose true_pose = pose_of(k);
+  t.true_score = app::weigh(true_pose, app::rays_near(app::make_fans(scene.cloud, viewpoint_of(scene)), true_pose)).score;
+  if (!t.found) return t;
   Vector3d middle = Vector3d::Zero();
   for (std::size_t i = 0; i < 4; ++i) {
     t.corner_errors[i] = (answer.corners[i] - k.corners[i]).norm();

@@ -28,8 +28,12 @@ struct Trial {
   double nees = 0.0;              // of the eight parameters of the opening by the recogniser's own covariance
   double milliseconds = 0.0;
   app::BedEvidence evidence;
+  double true_score = 0.0;        // what the evidence weighs where the truck truly stands
   app::BedPose pose;
 };
+
+// Of the sensor in the middle of the sweep, as a file of the scene has it.
+std::array<double, 3> viewpoint_of(const Scene& scene);
 
 Trial judge(const Scene& scene, const app::RecognisedTruck& answer);
 

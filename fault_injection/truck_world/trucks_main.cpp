@@ -40,9 +40,9 @@ void report(const Trial& t, const TrialOptions& o) {
   if (!o.list) return;
   const app::BedEvidence& e = t.evidence;
   fmt::print("  evidence {:.1f}: outer faces {}, inner faces {}, tops {}, inside {}, through {}, before {}, over {}; over the opening {} level, {} below, {} "
-             "above; open end {}\n",
+             "above; open end {}; {:.2f} x {:.2f}; the truth weighs {:.1f}\n",
              e.score, e.outer_face, e.inner_face, e.wall_top, e.inside, e.through, e.before, e.over, e.level_inside, e.below_inside, e.above_inside,
-             t.pose.open_end);
+             t.pose.open_end, t.pose.length, t.pose.width, t.true_score);
 }
 
 int run(int argc, char** argv) {
@@ -76,8 +76,7 @@ int run(int argc, char** argv) {
       if ((content == Content::truck && o.no_trucks) || (content == Content::no_truck && o.trucks)) continue;
       o.scene.content = content;
       const Scene scene = draw_scene(classes, o.scene, o.seed, number);
-      const Vector3d& v = scene.truth.viewpoint;
-      trials.push_back(judge(scene, app::recognise_truck(scene.cloud, {v.x(), v.y(), v.z()}, ranges)));
+      trials.push_back(judge(scene, app::recognise_truck(scene.cloud, viewpoint_of(scene), ranges)));
       report(trials.back(), o);
     }
     if (terminal && number % 10 == 9) fmt::print(stderr, "\r{} of {} scenes", number + 1 - first, end - first);

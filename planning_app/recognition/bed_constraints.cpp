@@ -9,6 +9,7 @@ constexpr double kRangeDeviation = 0.03;  // m
 constexpr double kFaceDeviation = 0.010;  // m, of a wall's face: mud
 constexpr double kMud = 0.006;            // m, its mean on the part of the faces that is seen
 constexpr double kEdgeDeviation = 0.010;  // m, scale of the logistic function
+constexpr double kUprightSeen = 0.4;      // m below the top down to which a side is upright: below it may be a pipe
 constexpr double kEdgeReach = 0.45;       // m: rays that pass an edge farther away say nothing of it
 
 class Collector {
@@ -49,7 +50,7 @@ class Collector {
     switch (m.what) {
       case Meeting::outer_face: {
         const BedPlane face{m.axis, m.side, true};
-        face_hit(ray, m.axis, m.side, true);
+        if (m.axis == 0 || m.entry.z() > -kUprightSeen) face_hit(ray, m.axis, m.side, true);
         past(ray, face, rim, 1, m.entry);
         for (const int side : {-1, 1}) past(ray, face, {1 - m.axis, side, true}, 1, m.entry);
         break;
@@ -82,7 +83,7 @@ class Collector {
       case Meeting::inner_face:
       case Meeting::through_inner:
         inside_of(ray, m.rim, m.end);
-        if (m.what == Meeting::inner_face && m.end.z() < -0.03 && m.axis >= 0) face_hit(ray, m.axis, m.side, false);
+        if (m.what == Meeting::inner_face && m.end.z() < -0.03 && (m.axis == 0 || m.end.z() > -kUprightSeen)) face_hit(ray, m.axis, m.side, false);
         break;
       case Meeting::over:
         if (m.entry.z() >= 0.0) over_wall(ray, m);

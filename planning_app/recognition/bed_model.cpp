@@ -6,6 +6,11 @@
 namespace berm::app {
 namespace {
 
+// Weights of the evidence: a return on a face that is predicted weighs 1.
+constexpr double kInside = 0.08;  // a return somewhere inside
+constexpr double kThrough = 2.5;  // a ray through a wall
+constexpr double kLevel = 0.35;   // a return over the opening in the plane of the tops: a lid
+
 struct Crossing {
   double in = -1e9, out = 1e9;
   int in_axis = -1, in_side = 0, out_axis = -1, out_side = 0;
@@ -111,17 +116,17 @@ BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays) {
       case Meeting::before: ++e.before; break;
       case Meeting::outer_face: ++e.outer_face, e.score += fit(m.off, kRangeGate); break;
       case Meeting::wall_top: ++e.wall_top, e.score += 0.7 * fit(m.off, 0.15); break;
-      case Meeting::inside: ++e.inside, e.score += 0.25; break;
-      case Meeting::inner_face: ++e.inner_face, e.score += 0.25 + 0.75 * fit(m.off, kRangeGate); break;
+      case Meeting::inside: ++e.inside, e.score += kInside; break;
+      case Meeting::inner_face: ++e.inner_face, e.score += kInside + (1.0 - kInside) * fit(m.off, kRangeGate); break;
       case Meeting::over: ++e.over; break;
       case Meeting::through_face:
-      case Meeting::through_inner: ++e.through, e.score -= 1.0; break;
-      case Meeting::through_top: ++e.through, e.score -= 0.5; break;
+      case Meeting::through_inner: ++e.through, e.score -= kThrough; break;
+      case Meeting::through_top: ++e.through, e.score -= 0.5 * kThrough; break;
     }
     if (m.what == Meeting::none || m.what == Meeting::outer_face) continue;
     const Eigen::Vector3d& p = m.end;
     if (std::abs(p.x()) > pose.length / 2 - 0.3 || std::abs(p.y()) > pose.width / 2 - 0.3) continue;
-    e.level_inside += std::abs(p.z()) < 0.06 ? 1 : 0;
+    if (std::abs(p.z()) < 0.05) ++e.level_inside, e.score -= kLevel;
     e.below_inside += p.z() < -0.05 ? 1 : 0;
     e.above_inside += p.z() > 0.05 ? 1 : 0;
   }

@@ -24,8 +24,8 @@ struct Ray {
   Eigen::Vector3d head, at;  // from the sensor to the return
 };
 
-constexpr double kWallSeen = 0.95;  // m below the top down to which every class has wall
-constexpr double kRangeGate = 0.12; // m, four standard deviations of a range
+constexpr double kWallSeen = 0.6;   // m below the top down to which every class has wall, a half pipe within the gate
+constexpr double kRangeGate = 0.12;  // m, four standard deviations of a range
 
 // Of the returns, what the model says of them.
 enum class Meeting {
@@ -53,7 +53,7 @@ RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray&
 struct BedEvidence {
   double score = 0.0;
   int outer_face = 0, inner_face = 0, wall_top = 0, inside = 0, through = 0, before = 0, over = 0;
-  int level_inside = 0;  // of the returns over the opening, within 6 cm of the plane of the tops, more than 0.3 m from the walls
+  int level_inside = 0;  // of the returns over the opening, within 5 cm of the plane of the tops, more than 0.3 m from the walls
   int below_inside = 0;  // more than 5 cm below that plane
   int above_inside = 0;
 };

@@ -37,7 +37,7 @@ std::vector<Ray> rays_round(const FanSweep& sweep, const Vector2d& middle, doubl
 
 void offer(std::vector<Candidate>& kept, const BedPose& pose, const std::vector<Ray>& rays) {
   const double score = weigh(pose, rays).score;
-  if (score <= 10.0) return;
+  if (score <= 0.0) return;
   kept.push_back({pose, score});
 }
 
@@ -125,39 +125,44 @@ std::vector<Ray> rays_near(const FanSweep& sweep, const BedPose& pose) {
   return rays_round(sweep, pose.middle.head<2>(), radius, pose.middle.z() - 1.1, pose.middle.z() + 0.6);
 }
 
-BedInterpretation interpret(const FanSweep& sweep, const std::vector<UprightRegion>& regions, const TruckRangeSet& ranges) {
-  std::vector<Candidate> kept;
+std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vector<UprightRegion>& regions, const TruckRangeSet& ranges) {
+  std::vector<Candidate> refined;
   std::size_t used = 0;
   for (const UprightRegion& region : regions) {
     if (used++ >= kRegionsMost) break;
     const std::vector<Ray> all = rays_round(sweep, 0.5 * (region.first + region.last), 5.0, region.high - 1.1, region.high + 0.6);
     std::vector<Ray> some;
     for (std::size_t i = 0; i < all.size(); i += 3) some.push_back(all[i]);
+    std::vector<Candidate> kept;
     interpret_region(region, ranges, some, kept);
-  }
-  std::sort(kept.begin(), kept.end(), [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
-  std::vector<Candidate> distinct;
-  for (const Candidate& c : kept) {
-    if (distinct.size() >= kRefinedMost) break;
-    if (std::none_of(distinct.begin(), distinct.end(), [&](const Candidate& d) { return alike(c.pose, d.pose); })) distinct.push_back(c);
-  }
-  BedInterpretation best;
-  for (Candidate& c : distinct) {
-    std::vector<Ray> rays = rays_near(sweep, c.pose);
-    refine(c, rays, ranges, 0.16, 3);
-    if (c.score > best.evidence.score) {
-      best.pose = c.pose;
-      best.evidence.score = c.score;
+    std::sort(kept.begin(), kept.end(), [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+    std::vector<Candidate> distinct;
+    for (const Candidate& c : kept) {
+      if (distinct.size() >= kRefinedMost) break;
+      if (std::none_of(distinct.begin(), distinct.end(), [&](const Candidate& d) { return alike(c.pose, d.pose); })) distinct.push_back(c);
+    }
+    for (Candidate& c : distinct) {
+      refine(c, some, ranges, 0.16, 3);
+      refined.push_back(c);
     }
   }
-  if (best.evidence.score <= 0.0) return best;
-  best.rays = rays_near(sweep, best.pose);
-  Candidate last{best.pose, 0.0};
-  refine(last, best.rays, ranges, 0.08, 4);
-  best.pose = last.pose;
-  best.rays = rays_near(sweep, best.pose);
-  best.evidence = weigh(best.pose, best.rays);
-  return best;
+  std::sort(refined.begin(), refined.end(), [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  std::vector<BedInterpretation> out;
+  for (const Candidate& c : refined) {
+    if (out.size() >= 2 * kInterpretations) break;
+    if (std::any_of(out.begin(), out.end(), [&](const BedInterpretation& o) { return alike(c.pose, o.pose); })) continue;
+    Candidate last = c;
+    BedInterpretation i;
+    i.rays = rays_near(sweep, c.pose);
+    refine(last, i.rays, ranges, 0.1, 4);
+    i.pose = last.pose;
+    i.rays = rays_near(sweep, i.pose);
+    i.evidence = weigh(i.pose, i.rays);
+    out.push_back(std::move(i));
+  }
+  std::sort(out.begin(), out.end(), [](const BedInterpretation& a, const BedInterpretation& b) { return a.evidence.score > b.evidence.score; });
+  if (out.size() > kInterpretations) out.resize(kInterpretations);
+  return out;
 }
 
 }  // namespace berm::app

@@ -16,8 +16,9 @@ struct BedInterpretation {
   std::vector<Ray> rays;  // that come near the bed
 };
 
-// The best interpretation by its evidence; score 0 when there is none.
-BedInterpretation interpret(const FanSweep& sweep, const std::vector<UprightRegion>& regions, const TruckRangeSet& ranges);
+// The best interpretations by their evidence, at most kInterpretations, the best first.
+constexpr std::size_t kInterpretations = 4;
+std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vector<UprightRegion>& regions, const TruckRangeSet& ranges);
 
 // Rays of the sweep that come to within 0.6 m of the bed's walls or opening.
 std::vector<Ray> rays_near(const FanSweep& sweep, const BedPose& pose);

@@ -10,14 +10,18 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Returns where a cab would be beyond either end: the cab's end is the front.
-int cab_returns(const FanSweep& sweep, const BedPose& pose, int side) {
+// For a cab beyond an end of the bed: rays that end where every cab has its lower half, less those that pass through there.
+int cab_evidence(const FanSweep& sweep, const BedPose& pose, int side) {
   const Eigen::Matrix3d rotation = pose.rotation();
+  const double begin = pose.length / 2 + pose.thickness + 0.5;
+  const Eigen::Array3d low(side > 0 ? begin : -begin - 0.8, -1.0, -1.9), high(side > 0 ? begin + 0.8 : -begin, 1.0, -1.0);
   int count = 0;
   for (const FanReturn& r : sweep.returns) {
-    const Eigen::Vector3d p = rotation.transpose() * (r.at - pose.middle);
-    const double beyond = side * p.x() - pose.length / 2 - pose.thickness;
-    count += beyond > 0.08 && beyond < 1.9 && std::abs(p.y()) < pose.width / 2 + 0.1 && p.z() > -1.2 && p.z() < 1.0 ? 1 : 0;
+    const Eigen::Vector3d a = rotation.transpose() * (sweep.heads[r.fan] - pose.middle), end = rotation.transpose() * (r.at - pose.middle);
+    const Eigen::Array3d d = end - a, first = (low - a.array()) / d, second = (high - a.array()) / d;
+    const double in = first.min(second).maxCoeff(), out = first.max(second).minCoeff(), range = (end - a).norm();
+    if (in >= out || in <= 0.0 || in * range > range + 0.5) continue;
+    count += out * range + 0.15 < range ? -1 : 1;
   }
   return count;
 }
@@ -38,7 +42,7 @@ double wall_height(const BedPose& pose, const std::vector<Ray>& rays, const Truc
   for (const Ray& ray : rays) {
     const Eigen::Vector3d a = rotation.transpose() * (ray.head - pose.middle), p = rotation.transpose() * (ray.at - pose.middle);
     const double face = pose.face(1, 1, true), side = a.y() > 0.0 ? 1.0 : -1.0;
-    if (std::abs(p.x()) < pose.length / 2 - 0.1 && std::abs(p.y()) < pose.width / 2 - 0.1 && p.z() < -0.3) inside.push_back(-p.z());
+    if (meet(pose, rotation, ray).what == Meeting::inside) inside.push_back(-p.z());
     if (std::abs(a.y()) < face) continue;
     const Eigen::Vector3d d = p - a;
     const double share = (side * face - a.y()) / d.y();
@@ -89,18 +93,29 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
   const std::vector<UprightRegion> regions = upright_regions(sweep, upright_segments(sweep));
   out.reason = "the sweep shows no upright wall";
   if (regions.empty()) return out;
-  BedInterpretation best = interpret(sweep, regions, ranges);
+  std::vector<BedInterpretation> interpretations = interpret(sweep, regions, ranges);
   out.reason = "no upright wall can be one of a bed";
-  if (best.evidence.score <= 0.0) return out;
-  FittedBed fit = fit_bed(best.pose, best.rays, 3);
-  best.rays = rays_near(sweep, fit.pose);
-  best.evidence = weigh(fit.pose, best.rays);
-  out.evidence = best.evidence;
-  out.pose = fit.pose;
-  out.reason = refusal(best, fit, ranges);
+  if (interpretations.empty()) return out;
+  // The one that survives verification with the most evidence; with none, why the first did not.
+  FittedBed fit;
+  BedInterpretation best;
+  for (BedInterpretation& i : interpretations) {
+    FittedBed own = fit_bed(i.pose, i.rays, 3);
+    i.rays = rays_near(sweep, own.pose);
+    i.evidence = weigh(own.pose, i.rays);
+    const std::string why = refusal(i, own, ranges);
+    if (why.empty() ? i.evidence.score > best.evidence.score : &i == &interpretations.front()) {
+      out.evidence = i.evidence;
+      out.pose = own.pose;
+      out.reason = why;
+    }
+    if (!why.empty() || i.evidence.score <= best.evidence.score) continue;
+    fit = own;
+    best = i;
+  }
   if (!out.reason.empty()) return out;
 
-  const bool reversed = fit.pose.open_end != 0 ? fit.pose.open_end == 1 : cab_returns(sweep, fit.pose, -1) > cab_returns(sweep, fit.pose, 1);
+  const bool reversed = fit.pose.open_end != 0 ? fit.pose.open_end == 1 : cab_evidence(sweep, fit.pose, -1) > cab_evidence(sweep, fit.pose, 1);
   if (reversed) {
     turn_round(fit.pose);
     const Eigen::Matrix<double, 8, 1> sign{1, 1, 1, 1, -1, -1, 1, 1};
