@@ -88,6 +88,7 @@ class Collector {
       case Meeting::over:
         if (m.entry.z() >= 0.0) over_wall(ray, m);
         break;
+      case Meeting::above_face:
       case Meeting::before:
       case Meeting::none: break;
     }

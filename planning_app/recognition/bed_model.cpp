@@ -9,6 +9,7 @@ namespace {
 // Weights of the evidence: a return on a face that is predicted weighs 1.
 constexpr double kInside = 0.08;  // a return somewhere inside
 constexpr double kThrough = 2.5;  // a ray through a wall
+constexpr double kAbove = 1.0;    // a return where a wall goes on above its top
 constexpr double kLevel = 0.35;   // a return over the opening in the plane of the tops: a lid
 
 struct Crossing {
@@ -66,6 +67,10 @@ RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray&
     else m.what = m.off <= kRangeGate ? Meeting::outer_face : Meeting::through_face;
     return m;
   }
+  if (m.entry.z() > 0.1 && std::abs(1.0 - outer.in) * range < kRangeGate) {
+    m.what = Meeting::above_face;
+    return m;
+  }
   if (outer.in * range > range + kRangeGate) {
     m.what = Meeting::before;
     return m;
@@ -115,6 +120,7 @@ BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays) {
       case Meeting::none: break;
       case Meeting::before: ++e.before; break;
       case Meeting::outer_face: ++e.outer_face, e.score += fit(m.off, kRangeGate); break;
+      case Meeting::above_face: ++e.above_face, e.score -= kAbove; break;
       case Meeting::wall_top: ++e.wall_top, e.score += 0.7 * fit(m.off, 0.15); break;
       case Meeting::inside: ++e.inside, e.score += kInside; break;
       case Meeting::inner_face: ++e.inner_face, e.score += kInside + (1.0 - kInside) * fit(m.off, kRangeGate); break;

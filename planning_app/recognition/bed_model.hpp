@@ -32,6 +32,7 @@ enum class Meeting {
   none,          // the ray does not come to the bed, or below the walls
   before,        // ends before the bed, or above the plane of the tops: hidden, or heap
   outer_face,    // as predicted
+  above_face,    // in the plane of an outer face, but above the walls' tops
   wall_top,      // as predicted
   inside,        // between the tops' plane and the far wall's inner face
   inner_face,    // as predicted
@@ -52,7 +53,7 @@ RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray&
 
 struct BedEvidence {
   double score = 0.0;
-  int outer_face = 0, inner_face = 0, wall_top = 0, inside = 0, through = 0, before = 0, over = 0;
+  int outer_face = 0, inner_face = 0, wall_top = 0, inside = 0, through = 0, before = 0, over = 0, above_face = 0;
   int level_inside = 0;  // of the returns over the opening, within 5 cm of the plane of the tops, more than 0.3 m from the walls
   int below_inside = 0;  // more than 5 cm below that plane
   int above_inside = 0;

@@ -78,7 +78,7 @@ void interpret_region(const UprightRegion& region, const TruckRangeSet& ranges, 
 // Moves each wall, the height and the angles while the evidence grows.
 void refine(Candidate& c, const std::vector<Ray>& rays, const TruckRangeSet& ranges, double first_step, int halvings) {
   const SizeRange lengths = ranges.hull(&TruckRanges::inside_length), widths = ranges.hull(&TruckRanges::inside_width);
-  const double slack = 0.7;
+  constexpr double length_slack = 0.7, width_slack = 0.45;  // enough to tell a bed of another size
   c.score = weigh(c.pose, rays).score;
   double step = first_step;
   for (int halving = 0; halving < halvings; ++halving, step /= 2) {
@@ -99,7 +99,8 @@ void refine(Candidate& c, const std::vector<Ray>& rays, const TruckRangeSet& ran
             case 6: p.pitch += move / 2.5; break;
             default: p.roll += move / 1.2; break;
           }
-          if (p.length < lengths[0] - slack || p.length > lengths[1] + slack || p.width < widths[0] - slack || p.width > widths[1] + slack) continue;
+          if (p.length < lengths[0] - length_slack || p.length > lengths[1] + length_slack || p.width < widths[0] - width_slack ||
+              p.width > widths[1] + width_slack) continue;
           if (std::max(std::abs(p.pitch), std::abs(p.roll)) > 0.09) continue;
           const double score = weigh(p, rays).score;
           if (score <= c.score + 1e-9) continue;
@@ -111,6 +112,27 @@ void refine(Candidate& c, const std::vector<Ray>& rays, const TruckRangeSet& ran
       if (!better) break;
     }
   }
+}
+
+// Tries ends elsewhere: a cab in line with the bed, or a hidden end, is a maximum of its own.
+void shift_ends(Candidate& c, const std::vector<Ray>& rays, const TruckRangeSet& ranges) {
+  const SizeRange lengths = ranges.hull(&TruckRanges::inside_length);
+  const BedPose start = c.pose;
+  const Vector2d u(std::cos(start.yaw), std::sin(start.yaw));
+  for (int open_end = -1; open_end <= 1; ++open_end)
+    for (double front = -2.1; front < 2.2; front += 0.15)
+      for (const double rear : {0.0, front}) {  // one end, or the bed as a whole
+        for (const bool at_rear : {false, true}) {
+          if (at_rear && rear != 0.0) continue;
+          BedPose p = start;
+          p.open_end = open_end;
+          p.length += rear != 0.0 ? 0.0 : front;
+          p.middle.head<2>() += (rear != 0.0 ? front : at_rear ? -0.5 * front : 0.5 * front) * u;
+          if (p.length < lengths[0] - 0.3 || p.length > lengths[1] + 0.6) continue;
+          const double score = weigh(p, rays).score;
+          if (score > c.score) c = {p, score};
+        }
+      }
 }
 
 bool alike(const BedPose& a, const BedPose& b) {
@@ -154,6 +176,9 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
     Candidate last = c;
     BedInterpretation i;
     i.rays = rays_near(sweep, c.pose);
+    refine(last, i.rays, ranges, 0.1, 2);
+    shift_ends(last, i.rays, ranges);
+    i.rays = rays_near(sweep, last.pose);
     refine(last, i.rays, ranges, 0.1, 4);
     i.pose = last.pose;
     i.rays = rays_near(sweep, i.pose);
