@@ -39,8 +39,8 @@ void report(const Trial& t, const TrialOptions& o) {
   }
   if (!o.list) return;
   const app::BedEvidence& e = t.evidence;
-  fmt::print("  evidence {:.1f}: outer faces {}, inner faces {}, tops {}, inside {}, through {}, before {}, over {}; over the opening {} level, {} below, {} "
-             "above; open end {}; {:.2f} x {:.2f}; the truth weighs {:.1f}\n",
+  fmt::print("  evidence {:.1f}: outer faces {}, inner faces {}, tops {}, inside {}, through {}, before {}, over {}; over the opening {} level, "
+             "{} below, {} above; open end {}; {:.2f} x {:.2f}; the truth weighs {:.1f}\n",
              e.score, e.outer_face, e.inner_face, e.wall_top, e.inside, e.through, e.before, e.over, e.level_inside, e.below_inside, e.above_inside,
              t.pose.open_end, t.pose.length, t.pose.width, t.true_score);
 }
@@ -61,7 +61,8 @@ int run(int argc, char** argv) {
   app.add_option("--points", o.scene.samples, "samples of a sweep")->check(CLI::Range(9200, 1000000))->capture_default_str();
   app.add_option("--noise", o.scene.noise.stddev, "standard deviation of a range, m")->check(CLI::Range(0.0, 0.5))->capture_default_str();
   app.add_option("--hidden", o.scene.hidden_max, "most of the edge that an occluder hides")->check(CLI::Range(0.0, 0.3))->capture_default_str();
-  app.add_option("--swinging", o.scene.swinging_share, "share of scenes in which the machine swings")->check(CLI::Range(0.0, 1.0))->capture_default_str();
+  app.add_option("--swinging", o.scene.swinging_share, "share of scenes in which the machine swings")
+      ->check(CLI::Range(0.0, 1.0))->capture_default_str();
   app.add_option("--classes", o.drawn, "file of truck classes that are drawn")->capture_default_str();
   app.add_option("--ranges", o.ranges, "file of truck classes that are recognised")->capture_default_str();
   if (const auto status = run::parse(app, argc, argv)) return *status;

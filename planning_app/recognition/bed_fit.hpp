@@ -20,9 +20,10 @@ struct FittedBed {
   bool converged = false;
 };
 
-// Two kinds of residuals. Returns on a face or on the walls' tops: their distance from that plane. Rays past an edge: each must pass on its side, by the
-// negative logarithm of a logistic function of the distance; so an edge is bracketed between the rays that pass it on either side, however far apart two
-// rays of one scanline are. What a ray passed is decided by the pose, which must be near already (0.2 m, 3 degrees), and decided again in every round.
+// Two kinds of residuals. Returns on a face or on the walls' tops: their distance from that plane. Rays past an edge: each must pass on its side, by
+// the negative logarithm of a logistic function of the distance; so an edge is bracketed between the rays that pass it on either side, however far
+// apart two rays of one scanline are. What a ray passed is decided by the pose, which must be near already (0.2 m, 3 degrees), and decided again in
+// every round.
 FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds);
 
 // Of the opening on the inner top edge: (+u, +v), (-u, +v), (-u, -v), (+u, -v).

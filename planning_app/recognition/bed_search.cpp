@@ -10,6 +10,7 @@ using Eigen::Vector2d;
 
 constexpr std::size_t kRegionsMost = 8;
 constexpr std::size_t kRefinedMost = 6;
+constexpr std::size_t kCoarseRays = 700;  // that first decide between interpretations
 constexpr double kLengthStep = 0.2;  // m
 constexpr double kExtentSlack = 0.45;
 
@@ -36,9 +37,7 @@ std::vector<Ray> rays_round(const FanSweep& sweep, const Vector2d& middle, doubl
 }
 
 void offer(std::vector<Candidate>& kept, const BedPose& pose, const std::vector<Ray>& rays) {
-  const double score = weigh(pose, rays).score;
-  if (score <= 0.0) return;
-  kept.push_back({pose, score});
+  kept.push_back({pose, weigh(pose, rays).score});
 }
 
 // All beds of which the region may be a face: outer or inner face of a side or of an end.
@@ -142,9 +141,9 @@ bool alike(const BedPose& a, const BedPose& b) {
 
 }  // namespace
 
-std::vector<Ray> rays_near(const FanSweep& sweep, const BedPose& pose) {
+std::vector<Ray> rays_near(const FanSweep& sweep, const BedPose& pose, double below) {
   const double radius = std::hypot(pose.length / 2, pose.width / 2) + pose.thickness + 0.6;
-  return rays_round(sweep, pose.middle.head<2>(), radius, pose.middle.z() - 1.1, pose.middle.z() + 0.6);
+  return rays_round(sweep, pose.middle.head<2>(), radius, pose.middle.z() - below, pose.middle.z() + 0.6);
 }
 
 std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vector<UprightRegion>& regions, const TruckRangeSet& ranges) {
@@ -154,7 +153,8 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
     if (used++ >= kRegionsMost) break;
     const std::vector<Ray> all = rays_round(sweep, 0.5 * (region.first + region.last), 5.0, region.high - 1.1, region.high + 0.6);
     std::vector<Ray> some;
-    for (std::size_t i = 0; i < all.size(); i += 3) some.push_back(all[i]);
+    const std::size_t stride = std::max<std::size_t>(2, all.size() / kCoarseRays);
+    for (std::size_t i = 0; i < all.size(); i += stride) some.push_back(all[i]);
     std::vector<Candidate> kept;
     interpret_region(region, ranges, some, kept);
     std::sort(kept.begin(), kept.end(), [](const Candidate& a, const Candidate& b) { return a.score > b.score; });

@@ -20,7 +20,7 @@ struct BedInterpretation {
 constexpr std::size_t kInterpretations = 4;
 std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vector<UprightRegion>& regions, const TruckRangeSet& ranges);
 
-// Rays of the sweep that come to within 0.6 m of the bed's walls or opening.
-std::vector<Ray> rays_near(const FanSweep& sweep, const BedPose& pose);
+// Rays of the sweep that come to within 0.6 m of the bed's walls or opening, down to so many metres below the walls' tops.
+std::vector<Ray> rays_near(const FanSweep& sweep, const BedPose& pose, double below = 1.1);
 
 }  // namespace berm::app

@@ -92,7 +92,8 @@ FanSweep make_fans(const std::vector<ScanPoint>& points, const std::array<double
     rate += step.y();
     if (step.norm() < 1e-9) break;
   }
-  if (!(std::sqrt(error) < kOffPlane)) return {{}, {}, {}, 0.0, "the scanlines are no upright fans through the viewpoint, standing or swinging about z"};
+  if (!(std::sqrt(error) < kOffPlane))
+    return {{}, {}, {}, 0.0, "the scanlines are no upright fans through the viewpoint, standing or swinging"};
   for (std::size_t k = 0; k < planes.size(); ++k) sweep.heads[k].head<2>() = turned(head.head<2>(), angle + rate * (planes[k].time - middle));
   sweep.swing_rate = rate;
   return sweep;

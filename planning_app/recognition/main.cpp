@@ -71,8 +71,8 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   berm::app::Options options;
   CLI::App app{
-      "Finds a truck in one sweep of a panning scanner: the four corners of its opening with their covariance, or why there is none. FILE is a PCD with "
-      "scanline and time; its VIEWPOINT is the sensor's place in the middle of the sweep. Exit status 0: found; 1: no truck; 2: bad input.",
+      "Finds a truck in one sweep of a panning scanner: the four corners of its opening with their covariance, or why there is none. FILE is a PCD "
+      "with scanline and time; its VIEWPOINT is the sensor's place in the middle of the sweep. Exit status 0: found; 1: no truck; 2: bad input.",
       "berm recognize"};
   app.add_option("FILE", options.file, "the sweep (PCD)")->required();
   app.add_option("--json", options.json,

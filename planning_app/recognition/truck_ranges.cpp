@@ -14,7 +14,6 @@ TruckRanges read_class(config::StrictTable& table) {
   c.inside_width = table.interval("inside_width", 1.8, 3.5, 0.0);
   c.wall_height = table.interval("wall_height", 0.6, 2.5, 0.0);
   c.wall_thickness = table.interval("wall_thickness", 0.03, 0.3, 0.0);
-  c.wall_top = table.interval("wall_top", 1.5, 4.0, 0.0);
   c.open_rear = table.flag("open_rear");
   table.finish();
   return c;

@@ -12,7 +12,6 @@ using SizeRange = std::array<double, 2>;  // low, high; metres
 struct TruckRanges {
   std::string name;
   SizeRange inside_length{}, inside_width{}, wall_height{}, wall_thickness{};
-  SizeRange wall_top{};    // over the ground
   bool open_rear = false;  // the tailgate may be missing or hang down
 };
 

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 namespace berm::app {
 namespace {
 
+constexpr double kScoreLeast = 62.0;  // evidence of a bed
 constexpr double kPi = 3.14159265358979323846;
 
 // For a cab beyond an end of the bed: rays that end where every cab has its lower half, less those that pass through there.
@@ -33,31 +35,47 @@ void turn_round(BedPose& pose) {
   pose.open_end = -pose.open_end;
 }
 
-// The depth at which hits on the outer faces give way to rays that pass below the walls, by the fewest contradictions; at least the deepest return
-// inside.
+// Where rays cross the outer face of a wall that faces the sensor: how deep below its top those that end there are, and those that pass.
+struct FaceDepths {
+  std::vector<double> hits, passes;
+};
+
+FaceDepths face_depths(const BedPose& pose, const std::vector<Ray>& rays, int axis) {
+  FaceDepths out;
+  const Eigen::Matrix3d rotation = pose.rotation();
+  for (const Ray& ray : rays) {
+    const Eigen::Vector3d a = rotation.transpose() * (ray.head - pose.middle), d = rotation.transpose() * (ray.at - ray.head);
+    const int side = a[axis] > 0.0 ? 1 : -1;
+    const double face = pose.face(axis, side, true);
+    if (std::abs(a[axis]) < face || (axis == 0 && side == pose.open_end)) continue;
+    const double share = (side * face - a[axis]) / d[axis];
+    const Eigen::Vector3d at = a + share * d;
+    if (share < 0.0 || std::abs(at[1 - axis]) > pose.face(1 - axis, 1, false) || at.z() > -0.5) continue;
+    const double off = (1.0 - share) * d.norm();
+    if (std::abs(off) < 0.1) out.hits.push_back(-at.z());
+    else if (off > 0.0) out.passes.push_back(-at.z());
+  }
+  return out;
+}
+
+// The depth at which hits on an outer face give way to rays that pass below the wall, by the fewest contradictions; at least that of the load's or
+// floor's deeper returns. An end wall reaches down to the floor in every class, the side of a half pipe does not.
 double wall_height(const BedPose& pose, const std::vector<Ray>& rays, const TruckRangeSet& ranges) {
   const SizeRange heights = ranges.hull(&TruckRanges::wall_height);
-  const Eigen::Matrix3d rotation = pose.rotation();
-  std::vector<double> hits, misses, inside;
-  for (const Ray& ray : rays) {
-    const Eigen::Vector3d a = rotation.transpose() * (ray.head - pose.middle), p = rotation.transpose() * (ray.at - pose.middle);
-    const double face = pose.face(1, 1, true), side = a.y() > 0.0 ? 1.0 : -1.0;
-    if (meet(pose, rotation, ray).what == Meeting::inside) inside.push_back(-p.z());
-    if (std::abs(a.y()) < face) continue;
-    const Eigen::Vector3d d = p - a;
-    const double share = (side * face - a.y()) / d.y();
-    const Eigen::Vector3d at = a + share * d;
-    if (share < 0.0 || std::abs(at.x()) > pose.length / 2 || at.z() > -0.5) continue;
-    const double off = (1.0 - share) * d.norm();
-    if (std::abs(off) < 0.1) hits.push_back(-at.z());
-    else if (off > 0.0) misses.push_back(-at.z());
-  }
+  FaceDepths depths = face_depths(pose, rays, 0);
+  if (depths.hits.size() < 12 || depths.passes.size() < 6) depths = face_depths(pose, rays, 1);
   double best = 0.5 * (heights[0] + heights[1]);
   long least = 1L << 30;
   for (double h = heights[0]; h <= heights[1]; h += 0.02) {
-    const auto below = [h](double x) { return x > h; };
-    const long wrong = std::count_if(hits.begin(), hits.end(), below) + std::count_if(misses.begin(), misses.end(), [h](double x) { return x < h; });
+    const long wrong = std::count_if(depths.hits.begin(), depths.hits.end(), [h](double x) { return x > h; }) +
+                       std::count_if(depths.passes.begin(), depths.passes.end(), [h](double x) { return x < h; });
     if (wrong < least) least = wrong, best = h;
+  }
+  std::vector<double> inside;
+  const Eigen::Matrix3d rotation = pose.rotation();
+  for (const Ray& ray : rays) {
+    const RayMeeting m = meet(pose, rotation, ray);
+    if (m.what == Meeting::inside) inside.push_back(-m.end.z());
   }
   if (inside.size() >= 10) {
     const auto deep = inside.begin() + static_cast<std::ptrdiff_t>(inside.size() * 9 / 10);
@@ -67,19 +85,38 @@ double wall_height(const BedPose& pose, const std::vector<Ray>& rays, const Truc
   return best;
 }
 
+// Of the returns within 1.5 m outside the walls, the share that lies as low as the ground beside a truck.
+double share_low_beside(const FanSweep& sweep, const BedPose& pose) {
+  const Eigen::Matrix3d rotation = pose.rotation();
+  int low = 0, all = 0;
+  for (const FanReturn& r : sweep.returns) {
+    const Eigen::Vector3d p = rotation.transpose() * (r.at - pose.middle);
+    const double beyond = std::max(std::abs(p.x()) - pose.length / 2, std::abs(p.y()) - pose.width / 2) - pose.thickness;
+    if (beyond < 0.2 || beyond > 1.5) continue;
+    ++all;
+    low += p.z() < -1.5 ? 1 : 0;
+  }
+  return all == 0 ? 1.0 : static_cast<double>(low) / all;
+}
+
 // Why the bed is none; empty when it is one.
-std::string refusal(const BedInterpretation& i, const FittedBed& fit, const TruckRangeSet& ranges) {
+std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const FittedBed& fit, const TruckRangeSet& ranges) {
   const BedEvidence& e = i.evidence;
   const BedPose& p = fit.pose;
-  if (e.score < 40.0) return fmt::format("what is most like a bed is too little like one: its evidence weighs {:.0f} of the 40 needed", e.score);
+  if (e.score < kScoreLeast)
+    return fmt::format("what is most like a bed is too little like one: its evidence weighs {:.0f} of the {:.0f} needed", e.score, kScoreLeast);
   if (!fit.converged) return "the fit of the bed did not converge";
-  if (e.outer_face < 12) return fmt::format("the bed has {} returns on outer faces of its walls, and needs 12", e.outer_face);
+  // From behind an open rear the walls show their inner faces alone.
+  if (e.outer_face < 12 && (p.open_end == 0 || e.inner_face < 150))
+    return fmt::format("the bed has {} returns on outer faces of its walls, and needs 12", e.outer_face);
   const int explained = e.outer_face + e.inner_face + e.wall_top + e.inside;
   if (e.through > 0.15 * explained) return fmt::format("{} rays pass through its walls, {} agree with them", e.through, explained);
   const int over_opening = e.level_inside + e.below_inside + e.above_inside;
   if (e.level_inside > 0.75 * over_opening && over_opening >= 10)
     return fmt::format("it is closed on top: {} of {} returns over its opening lie in the plane of the walls' tops", e.level_inside, over_opening);
   if (e.inside + e.inner_face < 10 && e.above_inside < 10) return "nothing was seen of the inside of the bed";
+  const double low = share_low_beside(sweep, p);
+  if (low < 0.15) return fmt::format("the ground beside it lies too high: {:.0f} % of the returns there are 1.5 m below the walls' tops", 100 * low);
   if (ranges.find(p.length, p.width, p.open_end != 0) == nullptr)
     return fmt::format("its opening of {:.2f} by {:.2f} m is outside every class of trucks", p.length, p.width);
   return {};
@@ -103,7 +140,7 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
     FittedBed own = fit_bed(i.pose, i.rays, 3);
     i.rays = rays_near(sweep, own.pose);
     i.evidence = weigh(own.pose, i.rays);
-    const std::string why = refusal(i, own, ranges);
+    const std::string why = refusal(sweep, i, own, ranges);
     if (why.empty() ? i.evidence.score > best.evidence.score : &i == &interpretations.front()) {
       out.evidence = i.evidence;
       out.pose = own.pose;
@@ -128,7 +165,7 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
   out.yaw = fit.pose.yaw;
   out.length = fit.pose.length;
   out.width = fit.pose.width;
-  out.height = wall_height(fit.pose, best.rays, ranges);
+  out.height = wall_height(fit.pose, rays_near(sweep, fit.pose, 2.5), ranges);
   out.open_rear = fit.pose.open_end != 0;
   out.pose_covariance = fit.covariance;
   out.covariance = corner_covariance(fit);
