@@ -109,12 +109,13 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
   // From behind an open rear the walls show their inner faces alone.
   if (e.outer_face < 12 && (p.open_end == 0 || e.inner_face < 150))
     return fmt::format("the bed has {} returns on outer faces of its walls, and needs 12", e.outer_face);
+  // A closed box, a lorry's board or a trench box matches as well from outside: the far walls' inside tells a bed.
+  if (e.inner_face < 8) return fmt::format("the bed has {} returns on inner faces of its far walls, and needs 8", e.inner_face);
   const int explained = e.outer_face + e.inner_face + e.wall_top + e.inside;
   if (e.through > 0.15 * explained) return fmt::format("{} rays pass through its walls, {} agree with them", e.through, explained);
   const int over_opening = e.level_inside + e.below_inside + e.above_inside;
   if (e.level_inside > 0.75 * over_opening && over_opening >= 10)
     return fmt::format("it is closed on top: {} of {} returns over its opening lie in the plane of the walls' tops", e.level_inside, over_opening);
-  if (e.inside + e.inner_face < 10 && e.above_inside < 10) return "nothing was seen of the inside of the bed";
   const double low = share_low_beside(sweep, p);
   if (low < 0.15) return fmt::format("the ground beside it lies too high: {:.0f} % of the returns there are 1.5 m below the walls' tops", 100 * low);
   if (ranges.find(p.length, p.width, p.open_end != 0) == nullptr)
