@@ -9,7 +9,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::size_t kRegionsMost = 8;
-constexpr std::size_t kRefinedMost = 6;
+constexpr std::size_t kRefinedMost = 3;
 constexpr std::size_t kCoarseRays = 700;  // that first decide between interpretations
 constexpr double kLengthStep = 0.2;  // m
 constexpr double kExtentSlack = 0.45;
