@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "config/whole_file.hpp"
 #include "identify/bench_run.hpp"
 #include "identify/bounds.hpp"
 #include "identify/braking_picture.hpp"
@@ -14,7 +15,6 @@
 #include "run/kernel_session.hpp"
 #include "run/parameter_file.hpp"
 #include "run/scenario_names.hpp"
-#include "run/svg.hpp"
 
 namespace berm::identify {
 
@@ -79,7 +79,7 @@ std::vector<BenchRecord> run_all(const Options& options, Result& result, const c
 void check_readable(const std::string& text) {
   const run::RunFolder folder;
   const std::string path = folder.file("measured.toml");
-  run::write_text_file(path, text);
+  config::write_whole_file(path, text);
   config::load_machine_file(path);
 }
 
@@ -108,9 +108,9 @@ void identify(const Options& options) {
   result.scenario_empty = fs::path(result.scenario_empty).stem().string();
   const std::string text = machine_text(result, machine);
   check_readable(text);
-  if (!options.json.empty()) run::write_text_file(options.json, json_text(result, machine));
+  if (!options.json.empty()) config::write_whole_file(options.json, json_text(result, machine));
   if (!options.picture.empty()) write_braking_picture(options.picture, result, machine, runs);
-  run::write_text_file(out, text);
+  config::write_whole_file(out, text);
   fmt::print("{}machine file: {}\n", summary_text(result, machine), out);
   if (!options.picture.empty()) fmt::print("picture: {}\n", options.picture);
 }

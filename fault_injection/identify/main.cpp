@@ -6,7 +6,7 @@
 #include <map>
 
 #include "identify/identification.hpp"
-#include "run/command_line.hpp"
+#include "config/command_line.hpp"
 #include "run/parameter_file.hpp"
 
 int main(int argc, char** argv) {
@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
   app.add_option("--plant-out", options.plant_out,
                  "folder in which the simulated machine leaves what was true (trace.csv, truth.json), for others to judge by; not read here");
   app.add_flag("--quiet", options.quiet, "no progress, only the table");
-  if (const auto status = berm::run::parse(app, argc, argv)) return *status;
+  if (const auto status = berm::config::parse_options(app, argc, argv)) return *status;
   for (const auto& name : joint_names) options.joints.push_back(joints.at(name));
   for (auto* list : {&options.joints, &options.columns}) {
     std::sort(list->begin(), list->end());

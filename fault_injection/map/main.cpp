@@ -12,9 +12,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "config/command_line.hpp"
+#include "config/whole_file.hpp"
 #include "contract/berm_contract.h"
 #include "map/pcap_capture.hpp"
-#include "run/command_line.hpp"
 #include "run/contract_text.hpp"
 #include "run/kernel_session.hpp"
 #include "run/map_picture.hpp"
@@ -118,7 +119,7 @@ int run(const Options& options) {
   const auto cells = cells_of(map);
   if (!options.json.empty()) {
     const nlohmann::json result{{"file", options.file}, {"packets", packets}, {"rejected", rejected}, {"points", points}, {"cell_m", map.cell_m}, {"cells", cells}};
-    write_text_file(options.json, result.dump(1) + "\n");
+    config::write_whole_file(options.json, result.dump(1) + "\n");
   }
   draw(options.picture, options.file, map);
   fmt::print("{} packets into the kernel, {} rejected, {} points, {} cells of {:.1f} m observed\npicture: {}\n", packets, rejected, points, cells.size(), map.cell_m,
@@ -141,7 +142,7 @@ int main(int argc, char** argv) {
   app.add_option("--speed", options.speed, "times the recorded rhythm")->capture_default_str()->check(CLI::Range(0.01, 100.0));
   app.add_option("--machine", options.machine, "machine profile: a name or a TOML file")->capture_default_str();
   app.add_option("--site", options.site, "site: a name or a TOML file")->capture_default_str();
-  if (const auto status = berm::run::parse(app, argc, argv)) return *status;
+  if (const auto status = berm::config::parse_options(app, argc, argv)) return *status;
   try {
     return berm::run::run(options);
   } catch (const berm::run::ToldAlready&) {

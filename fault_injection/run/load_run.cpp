@@ -15,6 +15,7 @@
 #include <system_error>
 #include <thread>
 
+#include "config/whole_file.hpp"
 #include "run/child_process.hpp"
 #include "run/contract_text.hpp"
 #include "run/kernel_session.hpp"
@@ -315,7 +316,7 @@ class LoadRun {
     describe_site(machine_, site_, picture);
     picture.movers = mover_paths(out_ + "/trace.csv");
     write_site_picture(out_ + "/site.svg", picture);
-    write_text_file(out_ + "/result.json", flat_json(result_).dump(2) + "\n");
+    config::write_whole_file(out_ + "/result.json", flat_json(result_).dump(2) + "\n");
     result_.notes.push_back(fmt::format("trace.csv, truth.json, journal.mcap, site.svg and result.json are in {}", out_));
   }
 

@@ -3,9 +3,9 @@
 
 #include <exception>
 
+#include "config/whole_file.hpp"
 #include "run/load_run.hpp"
 #include "run/parameter_file.hpp"
-#include "run/svg.hpp"
 
 int main(int argc, char** argv) {
   berm::run::RunOptions options;
@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   try {
     const auto result = berm::run::load_trucks(options);
     fmt::print("{}", berm::run::summary_text(result));
-    if (!options.json.empty()) berm::run::write_text_file(options.json, berm::run::flat_json(result).dump(2) + "\n");
+    if (!options.json.empty()) berm::config::write_whole_file(options.json, berm::run::flat_json(result).dump(2) + "\n");
     const auto reasons = berm::run::shortcomings(result);
     for (const auto& reason : reasons) fmt::print(stderr, "berm load: {}\n", reason);
     return reasons.empty() ? 0 : 1;

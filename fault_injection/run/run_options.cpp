@@ -1,6 +1,6 @@
 #include "run/run_options.hpp"
 
-#include "run/command_line.hpp"
+#include "config/command_line.hpp"
 
 namespace berm::run {
 
@@ -37,7 +37,7 @@ std::optional<int> read_options(int argc, char** argv, RunOptions& options) {
   app.add_option("--out", options.out, "folder for trace.csv, truth.json, journal.mcap, site.svg and result.json");
   app.add_option("--fault", fault, "a process fault in the run: kill-app@S, stop-app@S, kill-kernel@S or kill-journal@S, S in simulated seconds; then status 0 means that the machine stood still in time, untouched (kill-journal: that nothing came of it)");
   app.add_flag("--quiet", options.quiet, "no progress, only the summary");
-  if (const auto status = parse(app, argc, argv)) return status;
+  if (const auto status = config::parse_options(app, argc, argv)) return status;
   if (!fault.empty()) {
     try {
       options.fault = parse_fault(fault);

@@ -1,15 +1,12 @@
 #include "run/svg.hpp"
 
 #include <fmt/format.h>
-#include <string.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <stdexcept>
+
+#include "config/whole_file.hpp"
 
 namespace berm::run {
 
@@ -78,18 +75,6 @@ std::string SvgPanel::body() const {
                      id, left_, top_, pixel_width(), pixel_height(), body_, frame_);
 }
 
-void write_text_file(const std::string& path, const std::string& text) {
-  const std::string temporary = fmt::format("{}.tmp{}", path, getpid());
-  std::FILE* file = std::fopen(temporary.c_str(), "we");
-  bool good = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  if (file != nullptr) good = (std::fclose(file) == 0) && good;
-  if (!good || std::rename(temporary.c_str(), path.c_str()) != 0) {
-    const int error = errno;
-    std::remove(temporary.c_str());
-    throw std::runtime_error(fmt::format("{}: cannot write: {}", path, strerror(error)));
-  }
-}
-
 void write_svg(const std::string& path, double width, double height, const std::vector<const SvgPanel*>& panels, const std::string& extra) {
   std::string text = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\">\n"
@@ -98,7 +83,7 @@ void write_svg(const std::string& path, double width, double height, const std::
   for (const auto* panel : panels) text += panel->body();
   text += extra;
   text += "</svg>\n";
-  write_text_file(path, text);
+  config::write_whole_file(path, text);
 }
 
 std::string height_colour(double height_m, double low_m, double high_m) {

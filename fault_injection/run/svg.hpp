@@ -33,10 +33,8 @@ class SvgPanel {
   std::string body_, frame_;
 };
 
-// Writes the panels into one file, whole or not at all (a temporary name, then a rename). Throws std::runtime_error naming the path.
+// Writes the panels into one file, whole or not at all. Throws std::runtime_error naming the path.
 void write_svg(const std::string& path, double width, double height, const std::vector<const SvgPanel*>& panels, const std::string& extra = {});
-// The same for any text file.
-void write_text_file(const std::string& path, const std::string& text);
 
 // Colour of a height between low and high (metres): dark green, ochre, white; "#rrggbb".
 std::string height_colour(double height_m, double low_m, double high_m);

@@ -1,6 +1,6 @@
 #include "truck_world/options.hpp"
 
-#include "run/command_line.hpp"
+#include "config/command_line.hpp"
 
 namespace berm::truck_world {
 
@@ -32,7 +32,7 @@ std::optional<int> read_options(int argc, char** argv, const std::string& classe
       ->check(CLI::Range(0.0, 1.0))->capture_default_str();
   app.add_option("--classes", o.classes, "file of truck classes")->capture_default_str();
   app.add_flag("--picture", o.picture, "also DIR/scene_000000.svg, from above and from the side, with the truth over the points");
-  if (const auto status = run::parse(app, argc, argv)) return status;
+  if (const auto status = config::parse_options(app, argc, argv)) return status;
   o.scene.content = all ? Content::truck : none ? Content::no_truck : Content::either;
   if (o.only >= o.scenes) {
     fmt::print(stderr, "berm truck_world: --only: {} is not below --scenes {} (see --help)\n", o.only, o.scenes);

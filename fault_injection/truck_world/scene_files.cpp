@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "config/whole_file.hpp"
 #include "points/pcd.hpp"
 #include "run/svg.hpp"
 #include "truck_world/scene_picture.hpp"
@@ -37,11 +38,11 @@ void write_scene(const std::string& folder, const Scene& scene, bool picture) {
     ++begun;
     app::write_pcd(files[0], scene.cloud, {eye.x(), eye.y(), eye.z()});
     ++begun;
-    run::write_text_file(files[1], label_lines(scene.point_truth));
+    config::write_whole_file(files[1], label_lines(scene.point_truth));
     ++begun;
     if (picture) write_picture(files[2], scene);
     ++begun;
-    run::write_text_file(files[3], json_of(scene.truth).dump(1) + "\n");
+    config::write_whole_file(files[3], json_of(scene.truth).dump(1) + "\n");
   } catch (...) {
     // The last one begun never came to be; a file of an earlier run under its name stays.
     for (std::size_t i = 0; i + 1 < begun; ++i) std::remove(files[i].c_str());

@@ -6,7 +6,6 @@
 namespace berm::truck_world {
 namespace {
 
-
 double wrapped(double angle) { return std::remainder(angle, 2 * pi); }
 
 Vector3d turned(const Vector3d& v, double yaw) {

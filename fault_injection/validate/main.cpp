@@ -3,16 +3,16 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 
+#include "config/command_line.hpp"
 #include "config/compile_parameters.hpp"
 #include "config/strict_table.hpp"
+#include "config/whole_file.hpp"
 #include "in_process/workers.hpp"
 #include "run/parameter_file.hpp"
-#include "run/svg.hpp"
 #include "validate/report.hpp"
 #include "validate/trial_run.hpp"
 
@@ -69,7 +69,8 @@ void tell_one(const TrialResult& r) {
 
 int run(int argc, char** argv) {
   Options options;
-  CLI::App app{"Thousands of swings past an obstacle of drawn size and place, judged by the oracle: misses, needless stops, time lost. Exit 0: no miss, and at most 0.5 % of needless stops."};
+  CLI::App app{"Thousands of swings past an obstacle of drawn size and place, judged by the oracle: misses, needless stops, time lost. Exit 0: no miss, and at most 0.5 % of needless stops.",
+               "berm validate"};
   app.add_option("--runs", options.runs, "number of runs")->check(CLI::Range(1, 10000000))->capture_default_str();
   app.add_option("--seed", options.seed, "seed of every draw")->capture_default_str();
   app.add_option("--only", options.only, "this one run, in detail")->check(CLI::Range(0, 10000000));
@@ -78,16 +79,7 @@ int run(int argc, char** argv) {
   app.add_option("--jobs", options.jobs, "threads (0: one a core)")->check(CLI::Range(0, 1024))->capture_default_str();
   app.add_option("--json", options.json, "result for scripts");
   app.add_option("--picture", options.picture, "SVG of the obstacles by outcome");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    std::string what = error.what();
-    std::replace(what.begin(), what.end(), '\n', ' ');
-    fmt::print(stderr, "berm validate: {} (see --help)\n", what);
-    return 2;
-  }
+  if (const auto status = config::parse_options(app, argc, argv)) return *status;
   if (!options.trace.empty() && options.only < 0) {
     fmt::print(stderr, "berm validate: --trace needs --only\n");
     return 2;
@@ -107,7 +99,7 @@ int run(int argc, char** argv) {
   run_all(bench, options, limits, sweep);
   const auto result = flat_json(sweep);
   fmt::print("{}", summary_text(sweep));
-  if (!options.json.empty()) run::write_text_file(options.json, result.dump(1) + "\n");
+  if (!options.json.empty()) config::write_whole_file(options.json, result.dump(1) + "\n");
   if (!options.picture.empty()) write_picture(options.picture, sweep);
   const bool held = result["misses"] == 0 && result["needless_stops"].get<double>() <= 0.005 * options.runs;
   return held ? 0 : 1;

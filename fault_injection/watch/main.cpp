@@ -5,9 +5,9 @@
 #include <chrono>
 #include <exception>
 
+#include "config/whole_file.hpp"
 #include "in_process/workers.hpp"
 #include "run/parameter_file.hpp"
-#include "run/svg.hpp"
 #include "watch/intrusion_report.hpp"
 #include "watch/options.hpp"
 #include "watch/quiet_hours.hpp"
@@ -41,21 +41,21 @@ int watch_intrusions(const Options& options) {
     fmt::print("{}", summary_text(campaign));
   }
   const auto result = flat_json(campaign);
-  if (!options.json.empty()) run::write_text_file(options.json, result.dump(1) + "\n");
+  if (!options.json.empty()) config::write_whole_file(options.json, result.dump(1) + "\n");
   return result["unsafe"] == 0 && result["undetected"] == 0 ? 0 : 1;
 }
 
 int watch_one_scenario(const Options& o) {
   const ScenarioResult result = watch_scenario({o.scenario, o.machine, o.out, o.picture, BERM_PLANT_PROFILES, o.seed, o.trucks, o.max_time_s});
   fmt::print("{}", summary_text(result));
-  if (!o.json.empty()) run::write_text_file(o.json, flat_json(result).dump(1) + "\n");
+  if (!o.json.empty()) config::write_whole_file(o.json, flat_json(result).dump(1) + "\n");
   return result.held() ? 0 : 1;
 }
 
 int watch_quietly(const Options& o) {
   const QuietResult result = watch_quiet_hours({o.quiet_hours, o.seed, o.machine, BERM_PLANT_PROFILES, o.jobs});
   fmt::print("{}", summary_text(result));
-  if (!o.json.empty()) run::write_text_file(o.json, flat_json(result).dump(1) + "\n");
+  if (!o.json.empty()) config::write_whole_file(o.json, flat_json(result).dump(1) + "\n");
   return result.false_alarms() == 0 && result.contacts() == 0 ? 0 : 1;
 }
 

@@ -1,6 +1,6 @@
 #include "watch/options.hpp"
 
-#include "run/command_line.hpp"
+#include "config/command_line.hpp"
 
 namespace berm::watch {
 
@@ -44,7 +44,7 @@ std::optional<int> read_options(int argc, char** argv, Options& o) {
   app.add_option("--picture", o.picture, "with --scenario: SVG of the monitor's maps at the first alarm, or at the end");
   app.add_option("--out", o.out, "with --scenario: folder for trace.csv, truth.json, journal.mcap, site.svg and result.json");
   app.add_option("--trace", o.trace, "with --only: CSV of the trial");
-  if (const auto status = run::parse(app, argc, argv)) return status;
+  if (const auto status = config::parse_options(app, argc, argv)) return status;
   const std::string wrong = refusal(o);
   if (wrong.empty()) return std::nullopt;
   fmt::print(stderr, "berm watch: {} (see --help)\n", wrong);

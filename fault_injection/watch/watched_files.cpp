@@ -9,9 +9,9 @@
 #include <stdexcept>
 
 #include "config/machine_file.hpp"
+#include "config/whole_file.hpp"
 #include "run/parameter_file.hpp"
 #include "run/scenario_names.hpp"
-#include "run/svg.hpp"
 
 namespace berm::watch {
 
@@ -85,14 +85,14 @@ WatchedFiles write_watched(const std::string& scenario, const std::string& machi
       throw std::runtime_error(path + ": " + error.what() + " on a line of its own");
     }
   };
-  run::write_text_file(files.machine, changed(machine_path, text_of(machine_path), "workspace", "watched", "true"));
+  config::write_whole_file(files.machine, changed(machine_path, text_of(machine_path), "workspace", "watched", "true"));
   if (!config::load_machine_file(files.machine).workspace.watched) throw std::runtime_error(machine_path + ": [workspace] watched: cannot be set");
   std::string text = text_of(scenario_path);
   const std::string plant = machine.empty() ? plant_of(text, scenario_path) : before.name + "_plant";
   text = changed(scenario_path, text, "", "machine", in_quotes(files.machine));
   text = changed(scenario_path, text, "", "plant", in_quotes(plant));
   if (max_time_s) text = changed(scenario_path, text, "run", "max_time_s", fmt::format("{:.2f}", *max_time_s));
-  run::write_text_file(files.scenario, text);
+  config::write_whole_file(files.scenario, text);
   return files;
 }
 

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 
+#include "config/command_line.hpp"
 #include "config/compile_parameters.hpp"
 
 int main(int argc, char** argv) {
@@ -13,16 +13,7 @@ int main(int argc, char** argv) {
   app.add_option("SITE", site, "site, TOML");
   app.add_option("-o,--out", out, "where the block goes");
   app.add_option("--show", show, "print what a block says");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    std::string what = error.what();
-    std::replace(what.begin(), what.end(), '\n', ' ');
-    fmt::print(stderr, "berm_params: {} (see --help)\n", what);
-    return 2;
-  }
+  if (const auto status = berm::config::parse_options(app, argc, argv)) return *status;
   try {
     if (!show.empty()) {
       fmt::print("{}", berm::config::describe(berm::config::load_parameters(show)));

@@ -1,15 +1,14 @@
 // The parameter block as a file.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 
 #include "config/compile_parameters.hpp"
 #include "config/strict_table.hpp"
+#include "config/whole_file.hpp"
 #include "scan/scan_packet.h"
 
 namespace berm::config {
@@ -21,16 +20,10 @@ std::int32_t parameters_crc(const berm_parameters& block) {
 }
 
 void save_parameters(const berm_parameters& block, const std::string& path) {
-  const std::string temporary = fmt::format("{}.tmp{}", path, getpid());
-  std::FILE* file = std::fopen(temporary.c_str(), "wbe");
-  bool good = file != nullptr && std::fwrite(&block, sizeof block, 1, file) == 1;
-  good = good && std::fflush(file) == 0 && fsync(fileno(file)) == 0;
-  int error = good ? 0 : errno;
-  if (file != nullptr) std::fclose(file);
-  if (good && std::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
-  if (error != 0) {
-    std::remove(temporary.c_str());
-    throw ConfigError(fmt::format("{}: cannot be written: {}", path, std::strerror(error)));
+  try {
+    write_whole_file(path, {reinterpret_cast<const char*>(&block), sizeof block}, true);
+  } catch (const std::runtime_error& error) {
+    throw ConfigError(error.what());
   }
 }
 

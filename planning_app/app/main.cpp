@@ -11,6 +11,7 @@
 #include "app/app_loop.hpp"
 #include "app/machine_loader.hpp"
 #include "app/sandbox.hpp"
+#include "config/command_line.hpp"
 
 namespace {
 
@@ -48,24 +49,14 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App cli{"The planning app: loads trucks by motion requests to the safety kernel. Progress as JSON lines on stdout."};
+  CLI::App cli{"The planning app: loads trucks by motion requests to the safety kernel. Progress as JSON lines on stdout.", "berm_app"};
   Options options;
   cli.add_option("--machine", options.machine, "machine file (TOML)")->required()->check(CLI::ExistingFile);
   cli.add_option("--site", options.site, "site file (TOML)")->required()->check(CLI::ExistingFile);
   cli.add_option("--socket", options.socket, "the kernel's Unix socket")->required();
   cli.add_option("--trucks", options.trucks, "trucks to load")->check(CLI::Range(1, 1000));
   cli.add_option("--tick-fd", options.tick_fd, "inherited SOCK_SEQPACKET descriptor for the simulation's tick")->check(CLI::Range(3, 1 << 20));
-  try {
-    cli.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    return cli.exit(success);
-  } catch (const CLI::ParseError& error) {
-    std::string what = error.what();
-    for (char& c : what)
-      if (c == '\n') c = ' ';
-    std::fprintf(stderr, "berm_app: %s (see --help)\n", what.c_str());
-    return 2;
-  }
+  if (const auto status = berm::config::parse_options(cli, argc, argv)) return *status;
   struct sigaction action {};
   action.sa_handler = on_signal;  // no SA_RESTART: waiting calls return
   sigaction(SIGTERM, &action, nullptr);

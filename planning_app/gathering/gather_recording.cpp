@@ -14,7 +14,8 @@ std::size_t gather_recording(const PointCloud& recording, std::size_t scanner, c
     std::size_t end = begin + 1;
     while (end < points.size() && points[end].scanline == points[begin].scanline) ++end;
     const std::span<const ScanPoint> scanline(points.data() + begin, end - begin);
-    auto scan = fit_scan(scanline, origin, before ? &before->frame : nullptr);
+    // The whole of a cloud without scanlines may look flat from its origin, and is no scan for that.
+    auto scan = recording.scanlines ? fit_scan(scanline, origin, before ? &before->frame : nullptr) : std::nullopt;
     if (scan) {
       gatherer.add_scan(scanner, mount * scan->frame, scan->returns, scanline.front().time_s);
       before = std::move(scan);

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "config/command_line.hpp"
 #include "gathering/gather_picture.hpp"
 #include "gathering/gather_recording.hpp"
 #include "points/file_bytes.hpp"
@@ -121,16 +122,7 @@ int main(int argc, char** argv) {
   app.add_option("--across-deviation", options.deviations.across_rad, "of the angle across it, radians")
       ->capture_default_str()
       ->check(CLI::Range(1e-5, 0.1));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    std::string what = error.what();
-    std::replace(what.begin(), what.end(), '\n', ' ');
-    fmt::print(stderr, "berm gather: {} (see --help)\n", what);
-    return 2;
-  }
+  if (const auto status = berm::config::parse_options(app, argc, argv)) return *status;
   try {
     return berm::app::run(options);
   } catch (const std::exception& error) {

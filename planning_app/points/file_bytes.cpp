@@ -8,6 +8,7 @@
 #include <cstring>
 #include <memory>
 
+#include "config/whole_file.hpp"
 #include "points/point_cloud.hpp"
 
 namespace berm::app {
@@ -39,17 +40,10 @@ std::string read_file_bytes(const std::string& path, std::size_t limit) {
   return bytes;
 }
 
-void write_file_bytes(const std::string& path, std::string_view bytes) {
-  const std::string half = path + ".part";
-  File file(std::fopen(half.c_str(), "wbe"));
-  if (!file) throw PointFileError(fmt::format("{}: {}", half, std::strerror(errno)));
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-  const bool closed = std::fclose(file.release()) == 0;
-  if (!written || !closed || std::rename(half.c_str(), path.c_str()) != 0) {
-    const std::string why = std::strerror(errno);
-    std::remove(half.c_str());
-    throw PointFileError(fmt::format("{}: {}", path, why));
-  }
+void write_file_bytes(const std::string& path, std::string_view bytes) try {
+  config::write_whole_file(path, bytes);
+} catch (const std::runtime_error& error) {
+  throw PointFileError(error.what());
 }
 
 }  // namespace berm::app

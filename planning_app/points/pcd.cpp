@@ -122,6 +122,7 @@ PointCloud parse_pcd(std::string_view bytes, const std::string& name) {
   const PcdHeader header = parse_pcd_header(bytes, name);
   cloud.viewpoint = header.viewpoint;
   const Wanted wanted{header.find("x"), header.find("y"), header.find("z"), header.find("scanline"), header.find("time")};
+  cloud.scanlines = wanted[3] != nullptr;
   const std::string_view data = bytes.substr(header.data_begin);
   Intake intake(cloud);
   if (header.data == PcdData::kAscii) {

@@ -21,6 +21,7 @@ struct PointCloud {
   std::vector<ScanPoint> points;
   std::string file;                          // as the reader was given it
   std::string format;                        // "pcd", "pcap" or "lms"
+  bool scanlines = true;                     // false: the file says none, and all points bear the number 0
   std::array<double, 3> viewpoint{0, 0, 0};  // the scanner's optical centre in the file's frame, metres
 };
 

@@ -66,36 +66,6 @@ std::uint32_t gap_cdeg(const std::uint8_t* bytes, int block, int step) {
 
 }  // namespace
 
-Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packet& packet) {
-  const Vlp16Result result = check(bytes, size);
-  if (result != Vlp16Result::kOk) return result;
-  // A pair holds the last return in its even block and the strongest in its odd one, and a lone return may stand in either: the last
-  // return is the farther of the two.
-  const int step = bytes[kModeOffset] == kModeDual ? 2 : 1;
-  packet.count = 0;
-  packet.firings = 2 * kBlocks / step;
-  for (int block = 0; block < kBlocks; block += step) {
-    const std::uint8_t* p = bytes + kBlockBytes * static_cast<std::size_t>(block);
-    const std::uint32_t azimuth_mdeg = u16(p + 2) * 10U;
-    const std::uint32_t gap = gap_cdeg(bytes, block, step);
-    const std::uint32_t spread_mdeg = kHalfDivergenceMdeg + gap * 10U / 2U;  // two firings in a block
-    for (int shot = 0; shot < 2 * kVlp16Channels; ++shot) {
-      const std::uint8_t* record = p + 4 + 3 * shot;
-      if (step == 2 && u16(record + kBlockBytes) > u16(record)) record += kBlockBytes;
-      const std::int32_t range_mm = static_cast<std::int32_t>(u16(record)) * kRangeLsbMm;
-      if (range_mm < kVlp16RangeMinMm) continue;
-      const int laser = shot % kVlp16Channels;
-      const std::uint32_t fired_ns = kSequenceNs * static_cast<std::uint32_t>(shot / kVlp16Channels) + kLaserNs * static_cast<std::uint32_t>(laser);
-      const std::uint32_t turned_mdeg = gap * 10U * fired_ns / (2U * kSequenceNs);
-      const auto firing = static_cast<std::uint8_t>(2 * block / step + shot / kVlp16Channels);
-      const std::uint32_t at_mdeg = (azimuth_mdeg + turned_mdeg) % (kTurnCdeg * 10U);
-      packet.point[packet.count] = {kChannelOfLaser[laser], record[2], at_mdeg, spread_mdeg, range_mm, firing};
-      ++packet.count;
-    }
-  }
-  return Vlp16Result::kOk;
-}
-
 bool vlp16_is_dual(const std::uint8_t* bytes) { return bytes[kModeOffset] == kModeDual; }
 
 int vlp16_firings(const std::uint8_t* bytes) { return vlp16_is_dual(bytes) ? kBlocks : 2 * kBlocks; }
@@ -104,15 +74,36 @@ Vlp16Firing vlp16_firing(const std::uint8_t* bytes, int firing) {
   const int step = vlp16_is_dual(bytes) ? 2 : 1, block = firing / 2 * step, half = firing % 2;
   const std::uint8_t* p = bytes + kBlockBytes * static_cast<std::size_t>(block);
   Vlp16Firing f{};
-  f.azimuth_mdeg = (u16(p + 2) * 10U + static_cast<std::uint32_t>(half) * gap_cdeg(bytes, block, step) * 5U) % (kTurnCdeg * 10U);
+  f.turn_mdeg = gap_cdeg(bytes, block, step) * 10U / 2U;  // two firings in a block
+  f.azimuth_mdeg = (u16(p + 2) * 10U + static_cast<std::uint32_t>(half) * f.turn_mdeg) % (kTurnCdeg * 10U);
   for (int laser = 0; laser < kVlp16Channels; ++laser) {
     const std::uint8_t* record = p + 4 + 3 * (half * kVlp16Channels + laser);
     const std::uint32_t one = u16(record), pair = step == 2 ? u16(record + kBlockBytes) : one;
-    // A lone return may stand in either block.
+    // A pair holds the last return in its even block and the strongest in its odd one, and a lone return may stand in either: the last return is
+    // the farther of the two.
     f.last_mm[kChannelOfLaser[laser]] = static_cast<std::int32_t>(std::max(one, pair)) * kRangeLsbMm;
     f.other_mm[kChannelOfLaser[laser]] = static_cast<std::int32_t>(std::min(one, pair)) * kRangeLsbMm;
   }
   return f;
+}
+
+Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packet& packet) {
+  const Vlp16Result result = check(bytes, size);
+  if (result != Vlp16Result::kOk) return result;
+  packet.count = 0;
+  packet.firings = vlp16_firings(bytes);
+  for (int k = 0; k < packet.firings; ++k) {
+    const Vlp16Firing firing = vlp16_firing(bytes, k);
+    const std::uint32_t spread_mdeg = kHalfDivergenceMdeg + firing.turn_mdeg;
+    for (int laser = 0; laser < kVlp16Channels; ++laser) {
+      const std::uint8_t channel = kChannelOfLaser[laser];
+      if (firing.last_mm[channel] < kVlp16RangeMinMm) continue;
+      const std::uint32_t turned_mdeg = firing.turn_mdeg * kLaserNs * static_cast<std::uint32_t>(laser) / kSequenceNs;
+      const std::uint32_t at_mdeg = (firing.azimuth_mdeg + turned_mdeg) % (kTurnCdeg * 10U);
+      packet.point[packet.count++] = {channel, at_mdeg, spread_mdeg, firing.last_mm[channel], static_cast<std::uint8_t>(k)};
+    }
+  }
+  return Vlp16Result::kOk;
 }
 
 Vlp16Elevation vlp16_elevation(std::uint8_t channel) { return {kChannelCosine[channel % kVlp16Channels], kChannelSine[channel % kVlp16Channels]}; }

@@ -23,7 +23,6 @@ enum class Vlp16Result { kOk, kSize, kMode, kProduct, kFlag, kAzimuth };
 // One last return.
 struct Vlp16Return {
   std::uint8_t channel;        // 0..15 by rising elevation: -15 + 2 * channel degrees
-  std::uint8_t reflectivity;
   std::uint32_t azimuth_mdeg;  // 0..359999, interpolated to the channel's firing
   std::uint32_t spread_mdeg;   // the return came from within +- this about azimuth_mdeg: half the beam's divergence and one firing's turn
   std::int32_t range_mm;
@@ -47,6 +46,7 @@ Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packe
 // All sixteen lasers once, also those without a return. Millimetres, 0: nothing came back. other: the nearer return of a dual pair, or the same.
 struct Vlp16Firing {
   std::uint32_t azimuth_mdeg;  // 0..359999, of the first laser
+  std::uint32_t turn_mdeg;     // to the next firing
   std::int32_t last_mm[kVlp16Channels], other_mm[kVlp16Channels];
 };
 // Of a packet that vlp16_decode takes; firing: 0 to vlp16_firings - 1.

@@ -74,8 +74,20 @@ check_folder(fault_injection/in_process "${in_process_rooms};${interface_rooms}"
 check_folder(fault_injection/watch "${watch_rooms};${interface_rooms}" "")
 check_folder(fault_injection/validate "${validate_rooms};${interface_rooms}" "")
 
+# Tests of one program run side by side: a name in the folder for temporary files is made unique in one place.
+file(GLOB_RECURSE files ${ROOT}/tests/*.hpp ${ROOT}/tests/*.cpp)
+list(FILTER files EXCLUDE REGEX "/tests/support/scratch\\.hpp$")
+foreach(file ${files})
+  file(STRINGS ${file} lines REGEX "TempDir\\(|temp_directory_path")
+  foreach(line ${lines})
+    file(RELATIVE_PATH where ${ROOT} ${file})
+    message(NOTICE "include_rules: ${where}: a temporary file's name is berm::test::Scratch's to give (tests/support/scratch.hpp)")
+    math(EXPR violations "${violations} + 1")
+  endforeach()
+endforeach()
+
 if(violations GREATER 0)
-  message(FATAL_ERROR "include_rules: ${violations} forbidden include(s)")
+  message(FATAL_ERROR "include_rules: ${violations} violation(s)")
 endif()
 if(files_read EQUAL 0)
   message(FATAL_ERROR "include_rules: no source file below ${ROOT}")

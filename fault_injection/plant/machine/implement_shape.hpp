@@ -29,6 +29,8 @@ struct ScannerMount {
   double pan_rate_max = 0.0, pan_acceleration = 0.0;
 };
 
+constexpr int lidars_most = 4;
+
 struct LidarMount {                    // VLP-16: sensor's frame in the upper body's, turned by yaw, then pitch (front down), then roll (left up)
   std::array<double, 3> position{};
   double roll = 0.0, pitch = 0.0, yaw = 0.0;
@@ -47,7 +49,7 @@ struct ImplementShape {
   std::vector<AxisBox> upper_body;                     // upper body's frame; turn with the swing
   std::vector<AxisBox> tracks;                         // base frame
   std::array<ScannerMount, 2> scanner;                 // left, right
-  std::vector<LidarMount> lidar;                       // two at most
+  std::vector<LidarMount> lidar;                       // lidars_most at most
 };
 
 }  // namespace berm::plant

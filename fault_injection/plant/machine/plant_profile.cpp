@@ -111,7 +111,7 @@ ImplementShape read_shape(StrictTable& file) {
   if (scanners.size() != shape.scanner.size()) file.fail("scanner", fmt::format("must be given {} times", shape.scanner.size()));
   for (std::size_t i = 0; i < scanners.size(); ++i) shape.scanner[i] = read_scanner(scanners[i]);
   for (StrictTable& t : file.tables("lidar")) shape.lidar.push_back(read_lidar(t));
-  if (shape.lidar.size() > 4) file.fail("lidar", "is given more than four times");
+  if (shape.lidar.size() > lidars_most) file.fail("lidar", fmt::format("is given more than {} times", lidars_most));
   return shape;
 }
 

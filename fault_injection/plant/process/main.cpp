@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 
+#include "config/command_line.hpp"
 #include "plant/machine/kinematics.hpp"
 #include "plant/machine/strict_table.hpp"
 #include "plant/process/plant_run.hpp"
@@ -50,7 +50,8 @@ int run(int argc, char** argv) {
   RunOptions options;
   bool lockstep = false;
   CLI::App app{"The simulated excavator and its site. Writes trace.csv, truth.json, terrain_start.csv and terrain_end.csv to the folder --out; "
-               "prints events as JSON lines."};
+               "prints events as JSON lines.",
+               "berm_plant"};
   app.add_option("--scenario", scenario_file, "scenario file (TOML)")->required();
   app.add_option("--profiles", profiles, "folder of the machine profiles that scenarios name")->capture_default_str();
   app.add_option("--seed", options.seed, "seed of everything random")->capture_default_str();
@@ -65,16 +66,7 @@ int run(int argc, char** argv) {
   app.add_flag("--realtime", options.realtime, "wall-clock time")->excludes(step);
   app.add_option("--tick-fd", options.tick_fd, "inherited SOCK_SEQPACKET descriptor with the app's ticks")->check(CLI::Range(0, 1 << 20));
   app.add_option("--kernel-fd", options.kernel_fd, "inherited read end of the kernel's lifeline pipe")->check(CLI::Range(0, 1 << 20));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    std::string what = error.what();
-    std::replace(what.begin(), what.end(), '\n', ' ');
-    std::fprintf(stderr, "berm_plant: %s (see --help)\n", what.c_str());
-    return kBadInput;
-  }
+  if (const auto status = berm::config::parse_options(app, argc, argv)) return *status;
   options.stop_fd = stop_descriptor();
   try {
     const Scenario scenario = load_scenario(scenario_file, profiles);

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <set>
 
+#include "plant/machine/implement_shape.hpp"
+
 namespace berm::plant {
 
 namespace {
@@ -196,7 +198,7 @@ WorldConfig read_world(StrictTable& file) {
   if (world.dig_zones.empty()) file.fail("dig_zone", "is missing");
   world.scanner = read_scanner(file.table("scanner"));
   for (StrictTable& t : file.tables("scanner_fault")) world.scanner_faults.push_back(read_sensor_fault(t, "scanner", 2, "mirror_deg"));
-  for (StrictTable& t : file.tables("lidar_fault")) world.lidar_faults.push_back(read_sensor_fault(t, "lidar", 4, "sector_deg"));
+  for (StrictTable& t : file.tables("lidar_fault")) world.lidar_faults.push_back(read_sensor_fault(t, "lidar", lidars_most, "sector_deg"));
   for (StrictTable& t : file.tables("dust")) world.dust.push_back(read_dust(t));
   return world;
 }

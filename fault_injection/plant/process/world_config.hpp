@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -90,7 +91,8 @@ struct SensorFault {                      // of a panning scanner, or of a lidar
   std::size_t sensor = 0;
   bool silent = false;                    // sends nothing; else something lies on its window
   double at_s = 0.0, for_s = 0.0;
-  std::optional<std::array<double, 2>> turn;  // only over this part of the mirror's circle, or of the lidar's azimuth; 0..2 pi, low first
+  // Over this part of the mirror's circle, or of the lidar's azimuth, low first; all of it unless given.
+  std::array<double, 2> turn{0.0, 2 * std::numbers::pi};
 };
 
 struct DustConfig {                       // in the air about every sensor, for a time

@@ -74,8 +74,8 @@ struct World::State {
     }
   }
 
-  // Of sensor i of these at time t; silent: it sends nothing.
-  [[nodiscard]] SensorAir air(const std::vector<SensorFault>& faults, size_t i, double t, bool& silent) const {
+  // Of sensor i of these at time t.
+  [[nodiscard]] SensorAir air(const std::vector<SensorFault>& faults, size_t i, double t) const {
     const auto during = [t](const auto& span) { return t >= span.at_s && t < span.at_s + span.for_s; };
     SensorAir a;
     for (const DustConfig& d : config.dust) {
@@ -85,10 +85,8 @@ struct World::State {
     }
     for (const SensorFault& f : faults) {
       if (f.sensor != i || !during(f)) continue;
-      silent = silent || f.silent;
-      if (f.silent) continue;
-      a.covered = true;
-      if (f.turn) a.from = (*f.turn)[0], a.to = (*f.turn)[1];
+      (f.silent ? a.silent : a.covered) = true;
+      if (!f.silent) a.turn = f.turn;
     }
     return a;
   }
@@ -143,9 +141,8 @@ void World::scan(double t, double dt, const JointState& before, const JointState
   w.scene.place_machine(w.shape, link_frames(w.shape, now), std::max(0.0, w.load.volume() - w.load.struck()));
   const BaseFrame base(w.base);
   for (size_t i = 0; i < w.scanner.size(); ++i) {
-    bool silent = false;
-    const SensorAir air = w.air(w.config.scanner_faults, i, t, silent);
-    if (silent) continue;
+    const SensorAir air = w.air(w.config.scanner_faults, i, t);
+    if (air.silent) continue;
     w.scanner[i].step(t, dt, {before.angle[0], pan_before.angle[i]}, {now.angle[0], pan_now.angle[i]}, w.scene, out, base, &w.mover_returns, air);
   }
 }
@@ -154,9 +151,8 @@ void World::scan_lidars(double t, double dt, const JointState& before, const Joi
   State& w = *state_;
   const BaseFrame base(w.base);
   for (size_t i = 0; i < w.lidar.size(); ++i) {
-    bool silent = false;
-    const SensorAir air = w.air(w.config.lidar_faults, i, t, silent);
-    if (!silent) w.lidar[i].step(t, dt, before.angle[0], now.angle[0], air, w.scene, base, out, &w.mover_returns);
+    const SensorAir air = w.air(w.config.lidar_faults, i, t);
+    if (!air.silent) w.lidar[i].step(t, dt, before.angle[0], now.angle[0], air, w.scene, base, out, &w.mover_returns);
   }
 }
 

@@ -19,6 +19,7 @@
 #include "app/app_loop.hpp"
 #include "app_bench/bench_machine.hpp"
 #include "scan/scan_packet.h"
+#include "scratch.hpp"
 
 namespace {
 
@@ -38,9 +39,7 @@ int segment_fd(std::size_t size, bool sealed) {
 class AppProcess : public ::testing::Test {
 protected:
   void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() / ("berm_app_test_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-    path_ = (folder_ / "socket").string();
+    path_ = scratch_.path("socket");
   }
 
   void TearDown() override {
@@ -50,7 +49,6 @@ protected:
     }
     for (const int fd : {peer_, tick_, listener_, state_fd_, request_fd_})
       if (fd >= 0) ::close(fd);
-    std::filesystem::remove_all(folder_);
   }
 
   // Listens, starts the app, answers its greeting.
@@ -69,7 +67,7 @@ protected:
     ::setsockopt(tick_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     child_ = ::fork();
     if (child_ == 0) {
-      const std::string tick = std::to_string(ticks[1]), out = (folder_ / "out").string(), errors = (folder_ / "err").string();
+      const std::string tick = std::to_string(ticks[1]), out = scratch_.path("out"), errors = scratch_.path("err");
       ::dup2(::open(out.c_str(), O_CREAT | O_WRONLY, 0600), 1);
       ::dup2(::open(errors.c_str(), O_CREAT | O_WRONLY, 0600), 2);
       ::execl(BERM_APP, "berm_app", "--machine", BERM_CONFIG_DIR "/machines/zx200.toml", "--site", BERM_CONFIG_DIR "/sites/bench.toml", "--socket", path_.c_str(),
@@ -125,11 +123,11 @@ protected:
   }
 
   std::string text(const char* name) {
-    std::ifstream in(folder_ / name);
+    std::ifstream in(scratch_.path(name));
     return {std::istreambuf_iterator<char>(in), {}};
   }
 
-  std::filesystem::path folder_;
+  test::Scratch scratch_;
   std::string path_;
   int listener_ = -1, peer_ = -1, tick_ = -1, state_fd_ = -1, request_fd_ = -1;
   pid_t child_ = -1;

@@ -1,8 +1,10 @@
-// The default machine and site files, edited, in a folder of their own that goes with the test.
+// The default machine and site files, edited.
 #pragma once
 
 #include <string>
 #include <vector>
+
+#include "scratch.hpp"
 
 namespace berm::config::test {
 
@@ -12,19 +14,7 @@ std::string read_text(const std::string& path);
 // Text with the first occurrence of from replaced; throws when there is none, so that no edit is silently nothing.
 std::string replaced(std::string text, const std::string& from, const std::string& to);
 
-class Scratch {
- public:
-  Scratch();
-  ~Scratch();
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
-  std::string write(const std::string& name, const std::string& text) const;
-  std::vector<std::string> names() const;  // what is in the folder, sorted
-
- private:
-  std::string folder_;
-};
+using berm::test::Scratch;
 
 struct BadEdit {
   const char* name;

@@ -68,7 +68,7 @@ TEST(RealRecordings, TerrainWithoutScanlinesIsKept) {
   const PointCloud recording = read_recording(path);
   PointCloudGatherer gatherer(GatheringOptions{.epoch = kEpochRuleOfRecordings});
   gatherer.add_scanner({});
-  gather_recording(recording, 0, Eigen::Isometry3d::Identity(), gatherer);  // flat as seen from its origin: one scan, planar or not
+  EXPECT_EQ(gather_recording(recording, 0, Eigen::Isometry3d::Identity(), gatherer), 1U) << "flat as seen from its origin, and yet no scan plane";
   EXPECT_EQ(gatherer.counts().scans, 1U);
   account(gatherer, recording.points.size());
   EXPECT_EQ(gatherer.counts().deleted, 0U);

@@ -1,13 +1,11 @@
 // Values replaced in a machine file's text, and every other byte left.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cstdio>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
 #include "identify/machine_file_text.hpp"
+#include "scratch.hpp"
 
 namespace berm::identify::test {
 namespace {
@@ -15,11 +13,9 @@ namespace {
 class MachineText : public testing::Test {
  protected:
   MachineFileText written(const std::string& text) {
-    std::ofstream(path_, std::ios::binary) << text;
-    return MachineFileText(path_);
+    return MachineFileText(scratch_.write("machine.toml", text));
   }
-  void TearDown() override { std::remove(path_.c_str()); }
-  std::string path_ = testing::TempDir() + "machine_text_" + std::to_string(getpid()) + ".toml";
+  berm::test::Scratch scratch_;
 };
 
 TEST_F(MachineText, OnlyTheValueChanges) {
@@ -38,7 +34,7 @@ TEST_F(MachineText, WhatDoesNotStandSoOnceIsRefused) {
       t.replace(section, key, "0");
       ADD_FAILURE() << section << "." << key;
     } catch (const std::runtime_error& error) {
-      EXPECT_EQ(std::string(error.what()).find(path_ + ": " + section + "." + key + ": "), 0u) << error.what();
+      EXPECT_EQ(std::string(error.what()).find(scratch_.path("machine.toml: ") + section + "." + key + ": "), 0u) << error.what();
     }
   }
   EXPECT_EQ(t.text(), "[a]\nx = 1\n[b]\ny = { x = 2 }\n[a]\nx = 3\n");

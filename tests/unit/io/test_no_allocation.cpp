@@ -64,7 +64,7 @@ TEST(NoAllocation, InACycle) {
     states.push_back(first.state().kernel_state);
   }
 
-  Cycle cycle(first.parameters, false);
+  const auto cycle = std::make_unique<Cycle>(first.parameters, false);  // larger than a stack
   auto segment = std::make_unique<berm_state_segment>();
   Publisher publisher(*segment, first.parameters, true);
   auto& in = *first.in;
@@ -79,12 +79,12 @@ TEST(NoAllocation, InACycle) {
     for (const auto& frame : frames[k]) in.frame[in.frame_count++] = frame;
     for (const auto& packet : packets[k]) in.packet[in.packet_count++] = packet;
     std::copy(requests[k].begin(), requests[k].end(), in.request);
-    cycle.step(in, out);
+    cycle->step(in, out);
     publisher.state(out.state);
     publisher.decision(out.decision);
     publisher.scans(out.blocks);
-    publisher.slices(cycle.slices());
-    publisher.map_rows(cycle.map(), in.now_us);
+    publisher.slices(cycle->slices());
+    publisher.map_rows(cycle->map(), in.now_us);
     publisher.wake();
     running += out.state.kernel_state == BERM_STATE_RUN ? 1 : 0;
     different += out.state.kernel_state != states[k] ? 1 : 0;

@@ -142,11 +142,11 @@ TEST_F(Vlp16Recording, TruncatedAndForeignPacketsAreRefusedAndChangeNothing) {
 // verifies: SK-CY-53
 TEST(Vlp16, PointsStandWhereTheMountPutsThem) {
   const Vlp16Mount mount{1.0, 2.0, 3.0, kPi / 2};
-  const sk_point ahead = vlp16_project(mount, {8, 0, 0, 0, 10000}).left;  // elevation 1 degree, azimuth 0: along the sensor's x, here base y
+  const sk_point ahead = vlp16_project(mount, {8, 0, 0, 10000}).left;  // elevation 1 degree, azimuth 0: along the sensor's x, here base y
   EXPECT_NEAR(ahead.x_mm, 1000, 1);
   EXPECT_NEAR(ahead.y_mm, 2000 + 10000 * std::cos(kPi / 180), 1);
   EXPECT_EQ(ahead.z_mm, 3000 + static_cast<int>(std::ceil(10000 * std::sin(kPi / 180))));
-  const sk_point aside = vlp16_project(mount, {8, 0, 90000, 0, 10000}).right;  // clockwise from above: to the sensor's right, here base x
+  const sk_point aside = vlp16_project(mount, {8, 90000, 0, 10000}).right;  // clockwise from above: to the sensor's right, here base x
   EXPECT_NEAR(aside.x_mm, 1000 + 10000 * std::cos(kPi / 180), 1);
   EXPECT_NEAR(aside.y_mm, 2000, 1);
 }
@@ -159,7 +159,7 @@ TEST(Vlp16, EveryChannelsEdgesAreThoseOfPlainTrigonometry) {
     for (std::uint32_t azimuth = 0; azimuth < 360000; azimuth += 1234)
       for (const std::uint32_t spread : {0U, 286U, 1086U}) {
         constexpr std::int32_t kRange = 100000;
-        const Vlp16Footprint f = vlp16_project(mount, {channel, 0, azimuth, spread, kRange});
+        const Vlp16Footprint f = vlp16_project(mount, {channel, azimuth, spread, kRange});
         const double elevation = (2.0 * channel - 15.0) * kPi / 180.0, level = kRange * std::cos(elevation);
         const double left = 0.7 - (azimuth * 1e-3 - spread * 1e-3) * kPi / 180.0, right = 0.7 - (azimuth * 1e-3 + spread * 1e-3) * kPi / 180.0;
         ASSERT_NEAR(f.left.x_mm, 1000 + level * std::cos(left), 0.501);
@@ -172,7 +172,7 @@ TEST(Vlp16, EveryChannelsEdgesAreThoseOfPlainTrigonometry) {
 
 // verifies: SK-CY-54
 TEST(Vlp16, AFootprintIsAsWideAsTheBeamAndOneFiringsTurn) {
-  const Vlp16Footprint f = vlp16_project(Vlp16Mount{}, {8, 0, 0, 286, 10000});
+  const Vlp16Footprint f = vlp16_project(Vlp16Mount{}, {8, 0, 286, 10000});
   EXPECT_NEAR(f.left.y_mm, 49.9, 1);  // 10 m, 0.286 degrees: half of 3 mrad and 0.2 degrees
   EXPECT_NEAR(f.right.y_mm, -49.9, 1);
   EXPECT_EQ(f.left.z_mm, f.right.z_mm);

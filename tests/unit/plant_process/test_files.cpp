@@ -8,6 +8,7 @@
 #include "plant/process/output_file.hpp"
 #include "plant/process/run_record.hpp"
 #include "plant/process/trace_writer.hpp"
+#include "scratch.hpp"
 
 namespace berm::plant::testing {
 namespace {
@@ -20,8 +21,8 @@ std::string text_of(const std::string& file) {
 }
 
 TEST(OutputFile, AppearsOnlyWhenFinished) {
-  const std::string path = ::testing::TempDir() + "output_file_test";
-  std::filesystem::remove(path);
+  const test::Scratch scratch;
+  const std::string path = scratch.path("output");
   {
     OutputFile file(path);
     file.write("half");
@@ -37,7 +38,8 @@ TEST(OutputFile, AppearsOnlyWhenFinished) {
 }
 
 TEST(TraceWriter, HasTheDocumentedColumnsAndFormat) {
-  const std::string path = ::testing::TempDir() + "trace_test.csv";
+  const test::Scratch scratch;
+  const std::string path = scratch.path("trace.csv");
   const std::vector<MoverPose> movers{{"truck_1", 1.0, -2.0, 0.5, 3.0, true}};
   TraceWriter trace(path, movers);
   JointState joints;
@@ -65,7 +67,8 @@ OracleVerdict verdict(bool contact, double closest_m, const std::string& what) {
 }
 
 nlohmann::json written(const RunRecord& record, const RunRecord::End& end) {
-  const std::string path = ::testing::TempDir() + "truth_test.json";
+  const test::Scratch scratch;
+  const std::string path = scratch.path("truth.json");
   record.write(path, end);
   return nlohmann::json::parse(text_of(path));
 }

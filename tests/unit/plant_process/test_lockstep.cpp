@@ -9,6 +9,7 @@
 
 #include "fake_peers.hpp"
 #include "plant/process/plant_run.hpp"
+#include "scratch.hpp"
 
 namespace berm::plant::testing {
 namespace {
@@ -31,7 +32,8 @@ Result run(const std::string& name, std::uint64_t seed, const std::function<Answ
   options.seed = seed;
   options.can_address = test_can_address();
   options.scan_port = 9;  // nobody listens
-  options.out = ::testing::TempDir() + fmt::format("berm_plant_{}_{}", getpid(), name);
+  const test::Scratch scratch;
+  options.out = scratch.path(name);
   options.tick_fd = peers.tick_fd;
   options.kernel_fd = peers.kernel_fd;
   PlantRun(scenario, load_plant_profile(scenario.machine_file), options).run();
@@ -39,7 +41,6 @@ Result run(const std::string& name, std::uint64_t seed, const std::function<Answ
   EXPECT_FALSE(std::filesystem::exists(options.out + "/trace.csv.part"));
   EXPECT_TRUE(std::filesystem::exists(options.out + "/terrain_start.csv"));
   EXPECT_TRUE(std::filesystem::exists(options.out + "/terrain_end.csv"));
-  std::filesystem::remove_all(options.out);
   return r;
 }
 

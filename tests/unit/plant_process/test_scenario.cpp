@@ -7,6 +7,7 @@
 #include "plant/machine/kinematics.hpp"
 #include "plant/machine/strict_table.hpp"
 #include "plant/process/scenario.hpp"
+#include "scratch.hpp"
 
 namespace berm::plant::testing {
 namespace {
@@ -24,17 +25,15 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-Scenario loaded(const std::string& text) {
-  const std::string file = ::testing::TempDir() + "scenario_test.toml";
-  std::ofstream(file) << text;
-  return load_scenario(file, BERM_PLANT_PROFILES);
-}
+Scenario loaded(const test::Scratch& scratch, const std::string& text) { return load_scenario(scratch.write("scenario.toml", text), BERM_PLANT_PROFILES); }
+Scenario loaded(const std::string& text) { return loaded({}, text); }
 
 std::string refusal(const std::string& text) {
+  const test::Scratch scratch;
   try {
-    loaded(text);
+    loaded(scratch, text);
   } catch (const ConfigError& error) {
-    const std::string what = error.what(), file = ::testing::TempDir() + "scenario_test.toml: ";
+    const std::string what = error.what(), file = scratch.path("scenario.toml: ");
     EXPECT_EQ(what.rfind(file, 0), 0u) << what;
     return what.substr(file.size());
   }
@@ -135,9 +134,8 @@ TEST(Scenario, FaultsOfSensorsAndDustAreRead) {
   EXPECT_FALSE(w.scanner_faults[0].silent);
   EXPECT_EQ(w.scanner_faults[0].at_s, 25.0);
   EXPECT_EQ(w.scanner_faults[0].for_s, 10.0);
-  ASSERT_TRUE(w.scanner_faults[0].turn.has_value());
-  EXPECT_NEAR((*w.scanner_faults[0].turn)[0], 300 * config::radians(1.0), 1e-12);
-  EXPECT_NEAR((*w.scanner_faults[0].turn)[1], 330 * config::radians(1.0), 1e-12);
+  EXPECT_NEAR(w.scanner_faults[0].turn[0], 300 * config::radians(1.0), 1e-12);
+  EXPECT_NEAR(w.scanner_faults[0].turn[1], 330 * config::radians(1.0), 1e-12);
   const WorldConfig d = loaded(text_of("dust.toml")).world;
   ASSERT_EQ(d.dust.size(), 2u);
   EXPECT_EQ(d.dust[1].at_s, 45.0);
@@ -171,7 +169,8 @@ TEST(Scenario, MachineFaultsAreReadAndChecked) {
 TEST(Scenario, MachineIsAProfilesNameOrAPathBesideTheScenario) {
   const std::string good = text_of("bench.toml");
   EXPECT_EQ(loaded(good).machine_file, std::string(BERM_PLANT_PROFILES) + "/zx200_plant.toml");
-  EXPECT_EQ(loaded(replaced(good, "\"zx200_plant\"", "\"../my.toml\"")).machine_file, ::testing::TempDir() + "../my.toml");
+  const test::Scratch scratch;
+  EXPECT_EQ(loaded(scratch, replaced(good, "\"zx200_plant\"", "\"../my.toml\"")).machine_file, scratch.path("../my.toml"));
 }
 
 TEST(Scenario, PanelFollowsItsScript) {

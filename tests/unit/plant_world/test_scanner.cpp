@@ -164,7 +164,7 @@ Downwards downwards(const ScanRun& run, int scanner, double from_deg = 200, doub
 TEST(Scanner, AWindowThatIsCoveredSendsBackItsOwnEchoAlone) {
   WorldConfig c = open_site();
   c.terrain.roughness = 0;
-  c.scanner_faults = {{0, false, 0.0, 5.0, std::array<double, 2>{300 * degree, 330 * degree}}, {1, false, 1.0, 1.0, {}}};
+  c.scanner_faults = {{0, false, 0.0, 5.0, {300 * degree, 330 * degree}}, {1, false, 1.0, 1.0}, {0, false, 1.0, 1.0}};
   ScanRun run(c, heads_only());
   run.steps(90, tucked);
   const Downwards covered = downwards(run, 0, 300, 330), left = downwards(run, 0, 200, 300), right = downwards(run, 1);
@@ -178,11 +178,14 @@ TEST(Scanner, AWindowThatIsCoveredSendsBackItsOwnEchoAlone) {
   const Downwards all = downwards(run, 1);
   EXPECT_GT(all.all, 3000);
   EXPECT_EQ(all.window, all.all);
+  const Downwards last = downwards(run, 0, 200, 300);
+  EXPECT_GT(last.all, 1000);
+  EXPECT_EQ(last.window, last.all) << "of those at the same time the last counts";
 }
 
 TEST(Scanner, ASilentScannerSendsNothingForItsTime) {
   WorldConfig c = open_site();
-  c.scanner_faults = {{1, true, 0.5, 0.5, {}}};
+  c.scanner_faults = {{1, true, 0.5, 0.5}};
   ScanRun run(c, heads_only());
   run.steps(200, tucked);
   for (const berm_scan_packet& p : run.out)

@@ -85,7 +85,7 @@ TEST(SpinningLidar, MeasuresTheGroundAndBlanksWhatLooksElsewhere) {
 
 TEST(SpinningLidar, FaultsBlockOrSilenceItForTheirTime) {
   WorldConfig config = level_site();
-  config.lidar_faults = {{0, false, 0.5, 0.5, {}}, {0, true, 1.5, 0.5, {}}};
+  config.lidar_faults = {{0, false, 0.5, 0.5}, {0, true, 1.5, 0.5}};
   World world(config, one_lidar(), 1, 0);
   const auto returns = [](const std::vector<LidarPacket>& packets) {
     long count = 0;
@@ -121,7 +121,7 @@ std::vector<double> lowest(const std::vector<LidarPacket>& packets, std::size_t 
 
 TEST(SpinningLidar, APartOfItsWindowIsCoveredOrTheAirIsDusty) {
   WorldConfig config = level_site();
-  config.lidar_faults = {{0, false, 0.0, 5.0, std::array<double, 2>{std::numbers::pi / 2, std::numbers::pi}}};
+  config.lidar_faults = {{0, false, 0.0, 5.0, {std::numbers::pi / 2, std::numbers::pi}}};
   World covered(config, level_lidar(180, true, false), 1, 0);
   for (const LidarPacket& p : steps(covered, 20))
     for (std::size_t block = 0; block < 12; ++block) {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "bench.hpp"
+#include "scratch.hpp"
 
 namespace berm::plant {
 namespace {
@@ -169,6 +170,7 @@ TEST(World, TailHitsWhoStandsBehind) {
 
 TEST(World, SameSeedSameBytes) {
   const ImplementShape s = bench::machine();
+  const test::Scratch scratch;
   const auto run = [&](uint64_t seed, const std::string& name) {
     WorldConfig c = bench::site();
     c.scanner.range_stddev = 0.03;
@@ -192,7 +194,7 @@ TEST(World, SameSeedSameBytes) {
         bytes.append(reinterpret_cast<const char*>(wire), n);
       }
     }
-    const std::string path = ::testing::TempDir() + name;
+    const std::string path = scratch.path(name);
     w.write_terrain(path);
     return bytes + file_text(path) + file_text(path + ".truck");
   };
@@ -204,7 +206,8 @@ TEST(World, SameSeedSameBytes) {
 
 TEST(World, TerrainFileHasItsHeaderAndRows) {
   World w(bench::site(), bench::machine(), 1, 1);
-  const std::string path = ::testing::TempDir() + "terrain_file.csv";
+  const test::Scratch scratch;
+  const std::string path = scratch.path("terrain.csv");
   w.write_terrain(path);
   std::ifstream in(path);
   std::string line;

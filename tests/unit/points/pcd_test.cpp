@@ -11,6 +11,7 @@
 #include "points/file_bytes.hpp"
 #include "points/lzf.hpp"
 #include "sample_files.hpp"
+#include "scratch.hpp"
 
 namespace berm::app {
 namespace {
@@ -41,13 +42,15 @@ TEST(Pcd, AsciiWithOtherFieldsBetween) {
   EXPECT_EQ(cloud.points[0].y, -2.0F);
   EXPECT_EQ(cloud.points[0].z, 30.0F);
   EXPECT_EQ(cloud.points[1].z, 6.0F);
+  EXPECT_FALSE(cloud.scanlines);
   EXPECT_EQ(cloud.points[1].scanline, 0U);
   EXPECT_EQ(cloud.points[1].time_s, 0.0);
   EXPECT_EQ(cloud.viewpoint, (std::array<double, 3>{1, 2, 3}));
 }
 
 TEST(Pcd, WhatIsWrittenIsRead) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "berm_pcd_round_trip.pcd";
+  const berm::test::Scratch scratch;
+  const auto path = scratch.path("round_trip.pcd");
   EXPECT_TRUE(rc::check("round trip", [&] {
     std::vector<ScanPoint> points;
     std::uint32_t scanline = 0;
@@ -59,13 +62,13 @@ TEST(Pcd, WhatIsWrittenIsRead) {
     write_pcd(path, points, {1.5, -2.25, 3.0});
     const auto cloud = read_pcd_cloud(path);
     RC_ASSERT(cloud.viewpoint == (std::array<double, 3>{1.5, -2.25, 3.0}));
+    RC_ASSERT(cloud.scanlines);
     RC_ASSERT(cloud.points.size() == points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
       const ScanPoint &p = points[i], &q = cloud.points[i];
       RC_ASSERT(p.x == q.x && p.y == q.y && p.z == q.z && p.scanline == q.scanline && p.time_s == q.time_s);
     }
   }));
-  std::filesystem::remove(path);
 }
 
 // Control bytes by hand: runs of bytes as they are, short and long repetitions, one that overlaps what it writes.
@@ -129,7 +132,7 @@ TEST(Pcd, RefusalsNameFileFieldAndLimit) {
 
 TEST(Pcd, NoFileAndNoRoom) {
   EXPECT_THROW(read_pcd("/no/such/file.pcd"), PointFileError);
-  EXPECT_THROW(read_pcd(testing::TempDir()), PointFileError);
+  EXPECT_THROW(read_pcd(berm::test::Scratch().folder()), PointFileError);
   EXPECT_THROW(write_pcd("/no/such/folder/x.pcd", {}), PointFileError);
   EXPECT_THROW(read_file_bytes("/dev/zero", 1 << 20), PointFileError);
 }

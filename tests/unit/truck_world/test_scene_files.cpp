@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "points/pcd.hpp"
+#include "scratch.hpp"
 #include "truck_scenes.hpp"
 #include "truck_world/scene_files.hpp"
 
@@ -13,9 +14,8 @@ namespace berm::truck_world {
 namespace {
 
 TEST(TruckWorldFiles, WhatIsReadAgainIsWhatWasDrawn) {
-  const std::string folder = testing::TempDir() + "berm_truck_world_files";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  const test::Scratch scratch;
+  const std::string& folder = scratch.folder();
   const Scene scene = draw_scene(shipped_classes(), coarse(Content::truck), 13, 17);
   write_scene(folder, scene, true);
   const std::string base = folder + "/scene_000017";
@@ -45,19 +45,17 @@ TEST(TruckWorldFiles, WhatIsReadAgainIsWhatWasDrawn) {
   EXPECT_EQ(truth["returns"], scene.cloud.size());
   EXPECT_TRUE(truth["look_alike"].is_null());
   EXPECT_GT(std::filesystem::file_size(base + ".svg"), 10000U);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(TruckWorldFiles, AFileThatCannotBeWrittenLeavesNothingOfItsScene) {
-  const std::string folder = testing::TempDir() + "berm_truck_world_refused";
-  std::filesystem::remove_all(folder);
+  const test::Scratch scratch;
+  const std::string& folder = scratch.folder();
   std::filesystem::create_directories(folder + "/scene_000003.json/in_the_way");  // a folder under the last file's name
   const Scene scene = draw_scene(shipped_classes(), coarse(Content::no_truck), 13, 3);
   EXPECT_THROW(write_scene(folder, scene, false), std::runtime_error);
   int left = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) left += entry.is_regular_file() ? 1 : 0;
   EXPECT_EQ(left, 0);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

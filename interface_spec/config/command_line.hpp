@@ -8,10 +8,10 @@
 #include <optional>
 #include <string>
 
-namespace berm::run {
+namespace berm::config {
 
 // The exit status when the program should end now.
-inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
+inline std::optional<int> parse_options(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);
     return std::nullopt;
@@ -25,4 +25,4 @@ inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   }
 }
 
-}  // namespace berm::run
+}  // namespace berm::config
