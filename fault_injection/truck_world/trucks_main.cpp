@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "run/command_line.hpp"
+#include "config/command_line.hpp"
+#include "config/whole_file.hpp"
 #include "truck_world/trial.hpp"
 
 namespace berm::truck_world {
@@ -65,7 +65,7 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(0.0, 1.0))->capture_default_str();
   app.add_option("--classes", o.drawn, "file of truck classes that are drawn")->capture_default_str();
   app.add_option("--ranges", o.ranges, "file of truck classes that are recognised")->capture_default_str();
-  if (const auto status = run::parse(app, argc, argv)) return *status;
+  if (const auto status = config::parse_options(app, argc, argv)) return *status;
 
   const std::vector<TruckClass> classes = read_truck_classes(o.drawn);
   const app::TruckRangeSet ranges = app::read_truck_ranges(o.ranges);
@@ -85,11 +85,7 @@ int run(int argc, char** argv) {
   if (terminal) fmt::print(stderr, "\n");
   const nlohmann::ordered_json json = summary(trials);
   fmt::print("{}\n", json.dump(1));
-  if (!o.json.empty()) {
-    std::ofstream file(o.json);
-    file << json.dump(1) << "\n";
-    if (!file.flush()) throw std::runtime_error("--json: " + o.json + ": cannot be written");
-  }
+  if (!o.json.empty()) config::write_whole_file(o.json, json.dump(1) + "\n");
   return json["trucks"] == json["recognised"] && json["false_accepts"] == 0 ? 0 : 1;
 }
 

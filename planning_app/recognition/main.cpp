@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "config/command_line.hpp"
 #include "points/file_bytes.hpp"
 #include "points/pcd.hpp"
 #include "recognition/recognition_picture.hpp"
@@ -80,16 +80,7 @@ int main(int argc, char** argv) {
                  "pose_covariance (8 x 8: middle x y z, yaw, pitch, roll, length, width; m, rad), milliseconds");
   app.add_option("--picture", options.picture, "write a view from above (SVG)");
   app.add_option("--classes", options.classes, "file of truck classes")->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    std::string what = error.what();
-    std::replace(what.begin(), what.end(), '\n', ' ');
-    fmt::print(stderr, "berm recognize: {} (see --help)\n", what);
-    return 2;
-  }
+  if (const auto status = berm::config::parse_options(app, argc, argv)) return *status;
   try {
     return berm::app::run(options);
   } catch (const std::exception& error) {
