@@ -7,6 +7,7 @@
 
 #include "config/strict_table.hpp"
 #include "recognition/truck_ranges.hpp"
+#include "scratch.hpp"
 
 namespace berm::app {
 namespace {
@@ -20,8 +21,8 @@ std::string error_with(const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   if (at == std::string::npos) return "not in the shipped file: " + from;
   text.replace(at, from.size(), to);
-  const std::string path = testing::TempDir() + "berm_truck_ranges.toml";
-  std::ofstream(path) << text;
+  const test::Scratch scratch;
+  const std::string path = scratch.write("ranges.toml", text);
   std::string error;
   try {
     read_truck_ranges(path);
@@ -30,7 +31,6 @@ std::string error_with(const std::string& from, const std::string& to) {
     EXPECT_EQ(error.find(path), 0U) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   }
-  std::remove(path.c_str());
   return error;
 }
 
