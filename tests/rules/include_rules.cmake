@@ -9,13 +9,13 @@ endif()
 set(interface_rooms contract can scan config journal)
 set(kernel_rooms core geometry io)
 set(record_rooms record)
-set(app_rooms points gathering motion planning perception app)
+set(app_rooms points gathering recognition motion planning perception app)
 set(plant_rooms plant)
 set(run_rooms plant run map)
 set(in_process_rooms plant in_process io)
 set(validate_rooms plant run in_process validate)
 set(watch_rooms plant run in_process watch io core record ${app_rooms})  # the app's own pan schedule moves the scanners
-set(truck_world_rooms plant run truck_world points)  # points: clouds as files
+set(truck_world_rooms plant run truck_world points recognition)  # points: clouds as files; recognition: what is judged
 set(identify_rooms identify run)  # never the plant: it measures what is on the bus
 
 set(violations 0)

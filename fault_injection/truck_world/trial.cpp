@@ -1,0 +1,135 @@
+#include "truck_world/trial.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace berm::truck_world {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Vector8d = Eigen::Matrix<double, 8, 1>;
+
+// Null without a value.
+Json percentile(std::vector<double> values, double share) {
+  if (values.empty()) return nullptr;
+  std::sort(values.begin(), values.end());
+  return values[std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())))];
+}
+
+app::BedPose pose_of(const TruckTruth& k) {
+  app::BedPose pose;
+  for (const Vector3d& corner : k.corners) pose.middle += corner / 4.0;
+  pose.yaw = k.yaw;
+  pose.pitch = k.pitch;
+  pose.roll = k.roll;
+  pose.length = k.inside_length;
+  pose.width = k.inside_width;
+  pose.thickness = k.wall_thickness;
+  pose.open_end = k.tailgate == name_of(Tailgate::up) ? 0 : -1;
+  return pose;
+}
+
+Json accuracy(const std::vector<Trial>& trials) {
+  std::vector<double> corner, yaw, size, length, width, height;
+  int trucks = 0, recognised = 0;
+  double nees = 0.0;
+  int within = 0;
+  for (const Trial& t : trials) {
+    trucks += t.truck ? 1 : 0;
+    if (!t.recognised) continue;
+    ++recognised;
+    corner.insert(corner.end(), t.corner_errors.begin(), t.corner_errors.end());
+    yaw.push_back(std::abs(t.yaw_error) * 180.0 / pi);
+    for (const double e : {t.length_error, t.width_error}) size.push_back(std::abs(e));
+    length.push_back(std::abs(t.length_error));
+    width.push_back(std::abs(t.width_error));
+    height.push_back(std::abs(t.height_error));
+    nees += t.nees / 8.0;
+    within += t.nees < 15.507 ? 1 : 0;  // chi-square, 8 degrees of freedom, 95 %
+  }
+  Json json;
+  json["trucks"] = trucks;
+  json["recognised"] = recognised;
+  json["corner_error_m_p50"] = percentile(corner, 0.5);
+  json["corner_error_m_p95"] = percentile(corner, 0.95);
+  json["yaw_error_deg_p95"] = percentile(yaw, 0.95);
+  json["dimension_error_m_p95"] = percentile(size, 0.95);
+  json["length_error_m_p95"] = percentile(length, 0.95);
+  json["width_error_m_p95"] = percentile(width, 0.95);
+  json["height_error_m_p95"] = percentile(height, 0.95);
+  json["nees_ratio"] = recognised > 0 ? Json(nees / recognised) : Json(nullptr);
+  json["nees_within_95"] = recognised > 0 ? Json(static_cast<double>(within) / recognised) : Json(nullptr);
+  return json;
+}
+
+}  // namespace
+
+std::array<double, 3> viewpoint_of(const Scene& scene) {
+  const Vector3d& v = scene.truth.viewpoint;
+  return {v.x(), v.y(), v.z()};
+}
+
+Trial judge(const Scene& scene, const app::RecognisedTruck& answer) {
+  const SceneTruth& truth = scene.truth;
+  const TruckTruth& k = truth.of_truck;
+  Trial t;
+  t.scene = truth.scene;
+  t.truck = truth.truck;
+  t.found = answer.found;
+  t.truck_class = k.truck_class;
+  t.tailgate = k.tailgate;
+  t.look_alike = truth.look_alike;
+  t.reason = answer.reason;
+  t.hidden_share = k.hidden_share;
+  t.milliseconds = answer.milliseconds;
+  t.evidence = answer.evidence;
+  t.pose = answer.pose;
+  if (!t.truck) return t;
+  const app::BedPose true_pose = pose_of(k);
+  t.true_score = app::weigh(true_pose, app::rays_near(app::make_fans(scene.cloud, viewpoint_of(scene)), true_pose)).score;
+  if (!t.found) return t;
+  Vector3d middle = Vector3d::Zero();
+  for (std::size_t i = 0; i < 4; ++i) {
+    t.corner_errors[i] = (answer.corners[i] - k.corners[i]).norm();
+    middle += k.corners[i] / 4.0;
+  }
+  t.yaw_error = std::remainder(answer.yaw - k.yaw, 2 * pi);
+  t.length_error = answer.length - k.inside_length;
+  t.width_error = answer.width - k.inside_width;
+  t.height_error = answer.height - k.wall_height;
+  Vector8d error;
+  error << answer.pose.middle - middle, t.yaw_error, answer.pose.pitch - k.pitch, answer.pose.roll - k.roll, t.length_error, t.width_error;
+  t.nees = error.dot(answer.pose_covariance.ldlt().solve(error));
+  t.recognised = *std::max_element(t.corner_errors.begin(), t.corner_errors.end()) <= kCornerGate;
+  return t;
+}
+
+Json summary(const std::vector<Trial>& trials) {
+  std::vector<Trial> with;
+  std::map<std::string, std::vector<Trial>> classes;
+  std::vector<double> milliseconds;
+  int without = 0, accepted = 0;
+  for (const Trial& t : trials) {
+    milliseconds.push_back(t.milliseconds);
+    if (t.truck) {
+      with.push_back(t);
+      classes[t.truck_class].push_back(t);
+      classes["tailgate " + t.tailgate].push_back(t);
+    } else {
+      ++without;
+      accepted += t.found ? 1 : 0;
+    }
+  }
+  Json json = accuracy(with);
+  json["non_trucks"] = without;
+  json["false_accepts"] = accepted;
+  json["ms_p50"] = percentile(milliseconds, 0.5);
+  json["ms_max"] = percentile(milliseconds, 1.0);
+  json["by_class"] = Json::object();
+  for (const auto& [name, own] : classes) json["by_class"][name] = accuracy(own);
+  return json;
+}
+
+}  // namespace berm::truck_world

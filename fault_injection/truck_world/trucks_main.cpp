@@ -1,0 +1,102 @@
+// berm trucks: drawn scenes with and without a truck through the app's recogniser, judged by the truth.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "config/command_line.hpp"
+#include "config/whole_file.hpp"
+#include "truck_world/trial.hpp"
+
+namespace berm::truck_world {
+namespace {
+
+struct TrialOptions {
+  int scenes = 0;
+  std::uint64_t seed = 1;
+  int only = -1;
+  bool trucks = false, no_trucks = false, list = false;
+  std::string json, drawn = BERM_TRUCK_CLASSES, ranges = BERM_TRUCK_RANGES;
+  SceneOptions scene;
+};
+
+void report(const Trial& t, const TrialOptions& o) {
+  const bool failed = t.truck ? !t.recognised : t.found;
+  if (!failed && !o.list) return;
+  const std::string again = fmt::format("berm trucks --scenes {} --seed {} --only {} {} --list", o.scenes, o.seed, t.scene,
+                                        t.truck ? "--trucks" : "--no-trucks");
+  if (!t.truck) {
+    fmt::print("{} {}: {} [{}]\n", t.found ? "ACCEPTED" : "none", t.look_alike.empty() ? "clutter" : t.look_alike,
+               t.found ? fmt::format("{:.2f} x {:.2f}", t.pose.length, t.pose.width) : t.reason, again);
+  } else if (!t.found) {
+    fmt::print("MISSED {} (tailgate {}, {:.0f} % of the edge hidden): {} [{}]\n", t.truck_class, t.tailgate, 100 * t.hidden_share, t.reason, again);
+  } else {
+    fmt::print("{} {} (tailgate {}, {:.0f} % of the edge hidden): corners off by {:.3f} {:.3f} {:.3f} {:.3f} m, yaw {:.2f} deg, length {:.3f}, width "
+               "{:.3f}, height {:.3f} m, nees {:.1f}, {:.1f} ms [{}]\n",
+               t.recognised ? "found" : "MISPLACED", t.truck_class, t.tailgate, 100 * t.hidden_share, t.corner_errors[0], t.corner_errors[1],
+               t.corner_errors[2], t.corner_errors[3], t.yaw_error * 180 / pi, t.length_error, t.width_error, t.height_error, t.nees, t.milliseconds,
+               again);
+  }
+  if (!o.list) return;
+  const app::BedEvidence& e = t.evidence;
+  fmt::print("  evidence {:.1f}: outer faces {}, inner faces {}, tops {}, inside {}, through {}, before {}, over {}; over the opening {} level, "
+             "{} below, {} above; open end {}; {:.2f} x {:.2f}; the truth weighs {:.1f}\n",
+             e.score, e.outer_face, e.inner_face, e.wall_top, e.inside, e.through, e.before, e.over, e.level_inside, e.below_inside, e.above_inside,
+             t.pose.open_end, t.pose.length, t.pose.width, t.true_score);
+}
+
+int run(int argc, char** argv) {
+  TrialOptions o;
+  CLI::App app{
+      "Draws N scenes with a truck and N without, gives one sweep over each to the planning app's truck recogniser, and judges the answers by the\n"
+      "truth. Failures are listed with the command that repeats them. Exit status 0: every truck was recognised and nothing else was.",
+      "berm trucks"};
+  app.add_option("--scenes", o.scenes, "this many with a truck, and this many without")->required()->check(CLI::Range(1, 1000000));
+  app.add_option("--seed", o.seed, "seed of every draw")->capture_default_str();
+  app.add_option("--json", o.json, "write the result");
+  app.add_option("--only", o.only, "this one scene alone")->check(CLI::Range(0, 999999));
+  auto* with = app.add_flag("--trucks", o.trucks, "only the scenes with a truck");
+  app.add_flag("--no-trucks", o.no_trucks, "only the scenes without")->excludes(with);
+  app.add_flag("--list", o.list, "one line for every scene, with its evidence");
+  app.add_option("--points", o.scene.samples, "samples of a sweep")->check(CLI::Range(9200, 1000000))->capture_default_str();
+  app.add_option("--noise", o.scene.noise.stddev, "standard deviation of a range, m")->check(CLI::Range(0.0, 0.5))->capture_default_str();
+  app.add_option("--hidden", o.scene.hidden_max, "most of the edge that an occluder hides")->check(CLI::Range(0.0, 0.3))->capture_default_str();
+  app.add_option("--swinging", o.scene.swinging_share, "share of scenes in which the machine swings")
+      ->check(CLI::Range(0.0, 1.0))->capture_default_str();
+  app.add_option("--classes", o.drawn, "file of truck classes that are drawn")->capture_default_str();
+  app.add_option("--ranges", o.ranges, "file of truck classes that are recognised")->capture_default_str();
+  if (const auto status = config::parse_options(app, argc, argv)) return *status;
+
+  const std::vector<TruckClass> classes = read_truck_classes(o.drawn);
+  const app::TruckRangeSet ranges = app::read_truck_ranges(o.ranges);
+  const int first = o.only >= 0 ? o.only : 0, end = o.only >= 0 ? o.only + 1 : o.scenes;
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  std::vector<Trial> trials;
+  for (int number = first; number < end; ++number) {
+    for (const Content content : {Content::truck, Content::no_truck}) {
+      if ((content == Content::truck && o.no_trucks) || (content == Content::no_truck && o.trucks)) continue;
+      o.scene.content = content;
+      const Scene scene = draw_scene(classes, o.scene, o.seed, number);
+      trials.push_back(judge(scene, app::recognise_truck(scene.cloud, viewpoint_of(scene), ranges)));
+      report(trials.back(), o);
+    }
+    if (terminal && number % 10 == 9) fmt::print(stderr, "\r{} of {} scenes", number + 1 - first, end - first);
+  }
+  if (terminal) fmt::print(stderr, "\n");
+  const nlohmann::ordered_json json = summary(trials);
+  fmt::print("{}\n", json.dump(1));
+  if (!o.json.empty()) config::write_whole_file(o.json, json.dump(1) + "\n");
+  return json["trucks"] == json["recognised"] && json["false_accepts"] == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace berm::truck_world
+
+int main(int argc, char** argv) {
+  try {
+    return berm::truck_world::run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "berm trucks: {}\n", error.what());
+    return 2;
+  }
+}

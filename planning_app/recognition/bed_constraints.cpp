@@ -1,0 +1,145 @@
+#include "recognition/bed_constraints.hpp"
+
+#include <cmath>
+
+namespace berm::app {
+namespace {
+
+constexpr double kRangeDeviation = 0.03;  // m
+constexpr double kFaceDeviation = 0.010;  // m, of a wall's face: mud
+constexpr double kMud = 0.006;            // m, its mean on the part of the faces that is seen
+constexpr double kEdgeDeviation = 0.010;  // m, scale of the logistic function
+constexpr double kUprightSeen = 0.4;      // m below the top down to which a side is upright: below it may be a pipe
+constexpr double kEdgeReach = 0.45;       // m: rays that pass an edge farther away say nothing of it
+
+class Collector {
+ public:
+  Collector(const BedPose& pose, const std::vector<Ray>& rays) : pose_(pose), rotation_(pose.rotation()) {
+    for (const Ray& ray : rays) take(ray);
+  }
+  std::vector<BedConstraint> out;
+
+ private:
+  void on_plane(const Ray& ray, BedPlane plane, double offset, double deviation) {
+    BedConstraint c{ray.head, ray.at, false, plane, {}, 1, offset, deviation};
+    out.push_back(c);
+  }
+  // crossing: of ray and plane in the bed frame.
+  void past(const Ray& ray, BedPlane plane, BedPlane bound, int sense, const Eigen::Vector3d& crossing) {
+    const double limit = bound.axis == 2 ? 0.0 : pose_.face(bound.axis, bound.side, bound.outer);
+    if (std::abs(bound.side * crossing[bound.axis] - limit) > kEdgeReach) return;
+    out.push_back({ray.head, ray.at, true, plane, bound, sense, 0.0, kEdgeDeviation});
+  }
+  [[nodiscard]] double across(const Ray& ray, int axis) const {
+    const Eigen::Vector3d d = (ray.at - ray.head).normalized();
+    return std::abs(rotation_.col(axis).dot(d));
+  }
+  void face_hit(const Ray& ray, int axis, int side, bool outer) {
+    const double share = across(ray, axis), noise = kRangeDeviation * share;
+    on_plane(ray, {axis, side, outer}, outer ? kMud : -kMud, std::hypot(noise, kFaceDeviation));
+  }
+  [[nodiscard]] Eigen::Vector3d crossing(const Ray& ray, const BedPlane& plane) const {
+    const Eigen::Vector3d a = rotation_.transpose() * (ray.head - pose_.middle), d = rotation_.transpose() * (ray.at - ray.head);
+    const double limit = plane.axis == 2 ? 0.0 : plane.side * pose_.face(plane.axis, plane.side, plane.outer);
+    return a + (limit - a[plane.axis]) / d[plane.axis] * d;
+  }
+
+  void take(const Ray& ray) {
+    const RayMeeting m = meet(pose_, rotation_, ray);
+    const BedPlane rim{2, 1, false};
+    switch (m.what) {
+      case Meeting::outer_face: {
+        const BedPlane face{m.axis, m.side, true};
+        if (m.axis == 0 || m.entry.z() > -kUprightSeen) face_hit(ray, m.axis, m.side, true);
+        past(ray, face, rim, 1, m.entry);
+        for (const int side : {-1, 1}) past(ray, face, {1 - m.axis, side, true}, 1, m.entry);
+        break;
+      }
+      case Meeting::through_face: {
+        const BedPlane face{m.axis, m.side, true};
+        // Above the wall or beside it: by the nearer way.
+        double best = -m.entry.z();
+        BedPlane bound = rim;
+        for (const int side : {-1, 1}) {
+          const double to = pose_.face(1 - m.axis, side, true) - side * m.entry[1 - m.axis];
+          if (to < best) best = to, bound = {1 - m.axis, side, true};
+        }
+        past(ray, face, bound, -1, m.entry);
+        break;
+      }
+      case Meeting::wall_top: {
+        const double share = across(ray, 2), noise = kRangeDeviation * share;
+        if (std::abs(m.off * share) > 3 * noise + 0.02) break;
+        on_plane(ray, rim, 0.0, std::hypot(noise, 0.004));
+        if (m.axis < 0) break;
+        past(ray, rim, {m.axis, m.side, false}, -1, m.rim);
+        past(ray, rim, {m.axis, m.side, true}, 1, m.rim);
+        break;
+      }
+      case Meeting::through_top:
+        inside_of(ray, m.rim, m.end);
+        break;
+      case Meeting::inside:
+      case Meeting::inner_face:
+      case Meeting::through_inner:
+        inside_of(ray, m.rim, m.end);
+        if (m.what == Meeting::inner_face && m.end.z() < -0.03 && (m.axis == 0 || m.end.z() > -kUprightSeen)) face_hit(ray, m.axis, m.side, false);
+        break;
+      case Meeting::over:
+        if (m.entry.z() >= 0.0) over_wall(ray, m);
+        break;
+      case Meeting::above_face:
+      case Meeting::before:
+      case Meeting::none: break;
+    }
+    if (m.what == Meeting::none) beside(ray);
+  }
+
+  // The return lies below the plane of the tops: the ray passed within the inner edges. Above it, it is a top that the pose does not have there yet.
+  void inside_of(const Ray& ray, const Eigen::Vector3d& at_rim, const Eigen::Vector3d& end) {
+    const BedPlane rim{2, 1, false};
+    const double noise = kRangeDeviation * across(ray, 2);
+    if (end.z() > -std::max(0.035, 2.5 * noise)) {
+      const bool far_beyond = (end - at_rim).norm() > 0.2;
+      if (far_beyond || std::abs(end.z()) > 2.5 * noise) return;
+      for (int axis = 0; axis < 2; ++axis)
+        for (const int side : {-1, 1})
+          if (std::abs(side * at_rim[axis] - pose_.face(axis, side, false)) < 0.06 && !(axis == 0 && side == pose_.open_end))
+            past(ray, rim, {axis, side, false}, -1, at_rim);
+      return;
+    }
+    for (int axis = 0; axis < 2; ++axis)
+      for (const int side : {-1, 1})
+        if (!(axis == 0 && side == pose_.open_end)) past(ray, rim, {axis, side, false}, 1, at_rim);
+  }
+
+  void over_wall(const Ray& ray, const RayMeeting& m) {
+    if (m.axis < 0 || (m.axis == 0 && m.side == pose_.open_end)) return;
+    const Eigen::Vector3d at_rim = crossing(ray, {2, 1, false});
+    if (m.side * m.end[m.axis] > pose_.face(m.axis, m.side, true) + 0.15) past(ray, {2, 1, false}, {m.axis, m.side, true}, -1, at_rim);
+  }
+
+  // Rays that pass a wall's end.
+  void beside(const Ray& ray) {
+    const Eigen::Vector3d a = rotation_.transpose() * (ray.head - pose_.middle), end = rotation_.transpose() * (ray.at - pose_.middle);
+    for (int axis = 0; axis < 2; ++axis) {
+      const int side = a[axis] > 0.0 ? 1 : -1;
+      if (axis == 0 && side == pose_.open_end) continue;
+      const double limit = pose_.face(axis, side, true);
+      if (side * a[axis] < limit || side * end[axis] > limit - kRangeGate) continue;  // not from outside to well behind it
+      const Eigen::Vector3d at = crossing(ray, {axis, side, true});
+      if (at.z() > -0.05 || at.z() < -kWallSeen) continue;
+      for (const int end_side : {-1, 1})
+        if (end_side * at[1 - axis] > pose_.face(1 - axis, end_side, true)) past(ray, {axis, side, true}, {1 - axis, end_side, true}, -1, at);
+    }
+  }
+
+  const BedPose& pose_;
+  Eigen::Matrix3d rotation_;
+};
+
+}  // namespace
+
+std::vector<BedConstraint> constraints(const BedPose& pose, const std::vector<Ray>& rays) { return Collector(pose, rays).out; }
+
+}  // namespace berm::app

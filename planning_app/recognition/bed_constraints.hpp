@@ -1,0 +1,29 @@
+// What the rays of a sweep say of a bed, as single statements for a fit.
+#pragma once
+
+#include <vector>
+
+#include "recognition/bed_model.hpp"
+
+namespace berm::app {
+
+// A plane of the bed: axis 0 or 1 with the side, and whether it is the wall's outer face; axis 2: the plane of the tops.
+struct BedPlane {
+  int axis = 0, side = 1;
+  bool outer = false;
+};
+
+struct BedConstraint {
+  Eigen::Vector3d head, at;  // of the ray
+  bool edge = false;
+  BedPlane plane;            // the return lies on it; or the ray crosses it
+  BedPlane bound;            // edge: where the ray crosses plane, side * coordinate is below the bound (sense 1) or beyond it (sense -1)
+  int sense = 1;
+  double offset = 0.0;       // m: return on a face, its mean distance outwards
+  double deviation = 0.03;   // m
+};
+
+// pose: near enough to tell which face each ray meets.
+std::vector<BedConstraint> constraints(const BedPose& pose, const std::vector<Ray>& rays);
+
+}  // namespace berm::app

@@ -1,0 +1,34 @@
+// The fit of a bed to the rays of a sweep: pose, inside length, width, plane of the tops and wall thickness by robust least squares (Ceres), with the
+// covariance that the rays carry. Frames and units as in bed_model.hpp.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "recognition/bed_model.hpp"
+
+namespace berm::app {
+
+using Matrix8d = Eigen::Matrix<double, 8, 8>;
+using Matrix12d = Eigen::Matrix<double, 12, 12>;
+
+struct FittedBed {
+  BedPose pose;
+  Matrix8d covariance = Matrix8d::Zero();   // of middle x y z, yaw, pitch, roll, length, width; m, rad
+  int residuals = 0;
+  bool converged = false;
+};
+
+// Two kinds of residuals. Returns on a face or on the walls' tops: their distance from that plane. Rays past an edge: each must pass on its side, by
+// the negative logarithm of a logistic function of the distance; so an edge is bracketed between the rays that pass it on either side, however far
+// apart two rays of one scanline are. What a ray passed is decided by the pose, which must be near already (0.2 m, 3 degrees), and decided again in
+// every round.
+FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds);
+
+// Of the opening on the inner top edge: (+u, +v), (-u, +v), (-u, -v), (+u, -v).
+std::array<Eigen::Vector3d, 4> opening_corners(const BedPose& pose);
+// Of x y z of the four corners in turn; rank 8.
+Matrix12d corner_covariance(const FittedBed& fit);
+
+}  // namespace berm::app

@@ -1,0 +1,143 @@
+#include "recognition/bed_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace berm::app {
+namespace {
+
+// Weights of the evidence: a return on a face that is predicted weighs 1.
+constexpr double kInside = 0.08;  // a return somewhere inside
+constexpr double kThrough = 2.5;  // a ray through a wall
+constexpr double kAbove = 1.0;    // a return where a wall goes on above its top
+constexpr double kLevel = 0.35;   // a return over the opening in the plane of the tops: a lid
+
+struct Crossing {
+  double in = -1e9, out = 1e9;
+  int in_axis = -1, in_side = 0, out_axis = -1, out_side = 0;
+};
+
+// Where a ray crosses the rectangle of the walls' faces in plan; in >= out: not at all.
+Crossing cross(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& d, bool outer) {
+  Crossing c;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double low = -pose.face(axis, -1, outer), high = pose.face(axis, 1, outer);
+    if (std::abs(d[axis]) < 1e-12) {
+      if (a[axis] < low || a[axis] > high) c.out = -1e9;
+      continue;
+    }
+    const int entered = d[axis] > 0.0 ? -1 : 1;
+    const double in = ((entered < 0 ? low : high) - a[axis]) / d[axis], out = ((entered < 0 ? high : low) - a[axis]) / d[axis];
+    if (in > c.in) c.in = in, c.in_axis = axis, c.in_side = entered;
+    if (out < c.out) c.out = out, c.out_axis = axis, c.out_side = -entered;
+  }
+  return c;
+}
+
+}  // namespace
+
+Eigen::Matrix3d BedPose::rotation() const {
+  const double cy = std::cos(yaw), sy = std::sin(yaw), cp = std::cos(pitch), sp = std::sin(pitch), cr = std::cos(roll), sr = std::sin(roll);
+  Eigen::Matrix3d r;
+  r << cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr, sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr, -sp, cp * sr, cp * cr;
+  return r;
+}
+
+double BedPose::face(int axis, int side, bool outer) const {
+  const double inner = (axis == 0 ? length : width) / 2;
+  return outer && !(axis == 0 && side == open_end) ? inner + thickness : inner;
+}
+
+RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray& ray) {
+  RayMeeting m;
+  const Eigen::Vector3d a = rotation.transpose() * (ray.head - pose.middle), end = rotation.transpose() * (ray.at - pose.middle), d = end - a;
+  m.end = end;
+  const Crossing outer = cross(pose, a, d, true);
+  if (outer.in >= outer.out || outer.out <= 0.0 || outer.in <= 0.0) return m;
+  const double range = d.norm();
+  m.entry = a + outer.in * d;
+  m.axis = outer.in_axis;
+  m.side = outer.in_side;
+  const bool open = m.axis == 0 && m.side == pose.open_end;
+  if (m.entry.z() < 0.0) {
+    if (m.entry.z() < -kWallSeen) return m;
+    m.off = (1.0 - outer.in) * range;
+    if (m.off < -kRangeGate) m.what = Meeting::before;
+    else if (open) m.what = Meeting::none;
+    else m.what = m.off <= kRangeGate ? Meeting::outer_face : Meeting::through_face;
+    return m;
+  }
+  if (m.entry.z() > 0.1 && std::abs(1.0 - outer.in) * range < kRangeGate) {
+    m.what = Meeting::above_face;
+    return m;
+  }
+  if (outer.in * range > range + kRangeGate) {
+    m.what = Meeting::before;
+    return m;
+  }
+  if (d.z() >= 0.0) {
+    m.what = Meeting::over;
+    return m;
+  }
+  const double to_rim = -a.z() / d.z();
+  m.rim = a + to_rim * d;
+  const auto leave = [&](const Crossing& c) { m.axis = c.out_axis, m.side = c.out_side; };
+  if (to_rim >= outer.out) {
+    leave(outer);
+    m.what = outer.out > 1.0 ? Meeting::before : Meeting::over;
+    return m;
+  }
+  m.off = (1.0 - to_rim) * range;
+  const bool over_opening = m.rim.x() < pose.face(0, 1, false) && m.rim.x() > -pose.face(0, -1, false) && std::abs(m.rim.y()) < pose.width / 2;
+  if (!over_opening) {
+    m.what = m.off < -0.15 ? Meeting::before : m.off <= 0.15 ? Meeting::wall_top : Meeting::through_top;
+    for (int axis = 0; axis < 2; ++axis)
+      for (int side = -1; side <= 1; side += 2)
+        if (m.rim[axis] * side >= pose.face(axis, side, false)) m.axis = axis, m.side = side;
+    return m;
+  }
+  const Crossing inner = cross(pose, a, d, false);
+  leave(inner);
+  if (m.off < -0.1) {
+    m.what = Meeting::before;
+    return m;
+  }
+  m.off = (1.0 - inner.out) * range;
+  const bool out_of_end = m.axis == 0 && m.side == pose.open_end;
+  if (m.off < -kRangeGate || (out_of_end && m.off <= kRangeGate)) m.what = Meeting::inside;
+  else if (out_of_end) m.what = Meeting::over;
+  else m.what = m.off <= kRangeGate ? Meeting::inner_face : Meeting::through_inner;
+  return m;
+}
+
+BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays) {
+  BedEvidence e;
+  const Eigen::Matrix3d rotation = pose.rotation();
+  const auto fit = [](double off, double gate) { return 1.0 - off * off / (gate * gate); };
+  for (const Ray& ray : rays) {
+    const RayMeeting m = meet(pose, rotation, ray);
+    switch (m.what) {
+      case Meeting::none: break;
+      case Meeting::before: ++e.before; break;
+      case Meeting::outer_face: ++e.outer_face, e.score += fit(m.off, kRangeGate); break;
+      case Meeting::above_face: ++e.above_face, e.score -= kAbove; break;
+      case Meeting::wall_top: ++e.wall_top, e.score += 0.7 * fit(m.off, 0.15); break;
+      case Meeting::inside: ++e.inside, e.score += kInside; break;
+      case Meeting::inner_face: ++e.inner_face, e.score += kInside + (1.0 - kInside) * fit(m.off, kRangeGate); break;
+      case Meeting::over: ++e.over; break;
+      case Meeting::through_face:
+      case Meeting::through_inner: ++e.through, e.score -= kThrough; break;
+      case Meeting::through_top: ++e.through, e.score -= 0.5 * kThrough; break;
+    }
+    if (m.what == Meeting::none || m.what == Meeting::outer_face) continue;
+    const Eigen::Vector3d& p = m.end;
+    if (std::abs(p.x()) > pose.length / 2 - 0.3 || std::abs(p.y()) > pose.width / 2 - 0.3) continue;
+    if (std::abs(p.z()) < 0.05) ++e.level_inside, e.score -= kLevel;
+    e.below_inside += p.z() < -0.05 ? 1 : 0;
+    e.above_inside += p.z() > 0.05 ? 1 : 0;
+  }
+  if (pose.open_end != 0) e.score -= 12.0;
+  return e;
+}
+
+}  // namespace berm::app

@@ -1,0 +1,64 @@
+// The model of a bed: an open box of walls with a common top, and what each ray of a sweep should meet of it.
+// Bed frame: origin in the middle of the opening, u along the bed, v across (u x v = w), w up from the plane of the walls' tops. Metres, radians.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "recognition/fans.hpp"
+
+namespace berm::app {
+
+struct BedPose {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  double yaw = 0.0, pitch = 0.0, roll = 0.0;  // R = Rz(yaw) Ry(pitch) Rx(roll)
+  double length = 0.0, width = 0.0, thickness = 0.0;
+  int open_end = 0;                           // 1: no wall at +u; -1: none at -u; 0: walls all round
+
+  [[nodiscard]] Eigen::Matrix3d rotation() const;
+  // From the middle to a wall's inner or outer face; axis 0: u, 1: v; side: 1 or -1. Where the end is open both are the side walls' end.
+  [[nodiscard]] double face(int axis, int side, bool outer) const;
+};
+
+struct Ray {
+  Eigen::Vector3d head, at;  // from the sensor to the return
+};
+
+constexpr double kWallSeen = 0.6;   // m below the top down to which every class has wall, a half pipe within the gate
+constexpr double kRangeGate = 0.12;  // m, four standard deviations of a range
+
+// Of the returns, what the model says of them.
+enum class Meeting {
+  none,          // the ray does not come to the bed, or below the walls
+  before,        // ends before the bed, or above the plane of the tops: hidden, or heap
+  outer_face,    // as predicted
+  above_face,    // in the plane of an outer face, but above the walls' tops
+  wall_top,      // as predicted
+  inside,        // between the tops' plane and the far wall's inner face
+  inner_face,    // as predicted
+  over,          // passes over the far wall, or out of the open end
+  through_face,  // ends beyond a wall that should have stopped it
+  through_inner,
+  through_top
+};
+
+struct RayMeeting {
+  Meeting what = Meeting::none;
+  int axis = -1, side = 0;          // of the face that is entered (outer), or met last inside
+  double off = 0.0;                 // m: measured less predicted range, where a surface is predicted
+  Eigen::Vector3d entry, rim, end;  // in the bed frame: on the entered face's plane, on the plane of the tops, the return
+};
+
+RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray& ray);
+
+struct BedEvidence {
+  double score = 0.0;
+  int outer_face = 0, inner_face = 0, wall_top = 0, inside = 0, through = 0, before = 0, over = 0, above_face = 0;
+  int level_inside = 0;  // of the returns over the opening, within 5 cm of the plane of the tops, more than 0.3 m from the walls
+  int below_inside = 0;  // more than 5 cm below that plane
+  int above_inside = 0;
+};
+
+BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays);
+
+}  // namespace berm::app

@@ -1,0 +1,102 @@
+#include "recognition/fans.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace berm::app {
+namespace {
+
+constexpr double kRangeLimit = 30.0;     // m
+constexpr std::size_t kLeastReturns = 8; // of a fan
+constexpr double kOffPlane = 0.02;       // m, root mean square of the sensor's place over the fans' planes
+
+using Eigen::Vector2d;
+
+struct FanPlane {
+  Vector2d normal;  // horizontal, unit
+  double offset, time;
+};
+
+// The upright plane of a fan's returns; false when they spread too little.
+bool fit_plane(std::span<const FanReturn> returns, FanPlane& out) {
+  Vector2d mean = Vector2d::Zero();
+  for (const FanReturn& r : returns) mean += r.at.head<2>();
+  mean /= static_cast<double>(returns.size());
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (const FanReturn& r : returns) {
+    const Vector2d d = r.at.head<2>() - mean;
+    xx += d.x() * d.x();
+    xy += d.x() * d.y();
+    yy += d.y() * d.y();
+  }
+  const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  out.normal = {-std::sin(angle), std::cos(angle)};
+  out.offset = out.normal.dot(mean);
+  return xx + yy > 0.05 * static_cast<double>(returns.size());
+}
+
+Vector2d turned(const Vector2d& v, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+}
+
+}  // namespace
+
+FanSweep make_fans(const std::vector<ScanPoint>& points, const std::array<double, 3>& viewpoint) {
+  FanSweep sweep;
+  const Eigen::Vector3d head(viewpoint[0], viewpoint[1], viewpoint[2]);
+  std::vector<FanPlane> planes;
+  sweep.returns.reserve(points.size());
+  for (std::size_t i = 0; i < points.size();) {
+    std::size_t end = i;
+    const std::size_t first = sweep.returns.size();
+    for (; end < points.size() && points[end].scanline == points[i].scanline; ++end) {
+      const Eigen::Vector3d at(static_cast<double>(points[end].x), static_cast<double>(points[end].y), static_cast<double>(points[end].z));
+      if ((at - head).squaredNorm() < kRangeLimit * kRangeLimit) sweep.returns.push_back({at, static_cast<std::uint32_t>(sweep.heads.size())});
+    }
+    FanPlane plane{Vector2d::Zero(), 0.0, 0.5 * (points[i].time_s + points[end - 1].time_s)};
+    const std::span<const FanReturn> own(sweep.returns.data() + first, sweep.returns.size() - first);
+    if (own.size() >= kLeastReturns && fit_plane(own, plane)) {
+      planes.push_back(plane);
+      sweep.heads.push_back(head);
+      sweep.begin.push_back(first);
+    } else {
+      sweep.returns.resize(first);
+    }
+    i = end;
+  }
+  sweep.begin.push_back(sweep.returns.size());
+  if (planes.size() < 10) return {{}, {}, {}, 0.0, "the sweep has fewer than 10 scanlines with 8 returns within 30 m"};
+
+  double middle = 0.0;
+  for (const FanPlane& p : planes) middle += p.time / static_cast<double>(planes.size());
+  const auto residual = [&](const FanPlane& p, double angle, double rate) {
+    return p.normal.dot(turned(head.head<2>(), angle + rate * (p.time - middle))) - p.offset;
+  };
+  double angle = 0.0, rate = 0.0, error = 0.0;
+  for (int round = 0; round < 8; ++round) {
+    Eigen::Matrix2d normal = Eigen::Matrix2d::Identity() * 1e-9;
+    Vector2d right = Vector2d::Zero();
+    error = 0.0;
+    for (const FanPlane& p : planes) {
+      const double e = residual(p, angle, rate), dt = p.time - middle;
+      const Vector2d place = turned(head.head<2>(), angle + rate * dt), way(-place.y(), place.x());
+      const Vector2d slope = p.normal.dot(way) * Vector2d(1.0, dt);
+      normal += slope * slope.transpose();
+      right -= slope * e;
+      error += e * e / static_cast<double>(planes.size());
+    }
+    if (round == 0 && error < 1e-6) break;
+    const Vector2d step = normal.ldlt().solve(right);
+    angle += step.x();
+    rate += step.y();
+    if (step.norm() < 1e-9) break;
+  }
+  if (!(std::sqrt(error) < kOffPlane))
+    return {{}, {}, {}, 0.0, "the scanlines are no upright fans through the viewpoint, standing or swinging"};
+  for (std::size_t k = 0; k < planes.size(); ++k) sweep.heads[k].head<2>() = turned(head.head<2>(), angle + rate * (planes[k].time - middle));
+  sweep.swing_rate = rate;
+  return sweep;
+}
+
+}  // namespace berm::app

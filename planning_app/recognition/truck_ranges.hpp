@@ -1,0 +1,31 @@
+// Classes of trucks that may be recognised: the ranges of their sizes (stentz-1999, section 4.1: parameter ranges instead of single values).
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace berm::app {
+
+using SizeRange = std::array<double, 2>;  // low, high; metres
+
+struct TruckRanges {
+  std::string name;
+  SizeRange inside_length{}, inside_width{}, wall_height{}, wall_thickness{};
+  bool open_rear = false;  // the tailgate may be missing or hang down
+};
+
+struct TruckRangeSet {
+  std::vector<TruckRanges> classes;
+  double slack = 0.0;  // m, for the errors of one sweep
+
+  // From the least low end to the greatest high end of all classes.
+  [[nodiscard]] SizeRange hull(SizeRange TruckRanges::*size) const;
+  // The first class that takes in both sizes and the kind of rear, within slack; nullptr when none does. Metres.
+  [[nodiscard]] const TruckRanges* find(double length, double width, bool open_rear) const;
+};
+
+// Reads interface_spec/config/truck_classes.toml or a file like it. Throws config::ConfigError, one line with file, field and limit.
+TruckRangeSet read_truck_ranges(const std::string& file);
+
+}  // namespace berm::app

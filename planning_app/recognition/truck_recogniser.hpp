@@ -1,0 +1,36 @@
+// Truck recognition: one sweep of a scanner in, the opening of a truck's bed out, or why there is none (stentz-1999, section 4.1).
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "points/point_cloud.hpp"
+#include "recognition/bed_fit.hpp"
+#include "recognition/bed_search.hpp"
+#include "recognition/truck_ranges.hpp"
+
+namespace berm::app {
+
+// Frame of the points; metres, radians.
+struct RecognisedTruck {
+  bool found = false;
+  std::string reason;                           // a sentence; empty when found
+  std::string truck_class;                      // the first that takes in the sizes
+  std::array<Eigen::Vector3d, 4> corners{};     // on the inner top edge: front left, rear left, rear right, front right as seen towards the cab
+  double yaw = 0.0;                             // of the bed's long axis, towards the cab
+  double length = 0.0, width = 0.0;             // inside
+  double height = 0.0;                          // from the floor to the walls' top, by what is seen of either; a bed that is full hides its floor
+  bool open_rear = false;
+  Matrix12d covariance = Matrix12d::Zero();     // of x y z of the corners in turn; rank 8: four corners of one rectangle
+  Matrix8d pose_covariance = Matrix8d::Zero();  // of middle x y z, yaw, pitch, roll, length, width
+  BedPose pose;
+  BedEvidence evidence;
+  double milliseconds = 0.0;
+};
+
+// points in measuring order; viewpoint: of the sensor in the middle of the sweep. Never throws for what the points are.
+RecognisedTruck recognise_truck(const std::vector<ScanPoint>& points, const std::array<double, 3>& viewpoint, const TruckRangeSet& ranges);
+
+}  // namespace berm::app

@@ -1,0 +1,40 @@
+// The fit from a start that is off, and its covariance's shape.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "drawn_bed.hpp"
+#include "recognition/bed_fit.hpp"
+#include "recognition/bed_search.hpp"
+
+namespace berm::app {
+namespace {
+
+TEST(BedFit, ComesToTheBedFromNearby) {
+  const DrawnBed drawn;
+  BedPose start;
+  start.middle = {drawn.x + 0.05, drawn.y - 0.04, drawn.top + 0.03};
+  start.yaw = drawn.yaw + 0.01;
+  start.length = drawn.length + 0.06;
+  start.width = drawn.width - 0.05;
+  start.thickness = 0.09;
+  const FanSweep sweep = make_fans(sweep_of(drawn), drawn_viewpoint);
+  const FittedBed fit = fit_bed(start, rays_near(sweep, start), 4);
+  ASSERT_TRUE(fit.converged);
+  EXPECT_NEAR(fit.pose.middle.x(), drawn.x, 0.03);
+  EXPECT_NEAR(fit.pose.middle.y(), drawn.y, 0.03);
+  EXPECT_NEAR(fit.pose.middle.z(), drawn.top, 0.03);
+  EXPECT_NEAR(fit.pose.yaw, drawn.yaw, 0.005);
+  EXPECT_NEAR(fit.pose.length, drawn.length, 0.05);
+  EXPECT_NEAR(fit.pose.width, drawn.width, 0.05);
+  const Eigen::SelfAdjointEigenSolver<Matrix8d> own(fit.covariance);
+  EXPECT_GT(own.eigenvalues().minCoeff(), 0.0);
+  EXPECT_LT(fit.covariance(6, 6), 0.05 * 0.05);
+  const Eigen::SelfAdjointEigenSolver<Matrix12d> corners(corner_covariance(fit));
+  EXPECT_GT(corners.eigenvalues().minCoeff(), -1e-9);
+}
+
+TEST(BedFit, SaysWhenTooFewRaysSpeakOfTheBed) { EXPECT_FALSE(fit_bed({}, {}, 3).converged); }
+
+}  // namespace
+}  // namespace berm::app

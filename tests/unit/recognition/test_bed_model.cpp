@@ -1,0 +1,50 @@
+// What single rays meet of a bed.
+#include <gtest/gtest.h>
+
+#include "recognition/bed_model.hpp"
+
+namespace berm::app {
+namespace {
+
+BedPose bed() {
+  BedPose pose;
+  pose.length = 5.0;
+  pose.width = 2.4;
+  pose.thickness = 0.1;
+  return pose;
+}
+
+// From 6 m aside and 2 m up towards a place, ending there or beyond it by some metres.
+RayMeeting towards(const BedPose& pose, const Eigen::Vector3d& place, double beyond = 0.0) {
+  const Eigen::Vector3d head(0.0, 6.0, 2.0);
+  return meet(pose, pose.rotation(), {head, place + beyond * (place - head).normalized()});
+}
+
+TEST(BedModel, NearWallIsMetOutside) {
+  EXPECT_EQ(towards(bed(), {0.0, 1.3, -0.3}).what, Meeting::outer_face);
+  EXPECT_EQ(towards(bed(), {0.0, 1.3, -0.3}, 0.5).what, Meeting::through_face);
+  EXPECT_EQ(towards(bed(), {0.0, 1.3, -0.3}, -0.5).what, Meeting::before);
+  EXPECT_EQ(towards(bed(), {0.0, 1.3, -0.9}).what, Meeting::none);
+}
+
+TEST(BedModel, FarWallIsMetInside) {
+  EXPECT_EQ(towards(bed(), {0.0, -1.2, -0.4}).what, Meeting::inner_face);
+  EXPECT_EQ(towards(bed(), {0.0, -1.2, -0.4}, 0.5).what, Meeting::through_inner);
+  EXPECT_EQ(towards(bed(), {0.0, 0.0, -0.2}).what, Meeting::inside);
+  EXPECT_EQ(towards(bed(), {0.0, -1.25, 0.0}).what, Meeting::wall_top);
+  EXPECT_EQ(towards(bed(), {0.0, -1.3, 0.3}, 3.0).what, Meeting::over);
+  EXPECT_EQ(towards(bed(), {9.0, 0.0, 0.0}).what, Meeting::none);
+}
+
+TEST(BedModel, OpenEndStopsNothing) {
+  BedPose pose = bed();
+  const Ray out{{6.0, 0.0, 2.0}, {-4.5, 0.0, -1.0}};
+  EXPECT_EQ(meet(pose, pose.rotation(), out).what, Meeting::through_inner);
+  pose.open_end = -1;
+  EXPECT_EQ(meet(pose, pose.rotation(), out).what, Meeting::over);
+  EXPECT_DOUBLE_EQ(pose.face(0, -1, true), 2.5);
+  EXPECT_DOUBLE_EQ(pose.face(0, 1, true), 2.6);
+}
+
+}  // namespace
+}  // namespace berm::app
