@@ -69,11 +69,17 @@ bool meets_region(const Footprint& f, const Region& region) {
   return false;
 }
 
-bool obstacle_near(const Footprint& f, double within, const sk_monitor& monitor, const sk_monitor_rules& rules) {
+bool Held::somebody(int iy, int ix) const {
+  if (heights == nullptr) return false;
+  if (histograms == nullptr) return sk_flag_is_obstacle(heights->accumulated_flag[iy][ix]);
+  return histograms->state[iy][ix] != SK_CELL_LEARNING && histograms->state[iy][ix] != SK_CELL_CLEAR;
+}
+
+bool somebody_near(const Footprint& f, double within, const Held& held, const sk_monitor_rules& rules) {
   const Cells cells = around(f.x, f.y, outer_radius(f) + within);
   for (int iy = cells.y_first; iy <= cells.y_last; ++iy)
     for (int ix = cells.x_first; ix <= cells.x_last; ++ix)
-      if (rules.watched[iy][ix] != 0 && sk_flag_is_obstacle(monitor.accumulated_flag[iy][ix]) &&
+      if (rules.watched[iy][ix] != 0 && held.somebody(iy, ix) &&
           distance(f, origin_m + cell_m * (ix + 0.5), origin_m + cell_m * (iy + 0.5)) <= within)
         return true;
   return false;

@@ -1,6 +1,7 @@
 // The ground that a person or vehicle covers, and its place against the kernel's safety region. Base frame, metres, radians.
 #pragma once
 
+#include "core/monitor_histogram.h"
 #include "core/monitor_rules.h"
 #include "io/space_watch.hpp"
 #include "plant/oracle/oracle.hpp"
@@ -35,8 +36,16 @@ struct Region {
 bool watched_at(const Region& region, double x, double y);
 // Whether the footprint covers some part of a watched cell.
 bool meets_region(const Footprint& footprint, const Region& region);
-// Whether a watched cell with its middle no farther from the footprint than within holds an obstacle of the monitor's.
-bool obstacle_near(const Footprint& footprint, double within, const sk_monitor& monitor, const sk_monitor_rules& rules);
+// What one of the kernel's monitors holds: heights, or histograms where it compares with those.
+struct Held {
+  const sk_monitor* heights = nullptr;               // null: there is no such monitor
+  const sk_monitor_histogram* histograms = nullptr;  // not null: heights are empty
+
+  bool somebody(int iy, int ix) const;
+};
+
+// Whether a watched cell with its middle no farther from the footprint than within holds somebody.
+bool somebody_near(const Footprint& footprint, double within, const Held& held, const sk_monitor_rules& rules);
 
 // The person or vehicle as a body of the oracle's, standing at (x, y, z).
 plant::oracle::Body body_of(const plant::MoverConfig& shape, const plant::MoverPose& pose);

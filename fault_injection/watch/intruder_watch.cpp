@@ -12,9 +12,9 @@ constexpr double cycle_s = 0.01, rounding_s = 1e-6;
 constexpr double track_every_s = 0.1;
 }  // namespace
 
-std::array<const sk_monitor*, 1 + BERM_LIDARS> monitors_of(const kernel::WorkspaceWatch& workspace) {
-  std::array<const sk_monitor*, 1 + BERM_LIDARS> monitors{};
-  for (int i = 0; i < workspace.monitors(); ++i) monitors[static_cast<std::size_t>(i)] = &workspace.monitor(i);
+std::array<Held, 1 + BERM_LIDARS> monitors_of(const kernel::WorkspaceWatch& workspace) {
+  std::array<Held, 1 + BERM_LIDARS> monitors{};
+  for (int i = 0; i < workspace.monitors(); ++i) monitors[static_cast<std::size_t>(i)] = {&workspace.monitor(i), workspace.histogram(i)};
   return monitors;
 }
 
@@ -68,8 +68,8 @@ void IntruderWatch::detect(const Moment& now, const Presence& presence, std::siz
   bool found = false;
   if (now.stop_reason == BERM_STOP_INTRUDER) {
     found = nearest_on_track(i, now.cell_x, now.cell_y) <= alarm_within_m || std::any_of(track_[i].begin(), track_[i].end(), [&](const Seen& s) {
-              return std::any_of(now.monitors.begin(), now.monitors.end(), [&](const sk_monitor* monitor) {
-                return monitor != nullptr && obstacle_near(s.footprint, alarm_within_m, *monitor, *now.region.rules);
+              return std::any_of(now.monitors.begin(), now.monitors.end(), [&](const Held& held) {
+                return somebody_near(s.footprint, alarm_within_m, held, *now.region.rules);
               });
             });
   } else if (stops_now && BERM_STOP_HAS_CELL(now.stop_reason)) {

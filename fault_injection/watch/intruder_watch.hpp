@@ -26,11 +26,11 @@ struct Moment {
   std::uint8_t kernel_state = 0, stop_reason = 0;  // BERM_STATE_*, BERM_STOP_*
   double cell_x = 0.0, cell_y = 0.0, cell_height = 0.0;  // published with a reason that has a cell, m
   bool still = false;                              // every joint slower than standstill_rad_s
-  std::array<const sk_monitor*, 1 + BERM_LIDARS> monitors{};  // those that there are
-  Region region;                                              // its rules: those that compare the least often
+  std::array<Held, 1 + BERM_LIDARS> monitors{};    // those that there are
+  Region region;                                   // its rules: those that compare the least often
 };
 
-std::array<const sk_monitor*, 1 + BERM_LIDARS> monitors_of(const kernel::WorkspaceWatch& workspace);
+std::array<Held, 1 + BERM_LIDARS> monitors_of(const kernel::WorkspaceWatch& workspace);
 
 // Where one of them truly is.
 struct Presence {

@@ -140,12 +140,13 @@ std::string row_of(const std::string& name, const ordered_json& f) {
 
 std::string command_of(const Campaign& campaign, const IntrusionResult& r) {
   const std::string machine = campaign.machine == "zx200" ? "" : fmt::format(" --machine {}", campaign.machine);
-  return fmt::format("./berm watch --intrusions 1 --seed {} --only {}{}", r.intrusion.seed, r.intrusion.run, machine);
+  return fmt::format("./berm watch --intrusions 1 --seed {} --only {}{}{}", r.intrusion.seed, r.intrusion.run, machine,
+                     campaign.histogram ? " --histogram" : "");
 }
 
 ordered_json flat_json(const Campaign& campaign) {
   const Some all = all_of(campaign);
-  ordered_json out{{"machine", campaign.machine}, {"seed", campaign.seed}};
+  ordered_json out{{"machine", campaign.machine}, {"histogram", campaign.histogram}, {"seed", campaign.seed}};
   out.update(figures(all));
   int false_alarms = 0, truck_side_undetected = 0;
   std::vector<double> truck_side;
@@ -184,7 +185,8 @@ ordered_json flat_json(const Campaign& campaign) {
 
 std::string summary_text(const Campaign& campaign) {
   const ordered_json j = flat_json(campaign);
-  std::string text = fmt::format("\nIntrusions ({}, seed {}; a simulation, judged by the plant's truth)\n", campaign.machine, campaign.seed);
+  std::string text = fmt::format("\nIntrusions ({}{}, seed {}; a simulation, judged by the plant's truth)\n", campaign.machine,
+                                 campaign.histogram ? ", histograms" : "", campaign.seed);
   text += fmt::format("  {:<26}{:>5} {:>7} {:>7} {:>9} {:>11} {:>9} {:>10} {:>10}\n", "", "runs", "judged", "unsafe", "contacts", "undetected*",
                       "detected", "p50", "p95");
   text += row_of("all", j);

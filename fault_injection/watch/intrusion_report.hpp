@@ -11,6 +11,7 @@ namespace berm::watch {
 
 struct Campaign {
   std::string machine = "zx200";
+  bool histogram = false;
   std::uint64_t seed = 1;
   std::vector<IntrusionResult> results;
   double wall_seconds = 0.0;

@@ -171,10 +171,11 @@ constexpr const char* trace_header =
 
 }  // namespace
 
-Bench make_bench(const std::string& machine, const std::string& profiles) {
+Bench make_bench(const std::string& machine, bool histogram, const std::string& profiles) {
   Bench b;
   b.machine = config::load_machine_file(run::find_machine(machine));
   b.machine.workspace.watched = true;
+  b.machine.workspace.histogram = b.machine.workspace.histogram || histogram;
   b.site = config::load_site_file(run::find_site("bench"));
   b.profile = plant::load_plant_profile(profiles + "/" + b.machine.name + "_plant.toml");
   b.world = plant::load_scenario(run::find_scenario("bench"), profiles).world;

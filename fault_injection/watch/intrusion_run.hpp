@@ -24,8 +24,8 @@ struct Bench {
   IntrusionSite intrusion_site;
 };
 
-// machine: name or file. profiles: folder of the plant's profiles, where NAME_plant.toml goes with the machine NAME.
-Bench make_bench(const std::string& machine, const std::string& profiles);
+// machine: name or file. histogram: the kernel compares with histograms, whatever the machine says. profiles: folder of the plant's profiles, where NAME_plant.toml goes with the machine NAME.
+Bench make_bench(const std::string& machine, bool histogram, const std::string& profiles);
 
 enum class Outcome {
   detected,        // the kernel stopped for it

@@ -19,8 +19,9 @@ namespace {
 int watch_intrusions(const Options& options) {
   Campaign campaign;
   campaign.machine = options.machine.empty() ? "zx200" : options.machine;
+  campaign.histogram = options.histogram;
   campaign.seed = options.seed;
-  const Bench bench = make_bench(campaign.machine, BERM_PLANT_PROFILES);
+  const Bench bench = make_bench(campaign.machine, campaign.histogram, BERM_PLANT_PROFILES);
   const auto draw = [&](int run) { return draw_intrusion(options.seed, run, bench.intrusion_site); };
   if (options.only >= 0) {
     campaign.results.push_back(run_intrusion(bench, draw(options.only), options.trace));
@@ -46,14 +47,14 @@ int watch_intrusions(const Options& options) {
 }
 
 int watch_one_scenario(const Options& o) {
-  const ScenarioResult result = watch_scenario({o.scenario, o.machine, o.out, o.picture, BERM_PLANT_PROFILES, o.seed, o.trucks, o.max_time_s});
+  const ScenarioResult result = watch_scenario({o.scenario, o.machine, o.out, o.picture, BERM_PLANT_PROFILES, o.histogram, o.seed, o.trucks, o.max_time_s});
   fmt::print("{}", summary_text(result));
   if (!o.json.empty()) config::write_whole_file(o.json, flat_json(result).dump(1) + "\n");
   return result.held() ? 0 : 1;
 }
 
 int watch_quietly(const Options& o) {
-  const QuietResult result = watch_quiet_hours({o.quiet_hours, o.seed, o.machine, BERM_PLANT_PROFILES, o.jobs});
+  const QuietResult result = watch_quiet_hours({o.quiet_hours, o.seed, o.machine, o.histogram, BERM_PLANT_PROFILES, o.jobs});
   fmt::print("{}", summary_text(result));
   if (!o.json.empty()) config::write_whole_file(o.json, flat_json(result).dump(1) + "\n");
   return result.false_alarms() == 0 && result.contacts() == 0 ? 0 : 1;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "run/svg.hpp"
 
@@ -24,26 +25,42 @@ constexpr std::array<Colour, 7> colours{{
     {SK_FLAG_CHANGED, "#f2c14e", "CHANGED: rose, explained by a neighbour"},
     {SK_FLAG_OBSTACLE, "#d7263d", "OBSTACLE: something that moved"},
 }};
+// Of the cells where histograms are compared with.
+enum Known : std::uint16_t { learning, nothing, lines, enough, somebody };
+constexpr std::array<Colour, 5> histogram_colours{{
+    {learning, "#e9d8f4", "LEARNING: what is seen is counted, nobody is told of"},
+    {nothing, "#f4f4f5", "CLEAR, nothing known of the ground"},
+    {lines, "#cfe3f5", "CLEAR, fewer than 8 points seen: the ground is what lines agree on"},
+    {enough, "#86b386", "CLEAR, 8 points or more seen"},
+    {somebody, "#d7263d", "SOMEBODY"},
+}};
 constexpr const char* no_flag_fill = "#7c3aed";  // counts as an obstacle
 constexpr double cell_m = SK_CELL_MM * 1e-3, origin_m = SK_MAP_ORIGIN_MM * 1e-3, edge_m = -origin_m;
 constexpr double left = 60, top = 40, scale = 18, between = 90;
 
-const char* fill_of(std::uint16_t flag) {
-  for (const Colour& c : colours)
+Known known_of(const sk_monitor_histogram& h, int iy, int ix) {
+  if (h.state[iy][ix] == SK_CELL_LEARNING) return learning;
+  if (h.state[iy][ix] != SK_CELL_CLEAR) return somebody;
+  if (h.observed[iy][ix] >= SK_HISTOGRAM_ENOUGH) return enough;
+  return h.lines[iy][ix] >= SK_LINES_ENOUGH ? lines : nothing;
+}
+
+const char* fill_of(std::span<const Colour> from, std::uint16_t flag) {
+  for (const Colour& c : from)
     if (c.flag == flag) return c.fill;
   return no_flag_fill;
 }
 
 // Runs of cells of one flag in a row become one rectangle.
 template <typename FlagAt>
-void draw_flags(SvgPanel& panel, FlagAt flag_at) {
+void draw_flags(SvgPanel& panel, std::span<const Colour> from, FlagAt flag_at) {
   for (int iy = 0; iy < SK_MAP_CELLS; ++iy) {
     for (int ix = 0; ix < SK_MAP_CELLS;) {
       const std::uint16_t flag = flag_at(iy, ix);
       int end = ix + 1;
       while (end < SK_MAP_CELLS && flag_at(iy, end) == flag) ++end;
       panel.rectangle(origin_m + ix * cell_m, origin_m + iy * cell_m, (end - ix) * cell_m, cell_m,
-                      fmt::format("fill:{};shape-rendering:crispEdges", fill_of(flag)));
+                      fmt::format("fill:{};shape-rendering:crispEdges", fill_of(from, flag)));
       ix = end;
     }
   }
@@ -93,7 +110,7 @@ void draw_truth(SvgPanel& panel, const MonitorPictureInput& in) {
   panel.circle(0, 0, 0.2, "fill:#fff;stroke:#111");
 }
 
-std::string legend(double at_x, double at_y) {
+std::string legend(std::span<const Colour> from, bool histograms, double at_x, double at_y) {
   std::string text;
   const auto row = [&](const std::string& sign, const std::string& words) {
     text += fmt::format("<g transform=\"translate({:.1f} {:.1f})\">{}<text x=\"24\" y=\"12\" style=\"font:13px sans-serif\">{}</text></g>\n", at_x,
@@ -101,13 +118,13 @@ std::string legend(double at_x, double at_y) {
     at_y += 21;
   };
   const auto square = [](const char* fill) { return fmt::format("<rect width=\"16\" height=\"14\" fill=\"{}\" stroke=\"#999\"/>", fill); };
-  for (const Colour& c : colours) row(square(c.fill), c.words);
-  row(square(no_flag_fill), "none of the seven: counts as an obstacle");
-  at_x += 480, at_y -= 21 * (colours.size() + 1.0);
+  const double first = at_y;
+  for (const Colour& c : from) row(square(c.fill), c.words);
+  if (!histograms) row(square(no_flag_fill), "none of the seven: counts as an obstacle");
+  at_x += 480, at_y = first;
   row("<path d=\"M0 7 H16\" stroke=\"#111\" stroke-width=\"2\"/>", "edge of the safety region");
   row("<path d=\"M0 7 H16\" stroke=\"#1d4ed8\" stroke-width=\"2\"/>", "true way of a person or vehicle, over the whole run");
   row("<circle cx=\"8\" cy=\"7\" r=\"5\" fill=\"#1d4ed8\"/>", "where it was at this moment");
-  row("<circle cx=\"8\" cy=\"7\" r=\"6\" fill=\"none\" stroke=\"#111\" stroke-width=\"2.5\"/>", "cell of an alarm, with its time");
   row("<circle cx=\"8\" cy=\"7\" r=\"6\" fill=\"none\" stroke=\"#7c3aed\" stroke-width=\"3\"/>", "cell of a false alarm: nobody within 1 m");
   row("<path d=\"M0 7 H16\" stroke=\"#b45309\" stroke-width=\"2\" stroke-dasharray=\"6 4\"/>", "dig zone");
   row("<path d=\"M0 7 H16\" stroke=\"#111\" stroke-width=\"1.5\" stroke-dasharray=\"2 2\"/>", "place of the truck's bed");
@@ -117,19 +134,26 @@ std::string legend(double at_x, double at_y) {
 }  // namespace
 
 void write_monitor_picture(const std::string& path, const MonitorPictureInput& in) {
-  SvgPanel accumulated(-edge_m, -edge_m, edge_m, edge_m, left, top, scale);
-  SvgPanel temporary(-edge_m, -edge_m, edge_m, edge_m, left + accumulated.pixel_width() + between, top, scale);
-  draw_flags(accumulated, [&](int iy, int ix) { return in.monitor.accumulated_flag[iy][ix]; });
-  draw_flags(temporary, [&](int iy, int ix) { return std::uint16_t{in.monitor.temporary_flag[iy][ix]}; });
-  for (SvgPanel* panel : {&accumulated, &temporary}) {
+  SvgPanel first(-edge_m, -edge_m, edge_m, edge_m, left, top, scale);
+  SvgPanel second(-edge_m, -edge_m, edge_m, edge_m, left + first.pixel_width() + between, top, scale);
+  const bool histograms = in.histogram != nullptr;
+  if (histograms) {
+    draw_flags(first, histogram_colours, [&](int iy, int ix) { return std::uint16_t{known_of(*in.histogram, iy, ix)}; });
+  } else {
+    draw_flags(first, colours, [&](int iy, int ix) { return in.monitor.accumulated_flag[iy][ix]; });
+    draw_flags(second, colours, [&](int iy, int ix) { return std::uint16_t{in.monitor.temporary_flag[iy][ix]}; });
+  }
+  const auto panels = histograms ? std::vector<SvgPanel*>{&first} : std::vector<SvgPanel*>{&first, &second};
+  for (SvgPanel* panel : panels) {
     draw_region_edge(*panel, in.rules);
     draw_truth(*panel, in);
     panel->axes(5.0, "x (m), forward", "y (m), left");
   }
-  accumulated.title("Accumulated map: " + in.title);
-  temporary.title("Temporary map at the same moment");
-  const double below = top + accumulated.pixel_height() + 50;
-  run::write_svg(path, left + 2 * accumulated.pixel_width() + between + 40, below + 190, {&accumulated, &temporary}, legend(left, below));
+  first.title((histograms ? "What the histograms hold: " : "Accumulated map: ") + in.title);
+  second.title("Temporary map at the same moment");
+  const double below = top + first.pixel_height() + 50, wide = histograms ? 1020.0 : left + 2 * first.pixel_width() + between + 40;
+  const std::span<const Colour> used = histograms ? std::span<const Colour>(histogram_colours) : std::span<const Colour>(colours);
+  run::write_svg(path, wide, below + 190, {panels.begin(), panels.end()}, legend(used, histograms, left, below));
 }
 
 }  // namespace berm::watch

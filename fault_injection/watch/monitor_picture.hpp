@@ -1,6 +1,7 @@
-// The Workspace Monitor's two maps at one moment, with the truth about the people on the site.
+// The Workspace Monitor's two maps at one moment, or what its histograms hold, with the truth about the people on the site.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace berm::watch {
 struct MonitorPictureInput {
   std::string title;
   sk_monitor monitor;
+  std::unique_ptr<sk_monitor_histogram> histogram;  // null: heights are compared with
   sk_monitor_rules rules;
   run::SitePictureInput site;                 // dig zones and the truck's bed
   std::vector<run::MoverPath> paths;          // of the whole run, true

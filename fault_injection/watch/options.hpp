@@ -17,6 +17,7 @@ struct Options {
   int trucks = 1;                  // of the scenario
   std::optional<double> max_time_s;
   std::string machine;             // empty: zx200, or the scenario's
+  bool histogram = false;          // whatever the machine says
   std::string json, picture, out, trace;
 };
 

@@ -71,7 +71,7 @@ std::string what_stands(const QuietAlarm& alarm, const plant::WorldConfig& world
 
 QuietRun one_run(const QuietOptions& options, std::uint64_t seed, double max_time_s) {
   const run::RunFolder folder;
-  const WatchedFiles files = write_watched(scenario_name, options.machine, max_time_s, folder.path());
+  const WatchedFiles files = write_watched(scenario_name, options.machine, options.histogram, max_time_s, folder.path());
   const plant::Scenario scenario = plant::load_scenario(files.scenario, options.profiles);
   run::RunOptions load;
   load.scenario = files.scenario;
@@ -100,7 +100,8 @@ QuietRun one_run(const QuietOptions& options, std::uint64_t seed, double max_tim
 
 std::string command_of(const QuietResult& result, const QuietAlarm& alarm) {
   const std::string machine = result.options.machine.empty() ? "" : fmt::format(" --machine {}", result.options.machine);
-  return fmt::format("./berm watch --scenario {} --trucks {} --seed {}{} --max-time {:.0f}", scenario_name, trucks, alarm.seed, machine,
+  const std::string histogram = result.options.histogram ? " --histogram" : "";
+  return fmt::format("./berm watch --scenario {} --trucks {} --seed {}{}{} --max-time {:.0f}", scenario_name, trucks, alarm.seed, machine, histogram,
                      std::ceil(alarm.time_s + beyond_alarm_s));
 }
 

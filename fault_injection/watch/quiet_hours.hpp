@@ -12,6 +12,7 @@ struct QuietOptions {
   double hours = 1.0;
   std::uint64_t seed = 1;      // of the first run; the next has the next
   std::string machine;         // empty: the scenario's
+  bool histogram = false;
   std::string profiles;
   int jobs = 0;                // runs at a time; 0: one a core. The result does not depend on it
 };

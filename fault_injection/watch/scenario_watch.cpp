@@ -69,6 +69,7 @@ class Follower {
   void keep_picture(const kernel::WorkspaceWatch& workspace, const std::string& moment) {
     picture_->title = moment + " (simulation)";
     picture_->monitor = workspace.monitor();
+    if (const sk_monitor_histogram* h = workspace.histogram()) picture_->histogram = std::make_unique<sk_monitor_histogram>(*h);
     picture_->rules = workspace.rules();
     for (const Presence& p : presences_) picture_->now.push_back(p.footprint);
   }
@@ -94,7 +95,7 @@ bool ScenarioResult::held() const {
 
 ScenarioResult watch_scenario(const ScenarioOptions& options) {
   const run::RunFolder folder;
-  const WatchedFiles files = write_watched(options.scenario, options.machine, options.max_time_s, folder.path());
+  const WatchedFiles files = write_watched(options.scenario, options.machine, options.histogram, options.max_time_s, folder.path());
   const plant::Scenario scenario = plant::load_scenario(files.scenario, options.profiles);
   const plant::PlantProfile profile = plant::load_plant_profile(scenario.machine_file);
   run::RunOptions load;

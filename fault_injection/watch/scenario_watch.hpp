@@ -12,6 +12,7 @@ namespace berm::watch {
 
 struct ScenarioOptions {
   std::string scenario, machine, out, picture, profiles;
+  bool histogram = false;
   std::uint64_t seed = 1;
   int trucks = 1;
   std::optional<double> max_time_s;

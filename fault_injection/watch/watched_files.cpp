@@ -72,7 +72,8 @@ std::string with_value(const std::string& text, const std::string& table, const 
   return text.substr(0, line->begin) + key + " = " + value + text.substr(line->end);
 }
 
-WatchedFiles write_watched(const std::string& scenario, const std::string& machine, std::optional<double> max_time_s, const std::string& folder) {
+WatchedFiles write_watched(const std::string& scenario, const std::string& machine, bool histogram, std::optional<double> max_time_s,
+                           const std::string& folder) {
   const std::string scenario_path = run::find_scenario(scenario);
   const auto names = run::scenario_names(scenario_path);
   const std::string machine_path = run::find_machine(machine.empty() ? names.machine : machine);
@@ -85,7 +86,9 @@ WatchedFiles write_watched(const std::string& scenario, const std::string& machi
       throw std::runtime_error(path + ": " + error.what() + " on a line of its own");
     }
   };
-  config::write_whole_file(files.machine, changed(machine_path, text_of(machine_path), "workspace", "watched", "true"));
+  std::string machine_text = changed(machine_path, text_of(machine_path), "workspace", "watched", "true");
+  if (histogram) machine_text = changed(machine_path, machine_text, "workspace", "histogram", "true");
+  config::write_whole_file(files.machine, machine_text);
   if (!config::load_machine_file(files.machine).workspace.watched) throw std::runtime_error(machine_path + ": [workspace] watched: cannot be set");
   std::string text = text_of(scenario_path);
   const std::string plant = machine.empty() ? plant_of(text, scenario_path) : before.name + "_plant";

@@ -15,7 +15,8 @@ struct WatchedFiles {
 std::string with_value(const std::string& text, const std::string& table, const std::string& key, const std::string& value);
 
 // scenario, machine: name or file. machine empty: the scenario's; else the scenario gets it, and the plant's profile that goes with it.
-// max_time_s: the run ends then at the latest, instead of when the scenario says. Throws with one line naming the file and what is wrong in it.
-WatchedFiles write_watched(const std::string& scenario, const std::string& machine, std::optional<double> max_time_s, const std::string& folder);
+// histogram: the kernel compares with histograms, whatever the machine says. max_time_s: the run ends then at the latest, instead of when the scenario says. Throws with one line naming the file and what is wrong in it.
+WatchedFiles write_watched(const std::string& scenario, const std::string& machine, bool histogram, std::optional<double> max_time_s,
+                           const std::string& folder);
 
 }  // namespace berm::watch

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <memory>
+#include <utility>
 
 #include "in_process/draw.hpp"
 #include "watch/footprint.hpp"
@@ -78,13 +80,22 @@ TEST(footprint, an_obstacle_counts_only_in_a_watched_cell_within_reach) {
   const int ix = 60, iy = 40;
   monitor->accumulated_flag[iy][ix] = SK_FLAG_OBSTACLE;
   const double x = origin + cell * (ix + 0.5), y = origin + cell * (iy + 0.5);
-  EXPECT_FALSE(obstacle_near({x, y, 0.0, 0.25}, 1.0, *monitor, *rules));
+  EXPECT_FALSE(somebody_near({x, y, 0.0, 0.25}, 1.0, {monitor.get()}, *rules));
   rules->watched[iy][ix] = 1;
-  EXPECT_TRUE(obstacle_near({x, y, 0.0, 0.25}, 1.0, *monitor, *rules));
-  EXPECT_TRUE(obstacle_near({x + 1.24, y, 0.0, 0.25}, 1.0, *monitor, *rules));
-  EXPECT_FALSE(obstacle_near({x + 1.26, y, 0.0, 0.25}, 1.0, *monitor, *rules));
+  EXPECT_TRUE(somebody_near({x, y, 0.0, 0.25}, 1.0, {monitor.get()}, *rules));
+  EXPECT_TRUE(somebody_near({x + 1.24, y, 0.0, 0.25}, 1.0, {monitor.get()}, *rules));
+  EXPECT_FALSE(somebody_near({x + 1.26, y, 0.0, 0.25}, 1.0, {monitor.get()}, *rules));
+  const auto histograms = std::make_unique<sk_monitor_histogram>();
+  for (auto& row : histograms->state)
+    for (auto& state : row) state = SK_CELL_CLEAR;
+  const Held held{monitor.get(), histograms.get()};
+  EXPECT_FALSE(somebody_near({x, y, 0.0, 0.25}, 1.0, held, *rules)) << "heights are not what is compared with";
+  for (const auto& [state, is_somebody] : std::initializer_list<std::pair<int, bool>>{{SK_CELL_SOMEBODY, true}, {0x0, true}, {SK_CELL_LEARNING, false}}) {
+    histograms->state[iy][ix] = static_cast<std::uint16_t>(state);
+    EXPECT_EQ(somebody_near({x, y, 0.0, 0.25}, 1.0, held, *rules), is_somebody) << state;
+  }
   monitor->accumulated_flag[iy][ix] = SK_FLAG_CHANGED;
-  EXPECT_FALSE(obstacle_near({x, y, 0.0, 0.25}, 1.0, *monitor, *rules));
+  EXPECT_FALSE(somebody_near({x, y, 0.0, 0.25}, 1.0, {monitor.get()}, *rules));
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ constexpr int runs = 600;
 class IntrusionTest : public testing::Test {
  protected:
   static const Bench& bench() {
-    static const Bench made = make_bench(BERM_MACHINES "/zx200.toml", BERM_PLANT_PROFILES);
+    static const Bench made = make_bench(BERM_MACHINES "/zx200.toml", false, BERM_PLANT_PROFILES);
     return made;
   }
   static const IntrusionSite& site() { return bench().intrusion_site; }

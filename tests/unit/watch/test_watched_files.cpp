@@ -31,7 +31,7 @@ TEST(watched_files, a_key_that_is_not_there_is_named) {
 
 TEST(watched_files, the_shipped_scenario_gets_a_machine_that_watches_and_keeps_all_else) {
   const run::RunFolder folder;
-  const WatchedFiles files = write_watched("person", "", 45.0, folder.path());
+  const WatchedFiles files = write_watched("person", "", false, 45.0, folder.path());
   const auto machine = config::load_machine_file(files.machine);
   EXPECT_TRUE(machine.workspace.watched);
   EXPECT_FALSE(machine.tail.watched);
@@ -45,11 +45,13 @@ TEST(watched_files, the_shipped_scenario_gets_a_machine_that_watches_and_keeps_a
 
 TEST(watched_files, another_machine_comes_with_its_plant) {
   const run::RunFolder folder;
-  const WatchedFiles files = write_watched("bench", "zx200_rear", {}, folder.path());
+  const WatchedFiles files = write_watched("bench", "zx200_rear", true, {}, folder.path());
   std::ifstream file(files.scenario);
   const std::string all((std::istreambuf_iterator<char>(file)), {});
   EXPECT_NE(all.find("plant = \"zx200_rear_plant\""), std::string::npos);
   EXPECT_NE(all.find("max_time_s = 1800.0"), std::string::npos);
+  EXPECT_TRUE(config::load_machine_file(files.machine).workspace.histogram);
+  EXPECT_FALSE(config::load_machine_file(write_watched("bench", "zx200_rear", false, {}, folder.path()).machine).workspace.histogram);
 }
 
 }  // namespace
