@@ -125,6 +125,7 @@ std::string legend(std::span<const Colour> from, bool histograms, double at_x, d
   row("<path d=\"M0 7 H16\" stroke=\"#111\" stroke-width=\"2\"/>", "edge of the safety region");
   row("<path d=\"M0 7 H16\" stroke=\"#1d4ed8\" stroke-width=\"2\"/>", "true way of a person or vehicle, over the whole run");
   row("<circle cx=\"8\" cy=\"7\" r=\"5\" fill=\"#1d4ed8\"/>", "where it was at this moment");
+  row("<circle cx=\"8\" cy=\"7\" r=\"6\" fill=\"none\" stroke=\"#111\" stroke-width=\"2.5\"/>", "cell of an alarm, with its time");
   row("<circle cx=\"8\" cy=\"7\" r=\"6\" fill=\"none\" stroke=\"#7c3aed\" stroke-width=\"3\"/>", "cell of a false alarm: nobody within 1 m");
   row("<path d=\"M0 7 H16\" stroke=\"#b45309\" stroke-width=\"2\" stroke-dasharray=\"6 4\"/>", "dig zone");
   row("<path d=\"M0 7 H16\" stroke=\"#111\" stroke-width=\"1.5\" stroke-dasharray=\"2 2\"/>", "place of the truck's bed");
