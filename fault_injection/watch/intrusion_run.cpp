@@ -19,7 +19,6 @@ namespace berm::watch {
 
 namespace {
 
-constexpr double lidars_learn_s = 50.0;      // past the first swing to the truck and back
 constexpr double longest_learning_s = 120.0;
 constexpr double not_yet_s = 1e9;
 constexpr double stays_s = 15.0;             // at the end of its way
@@ -176,7 +175,6 @@ Bench make_bench(const std::string& machine, bool histogram, const std::string& 
   Bench b;
   b.machine = config::load_machine_file(run::find_machine(machine));
   b.machine.workspace.watched = true;
-  if (!b.machine.lidar.empty()) b.machine.workspace.learn = std::max(b.machine.workspace.learn, lidars_learn_s);
   b.machine.workspace.histogram = b.machine.workspace.histogram || histogram;
   b.site = config::load_site_file(run::find_site("bench"));
   b.profile = plant::load_plant_profile(profiles + "/" + b.machine.name + "_plant.toml");

@@ -15,6 +15,13 @@ namespace {
 constexpr double kReach = 16.0;  // m round the viewpoint
 constexpr double kScale = 30.0;  // pixels a metre
 
+// As text of an SVG: a class's name is a file's.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+  return out;
+}
+
 }  // namespace
 
 void write_recognition_picture(const std::string& path, const std::vector<ScanPoint>& points, const std::array<double, 3>& viewpoint,
@@ -48,7 +55,7 @@ void write_recognition_picture(const std::string& path, const std::vector<ScanPo
   const std::string line = truck.found ? fmt::format("{}: {:.2f} x {:.2f} m, walls {:.2f} m, {:.1f} ms", truck.truck_class, truck.length, truck.width,
                                                      truck.height, truck.milliseconds)
                                        : "no truck: " + truck.reason;
-  fmt::format_to(out, "<text x=\"20\" y=\"30\" style=\"font:16px sans-serif\">{}</text>\n</svg>\n", line);
+  fmt::format_to(out, "<text x=\"20\" y=\"30\" style=\"font:16px sans-serif\">{}</text>\n</svg>\n", escaped(line));
   write_file_bytes(path, svg);
 }
 

@@ -34,9 +34,10 @@ struct Growing {
     const double angle = 0.5 * std::atan2(2.0 * (xy / n - m.x() * m.y()), xx / n - m.x() * m.x() - yy / n + m.y() * m.y());
     return {-std::sin(angle), std::cos(angle)};
   }
+  // s: at most kFansApart later than the last.
   [[nodiscard]] bool takes(const UprightSegment& s) const {
     const UprightSegment& last = members.back();
-    if (s.fan - last.fan > kFansApart || s.fan == last.fan) return false;
+    if (s.fan == last.fan) return false;
     if (std::min(s.high, last.high) - std::max(s.low, last.low) < 0.0) return false;
     const double step = (s.at - last.at).norm() / static_cast<double>(s.fan - last.fan);
     if (members.size() < 3) return step < 0.45;
@@ -85,16 +86,21 @@ std::vector<UprightSegment> upright_segments(const FanSweep& sweep) {
 
 std::vector<UprightRegion> upright_regions(const FanSweep& sweep, const std::vector<UprightSegment>& segments) {
   std::vector<Growing> growing;
+  std::vector<std::size_t> open;  // of growing: those that a segment of this fan may still join
   for (const UprightSegment& s : segments) {
-    Growing* best = nullptr;
+    std::erase_if(open, [&](std::size_t g) { return s.fan - growing[g].members.back().fan > kFansApart; });
+    std::size_t best = growing.size();
     double nearest = 1e9;
-    for (Growing& g : growing) {
-      if (!g.takes(s)) continue;
-      const double distance = (g.members.back().at - s.at).norm();
-      if (distance < nearest) nearest = distance, best = &g;
+    for (const std::size_t g : open) {
+      if (!growing[g].takes(s)) continue;
+      const double distance = (growing[g].members.back().at - s.at).norm();
+      if (distance < nearest) nearest = distance, best = g;
     }
-    if (best == nullptr) best = &growing.emplace_back();
-    best->add(s);
+    if (best == growing.size()) {
+      growing.emplace_back();
+      open.push_back(best);
+    }
+    growing[best].add(s);
   }
   std::vector<UprightRegion> out;
   for (const Growing& g : growing) {

@@ -26,7 +26,7 @@ struct UprightRegion {
 
 std::vector<UprightSegment> upright_segments(const FanSweep& sweep);
 
-// The largest first. Linear in the segments: each is offered to the regions that grew within the last three fans.
+// The largest first. segments by rising fan. Linear in them: each is offered to the regions that grew within the last three fans.
 std::vector<UprightRegion> upright_regions(const FanSweep& sweep, const std::vector<UprightSegment>& segments);
 
 }  // namespace berm::app

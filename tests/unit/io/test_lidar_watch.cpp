@@ -8,10 +8,10 @@
 #include <cstdio>
 #include <memory>
 
-#include "config/compile_parameters.hpp"
 #include "io/lidar_intake.hpp"
 #include "io/workspace_watch.hpp"
 #include "lidar_scene.hpp"
+#include "watched_ring.hpp"
 
 namespace berm::kernel::test {
 namespace {
@@ -19,15 +19,6 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kLearnS = 1.0;
 constexpr double kStopS = 0.25;  // from the first return to the stop, at most
-
-berm_parameters ring_machine() {
-  berm_parameters p = config::compile_parameters(config::load_machine_file(BERM_CONFIG_FILES "/machines/zx200_ring.toml"),
-                                                 config::load_site_file(BERM_CONFIG_FILES "/sites/bench.toml"));
-  p.dig_zones = 1;
-  p.dig_zone[0] = {14000, 14000, 14500, 14500, -1000, 1000};  // out of the way: all is watched
-  p.ground_zones = p.truck_zones = p.lanes = 0;
-  return p;
-}
 
 // Two lidars, what the kernel makes of them, and time.
 struct Ring {
@@ -92,7 +83,7 @@ class LidarWatchTest : public testing::Test {
     }
     return -1.0;
   }
-  berm_parameters parameters = ring_machine();
+  berm_parameters parameters = watched_ring();
 };
 
 struct Somebody {

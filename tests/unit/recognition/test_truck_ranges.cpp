@@ -1,37 +1,17 @@
 // The file of truck classes: what stands in it, and what it refuses.
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <fstream>
-#include <sstream>
+#include <string>
 
 #include "config/strict_table.hpp"
 #include "recognition/truck_ranges.hpp"
-#include "scratch.hpp"
+#include "refused_edit.hpp"
 
 namespace berm::app {
 namespace {
 
-// The error of reading the shipped file with one text replaced; "" when it is read.
 std::string error_with(const std::string& from, const std::string& to) {
-  std::ifstream in(BERM_TRUCK_RANGES);
-  std::stringstream all;
-  all << in.rdbuf();
-  std::string text = all.str();
-  const std::size_t at = text.find(from);
-  if (at == std::string::npos) return "not in the shipped file: " + from;
-  text.replace(at, from.size(), to);
-  const test::Scratch scratch;
-  const std::string path = scratch.write("ranges.toml", text);
-  std::string error;
-  try {
-    read_truck_ranges(path);
-  } catch (const config::ConfigError& refused) {
-    error = refused.what();
-    EXPECT_EQ(error.find(path), 0U) << error;
-    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
-  }
-  return error;
+  return test::refused_edit<config::ConfigError>(BERM_TRUCK_RANGES, from, to, read_truck_ranges);
 }
 
 TEST(TruckRanges, ShippedFileHasItsClasses) {
