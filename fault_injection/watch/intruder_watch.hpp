@@ -64,6 +64,7 @@ class IntruderWatch {
   // Once a cycle; one presence for each name, in their order.
   void step(const Moment& now, const std::vector<Presence>& presences);
 
+  void rename(std::size_t i, const std::string& name) { records_[i].name = name; }
   const std::vector<IntruderRecord>& records() const { return records_; }
   const std::vector<Alarm>& alarms() const { return alarms_; }
   int false_alarms() const;

@@ -11,8 +11,6 @@
 #include "config/compile_parameters.hpp"
 #include "in_process/machine_loop.hpp"
 #include "io/cycle.hpp"
-#include "plant/process/scenario.hpp"
-#include "run/parameter_file.hpp"
 #include "watch/swept_reach.hpp"
 
 namespace berm::watch {
@@ -27,6 +25,11 @@ constexpr double after_standstill_s = 1.0;
 constexpr double long_enough_inside_s = 1.0;
 constexpr double beyond_reach_m = 3.0, far_away_m = 1e3;
 constexpr std::uint64_t judge_reach_every = 5;  // cycles
+
+constexpr const char* trace_header =
+    "time_s,swing_rad,boom_rad,stick_rad,bucket_rad,swing_rad_s,kernel_state,stop_reason,blocked_x_mm,blocked_y_mm,present,x_m,y_m,in_region,"
+    "implements_m,returns,"
+    "pan_left_urad,pan_right_urad,passes\n";
 
 bool still(const plant::JointState& joints) {
   return std::all_of(joints.velocity.begin(), joints.velocity.end(), [](double v) { return std::fabs(v) < standstill_rad_s; });
@@ -43,34 +46,47 @@ ReachBox box_of(const berm_state& state, const std::array<double, 4>& joints) {
   return box;
 }
 
-plant::WorldConfig with_intruder(plant::WorldConfig world, const Intrusion& intrusion) {
-  world.movers = {intrusion.mover};
-  world.movers[0].appears_s = world.movers[0].start_s = not_yet_s;
+plant::WorldConfig with_nobody(plant::WorldConfig world) {
+  plant::MoverConfig nobody;
+  nobody.appears_s = nobody.start_s = not_yet_s;
+  world.movers = {nobody};
   return world;
 }
 
-berm_parameters parameters_of(const Bench& bench, const Intrusion& intrusion) {
+berm_parameters parameters_of(const Bench& bench, bool follows) {
   config::MachineFile machine = bench.machine;
-  machine.workspace.follows = intrusion.follows;
+  machine.workspace.follows = follows;
   return config::compile_parameters(machine, bench.site);
 }
 
-class Trial {
+// Of trials that share one, and of no others.
+std::uint64_t noise_of(std::uint64_t seed, int number, bool follows) {
+  return seed * 1000003U + 2U * static_cast<std::uint64_t>(number) + (follows ? 1U : 0U);
+}
+
+}  // namespace
+
+class Preparation::Work {
  public:
-  Trial(const Bench& bench, const Intrusion& intrusion, std::FILE* trace)
-      : bench_(bench), shape_(intrusion.mover), trace_(trace), motion_(bench.machine, bench.place), reach_(bench.profile.shape),
-        watch_({intrusion.mover.name}),
-        machine_(bench.profile, with_intruder(bench.world, intrusion), intrusion.seed * 1000003U + static_cast<std::uint64_t>(intrusion.run),
-                 {first_pose(bench.place), 0.0, 1, true}, in_process::make_kernel(parameters_of(bench, intrusion))) {
-    result_.intrusion = intrusion;
+  Work(const Bench& bench, std::uint64_t seed, int number, bool follows, std::FILE* trace)
+      : bench_(bench), trace_(trace), motion_(bench.machine, bench.place), reach_(bench.profile.shape), watch_({""}),
+        machine_(bench.profile, with_nobody(bench.world), noise_of(seed, number, follows), {first_pose(bench.place), 0.0, 1, true},
+                 in_process::make_kernel(parameters_of(bench, follows))) {}
+
+  bool wait(double phase_s) {
+    while (!motion_.learned() && machine_.time_s() < longest_learning_s && watch_.alarms().empty()) step();
+    if (motion_.learned() && learned_s_ < 0.0) learned_s_ = machine_.time_s();
+    while (motion_.learned() && machine_.time_s() < learned_s_ + phase_s && watch_.alarms().empty()) step();
+    return motion_.learned() && watch_.alarms().empty();
   }
 
-  IntrusionResult run() {
-    while (!motion_.learned() && machine_.time_s() < longest_learning_s && watch_.alarms().empty()) step();
-    const double appears_s = machine_.time_s() + result_.intrusion.swing_phase_s;
-    while (motion_.learned() && machine_.time_s() < appears_s && watch_.alarms().empty()) step();
-    if (motion_.learned() && watch_.alarms().empty()) {
-      machine_.world().bring_mover(0, machine_.time_s() + in_process::MachineLoop::cycle_s);
+  IntrusionResult play(const Intrusion& intrusion) {
+    result_.intrusion = intrusion;
+    if (wait(intrusion.swing_phase_s)) {
+      shape_ = intrusion.mover;
+      watch_.rename(0, shape_.name);
+      machine_.world().draw_sensors_anew(draw_of(intrusion));
+      machine_.world().send_mover(0, shape_, machine_.time_s() + in_process::MachineLoop::cycle_s);
       result_.appeared_s = machine_.time_s();
       while (!over()) step();
     }
@@ -83,6 +99,8 @@ class Trial {
   }
 
  private:
+  static std::uint64_t draw_of(const Intrusion& i) { return ~(i.seed * 1000003U + static_cast<std::uint64_t>(i.run)); }
+
   void step() {
     machine_.advance([this](const berm_state& state) { return motion_.answer(state); });
     const plant::MoverPose pose = machine_.world().movers().back();
@@ -157,6 +175,7 @@ class Trial {
   const Bench& bench_;
   plant::MoverConfig shape_;
   std::FILE* trace_;
+  double learned_s_ = -1.0;
   LoadingMotion motion_;
   SweptReach reach_;
   IntruderWatch watch_;
@@ -164,38 +183,6 @@ class Trial {
   IntrusionResult result_;
 };
 
-constexpr const char* trace_header =
-    "time_s,swing_rad,boom_rad,stick_rad,bucket_rad,swing_rad_s,kernel_state,stop_reason,blocked_x_mm,blocked_y_mm,present,x_m,y_m,in_region,"
-    "implements_m,returns,"
-    "pan_left_urad,pan_right_urad,passes\n";
-
-}  // namespace
-
-Bench make_bench(const std::string& machine, bool histogram, const std::string& profiles) {
-  Bench b;
-  b.machine = config::load_machine_file(run::find_machine(machine));
-  b.machine.workspace.watched = true;
-  b.machine.workspace.histogram = b.machine.workspace.histogram || histogram;
-  b.site = config::load_site_file(run::find_site("bench"));
-  b.profile = plant::load_plant_profile(profiles + "/" + b.machine.name + "_plant.toml");
-  b.world = plant::load_scenario(run::find_scenario("bench"), profiles).world;
-  b.world.trucks.resize(1);
-  plant::TruckConfig& truck = b.world.trucks.front();
-  truck.place_stddev = truck.yaw_stddev = 0.0;  // the gap to its side is what was drawn
-  truck.wait_s = 0.0;                           // it stands there from the start
-  b.place = {0.5 * (b.site.dig.swing[0] + b.site.dig.swing[1]), std::atan2(truck.y, truck.x)};
-  IntrusionSite& s = b.intrusion_site;
-  s.truck = truck;
-  s.extent = {std::min(-b.world.terrain.x_low, b.world.terrain.x_high), std::min(-b.world.terrain.y_low, b.world.terrain.y_high)};
-  s.crest_x = b.world.terrain.crest_x;
-  s.half_face = b.site.dig_zone.front().y_high;
-  s.region_radius = b.machine.workspace.radius;
-  s.implements_reach = farthest_tip(b.machine);
-  s.own_radius = b.machine.own_body_radius;
-  s.swing_low = std::min(b.place.dig_bearing, b.place.truck_bearing);
-  s.swing_high = std::max(b.place.dig_bearing, b.place.truck_bearing);
-  return b;
-}
 
 const char* name_of(Outcome outcome) {
   switch (outcome) {
@@ -208,6 +195,13 @@ const char* name_of(Outcome outcome) {
   }
 }
 
+Preparation::Preparation(const Bench& bench, std::uint64_t seed, int number, bool follows, std::FILE* trace)
+    : work_(std::make_unique<Work>(bench, seed, number, follows, trace)) {}
+
+Preparation::~Preparation() = default;
+bool Preparation::wait(double phase_s) { return work_->wait(phase_s); }
+IntrusionResult Preparation::play(const Intrusion& intrusion) { return work_->play(intrusion); }
+
 IntrusionResult run_intrusion(const Bench& bench, const Intrusion& intrusion, const std::string& trace) {
   std::FILE* file = nullptr;
   if (!trace.empty()) {
@@ -215,7 +209,7 @@ IntrusionResult run_intrusion(const Bench& bench, const Intrusion& intrusion, co
     if (file == nullptr) throw std::runtime_error("cannot write " + trace);
     fmt::print(file, "{}", trace_header);
   }
-  IntrusionResult result = Trial(bench, intrusion, file).run();
+  IntrusionResult result = Preparation(bench, intrusion.seed, preparation_of(intrusion.run), intrusion.follows, file).play(intrusion);
   if (file != nullptr && std::fclose(file) != 0) throw std::runtime_error("cannot write " + trace);
   return result;
 }

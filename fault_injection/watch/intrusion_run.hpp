@@ -2,30 +2,17 @@
 // learns the ground, then somebody who comes. The plant's truth judges. WATCH.md has the definitions.
 #pragma once
 
+#include <cstdint>
+#include <cstdio>
+#include <memory>
 #include <optional>
 #include <string>
 
-#include "config/machine_file.hpp"
-#include "config/site_file.hpp"
-#include "plant/machine/plant_profile.hpp"
-#include "plant/process/world_config.hpp"
+#include "watch/bench.hpp"
 #include "watch/intruder_watch.hpp"
 #include "watch/intrusion.hpp"
-#include "watch/loading_motion.hpp"
 
 namespace berm::watch {
-
-struct Bench {
-  config::MachineFile machine;           // its workspace watched
-  config::SiteFile site;
-  plant::PlantProfile profile;
-  plant::WorldConfig world;              // of the bench scenario: terrain, soil, a parked truck, the scanners with their noise
-  LoadingPlace place;
-  IntrusionSite intrusion_site;
-};
-
-// machine: name or file. histogram: the kernel compares with histograms, whatever the machine says. profiles: folder of the plant's profiles, where NAME_plant.toml goes with the machine NAME.
-Bench make_bench(const std::string& machine, bool histogram, const std::string& profiles);
 
 enum class Outcome {
   detected,        // the kernel stopped for it
@@ -53,7 +40,28 @@ struct IntrusionResult {
   bool failed() const { return contact_s || unsafe_s || outcome == Outcome::undetected; }
 };
 
-// trace: a CSV of the trial; empty for none.
+// Trials whose numbers divided by this are the same share a preparation, if their monitors run the same version of MergeCell.
+constexpr int trials_of_a_preparation = 40;
+constexpr int preparation_of(int run) { return run / trials_of_a_preparation; }
+
+// The machine at work with nobody there, until the kernel has learned the ground, and some time after it.
+class Preparation {
+ public:
+  // trace: takes a row a cycle, or null.
+  Preparation(const Bench& bench, std::uint64_t seed, int number, bool follows, std::FILE* trace);
+  ~Preparation();
+
+  // Goes on until that long after the ground was learned. False: the ground is not learned, or there was an alarm; nothing is to be had of this.
+  bool wait(double phase_s);
+  // Waits for who comes, and sends it on its way; once, and nothing after it.
+  IntrusionResult play(const Intrusion& intrusion);
+
+ private:
+  class Work;
+  std::unique_ptr<Work> work_;
+};
+
+// The preparation and the trial alone. trace: a CSV of it; empty for none.
 IntrusionResult run_intrusion(const Bench& bench, const Intrusion& intrusion, const std::string& trace);
 
 }  // namespace berm::watch

@@ -6,15 +6,16 @@
 #include <exception>
 
 #include "config/whole_file.hpp"
-#include "in_process/workers.hpp"
 #include "run/parameter_file.hpp"
-#include "watch/intrusion_report.hpp"
+#include "watch/intrusion_campaign.hpp"
 #include "watch/options.hpp"
 #include "watch/quiet_hours.hpp"
 #include "watch/scenario_watch.hpp"
 
 namespace berm::watch {
 namespace {
+
+constexpr std::size_t told_every = 50;  // intrusions; what is over by then is written, too
 
 int watch_intrusions(const Options& options) {
   Campaign campaign;
@@ -28,17 +29,19 @@ int watch_intrusions(const Options& options) {
     fmt::print("{}", detail_text(campaign.results.front()));
   } else {
     const auto begin = std::chrono::steady_clock::now();
-    campaign.results.resize(static_cast<std::size_t>(options.intrusions));
     const bool progress = isatty(STDERR_FILENO) != 0;
-    const auto do_one = [&](int run) { campaign.results[static_cast<std::size_t>(run)] = run_intrusion(bench, draw(run), {}); };
-    in_process::run_trials(options.intrusions, options.jobs, do_one, [&](int finished, int run) {
-      const IntrusionResult& r = campaign.results[static_cast<std::size_t>(run)];
+    const auto seconds = [begin] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
+    run_campaign(bench, options.intrusions, options.jobs, campaign, [&](const IntrusionResult& r) {
+      const std::size_t finished = campaign.results.size();
       if (r.failed()) fmt::print(stderr, "{}FAILED: {}\n", progress ? "\r" : "", command_of(campaign, r));
       if (progress) fmt::print(stderr, "\r{} of {} intrusions", finished, options.intrusions);
-      else if (finished % 50 == 0) fmt::print(stderr, "{} of {} intrusions\n", finished, options.intrusions);
+      if (finished % told_every != 0) return;
+      if (!progress) fmt::print(stderr, "{} of {} intrusions\n", finished, options.intrusions);
+      campaign.wall_seconds = seconds();
+      if (!options.json.empty()) config::write_whole_file(options.json, flat_json(campaign).dump(1) + "\n");
     });
     if (progress) fmt::print(stderr, "\n");
-    campaign.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    campaign.wall_seconds = seconds();
     fmt::print("{}", summary_text(campaign));
   }
   const auto result = flat_json(campaign);

@@ -6,18 +6,25 @@
 namespace berm::plant {
 
 Movers::Movers(const std::vector<MoverConfig>& config) {
-  for (const MoverConfig& c : config) {
-    Mover m;
-    m.config = c;
-    m.pose.name = c.name;
-    m.pose.vehicle = c.vehicle;
-    if (!c.waypoints.empty()) {
-      m.pose.x = c.waypoints[0].x;
-      m.pose.y = c.waypoints[0].y;
-    }
-    if (c.waypoints.size() > 1) m.pose.yaw = std::atan2(c.waypoints[1].y - m.pose.y, c.waypoints[1].x - m.pose.x);
-    mover_.push_back(std::move(m));
+  for (const MoverConfig& c : config) mover_.push_back(made(c));
+}
+
+Movers::Mover Movers::made(const MoverConfig& c) {
+  Mover m;
+  m.config = c;
+  m.pose.name = c.name;
+  m.pose.vehicle = c.vehicle;
+  if (!c.waypoints.empty()) {
+    m.pose.x = c.waypoints[0].x;
+    m.pose.y = c.waypoints[0].y;
   }
+  if (c.waypoints.size() > 1) m.pose.yaw = std::atan2(c.waypoints[1].y - m.pose.y, c.waypoints[1].x - m.pose.x);
+  return m;
+}
+
+void Movers::send(size_t i, const MoverConfig& config, double t) {
+  mover_[i] = made(config);
+  mover_[i].config.appears_s = mover_[i].config.start_s = t;
 }
 
 void Movers::step(double t, double dt, double swing_angle, const Terrain& terrain) {

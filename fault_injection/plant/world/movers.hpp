@@ -15,8 +15,8 @@ class Movers {
   // From t - dt to t. swing_angle starts those that wait for it.
   void step(double t, double dt, double swing_angle, const Terrain& terrain);
 
-  // Appears at t, and sets out.
-  void bring(size_t i, double t) { mover_[i].config.appears_s = mover_[i].config.start_s = t; }
+  // Another takes the place of mover i: it appears at t, and sets out.
+  void send(size_t i, const MoverConfig& config, double t);
 
   [[nodiscard]] size_t count() const { return mover_.size(); }
   [[nodiscard]] const MoverConfig& config(size_t i) const { return mover_[i].config; }
@@ -32,6 +32,7 @@ class Movers {
     double waited = 0;    // at that waypoint
     double walked = 0;    // from that waypoint towards the next
   };
+  static Mover made(const MoverConfig& config);
   static void advance(Mover& m, double dt);
 
   std::vector<Mover> mover_;

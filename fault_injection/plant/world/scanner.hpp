@@ -28,6 +28,7 @@ class Scanner {
 
   // Direction of a sample in the upper body's frame.
   [[nodiscard]] Vec3 direction(int index, double pan) const;
+  void draw_anew(uint64_t seed) { random_ = Random(seed), dust_random_ = Random(~seed); }
 
  private:
   struct Sample { uint16_t echo[BERM_SCAN_ECHOES] = {0, 0, 0}; };

@@ -28,6 +28,7 @@ class SpinningLidar {
   // air.covered: something lies on the window, and nothing comes back. returns: takes what people and vehicles sent back, or null.
   void step(double t, double dt, double swing_before, double swing_now, const SensorAir& air, const Scene& scene, const BaseFrame& stand,
             std::vector<LidarPacket>& out, std::vector<MoverReturn>* returns = nullptr);
+  void draw_anew(std::uint64_t seed) { random_ = Random(seed), dust_random_ = Random(~seed); }
 
  private:
   struct Returns {

@@ -212,7 +212,14 @@ std::vector<MoverPose> World::movers() const {
   return all;
 }
 
-void World::bring_mover(std::size_t mover, double t) { state_->movers.bring(mover, t); }
+void World::send_mover(std::size_t mover, const MoverConfig& config, double t) { state_->movers.send(mover, config, t); }
+
+void World::draw_sensors_anew(uint64_t seed) {
+  state_->scanner[0].draw_anew(seed_of(seed, stream_left));
+  state_->scanner[1].draw_anew(seed_of(seed, stream_right));
+  for (size_t i = 0; i < state_->lidar.size(); ++i) state_->lidar[i].draw_anew(seed_of(seed, stream_lidars) + i);
+}
+
 bool World::mover_present(std::size_t mover) const { return state_->movers.present(mover); }
 const std::vector<MoverReturn>& World::mover_returns() const { return state_->mover_returns; }
 

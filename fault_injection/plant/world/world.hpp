@@ -16,6 +16,7 @@ struct JointState { std::array<double, 4> angle{}; std::array<double, 4> velocit
 struct PanState { std::array<double, 2> angle{}; std::array<double, 2> velocity{}; };    // left, right; relative to the upper body
 
 struct ImplementShape;  // machine/implement_shape.hpp
+struct MoverConfig;
 struct WorldConfig;     // process/world_config.hpp
 struct BasePose;        // world/base_pose.hpp
 
@@ -66,7 +67,9 @@ class World {
   double payload_kg() const;
   Truth truth() const;
   std::vector<MoverPose> movers() const;  // the same names in the same order at every call: trucks first
-  void bring_mover(std::size_t mover, double t);  // of people and vehicles: appears at t and sets out, whatever the configuration says
+  // Another takes the place of that person or vehicle: it appears at t and sets out, whatever its configuration says.
+  void send_mover(std::size_t mover, const MoverConfig& config, double t);
+  void draw_sensors_anew(uint64_t seed);  // what the sensors draw from now on
   bool mover_present(std::size_t mover) const;  // of people and vehicles: whether it is on the site yet
   void release_truck(double t);           // the horn: the full truck drives off, the next one comes if there is one
   bool truck_parked() const;

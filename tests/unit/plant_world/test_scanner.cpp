@@ -327,7 +327,7 @@ TEST(Scanner, TheWorldKnowsWhatPeopleSentBackAndWhoIsNotThereSendsNothing) {
   EXPECT_GT(returns[0], 20);
   EXPECT_EQ(returns[1], 0);
   EXPECT_FALSE(run.world.mover_present(1));
-  run.world.bring_mover(1, run.t);
+  run.world.send_mover(1, c.movers[1], run.t);
   for (int i = 0; i < 300; ++i) look(4.8, -0.8);
   EXPECT_GT(returns[1], 20);
   EXPECT_TRUE(run.world.mover_present(1));

@@ -135,7 +135,7 @@ TEST(World, JudgesContacts) {
 }
 
 // The tail swings over someone who stands behind the machine.
-TEST(World, WhoIsNotThereIsNotJudgedUntilBrought) {
+TEST(World, WhoIsNotThereIsNotJudgedUntilSentAndMayBeAnother) {
   WorldConfig c;
   MoverConfig p;
   p.name = "late";
@@ -147,10 +147,13 @@ TEST(World, WhoIsNotThereIsNotJudgedUntilBrought) {
   const JointState over_it = {{std::numbers::pi / 2, 0.4, -1.0, -1.0}, {}};
   world.step(0.01, 0.01, over_it, over_it);
   EXPECT_GT(world.judge(0.01, over_it).closest_m, 1e8);
-  world.bring_mover(0, 0.02);
+  p.name = "another";
+  p.waypoints = {{0.0, 6.5, 0.0}};
+  world.send_mover(0, p, 0.02);
   world.step(0.02, 0.01, over_it, over_it);
   EXPECT_LT(world.judge(0.02, over_it).closest_m, 5.0);
-  EXPECT_EQ(world.judge(0.02, over_it).what, "late");
+  EXPECT_EQ(world.judge(0.02, over_it).what, "another");
+  EXPECT_EQ(world.movers().back().y, 6.5);
 }
 
 TEST(World, TailHitsWhoStandsBehind) {
