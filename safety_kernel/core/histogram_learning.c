@@ -123,3 +123,13 @@ void sk_histogram_settle(sk_monitor_histogram *h, int32_t x_low_mm, int32_t y_lo
     @*/
   for (iy = 0; iy < SK_MAP_CELLS; iy++) { sk_settle_histograms(h, iy, x_low_mm, y_low_mm, x_high_mm, y_high_mm); }
 }
+
+void sk_histogram_forget_cell(sk_monitor_histogram *h, int32_t iy, int32_t ix)
+{
+  if (sk_is_in_map(iy, ix)) { sk_blank_histogram(h, iy, ix); }
+}
+
+void sk_histogram_settle_cell(sk_monitor_histogram *h, int32_t iy, int32_t ix)
+{
+  if (sk_is_in_map(iy, ix) && h->state[iy][ix] == SK_CELL_LEARNING) { h->state[iy][ix] = SK_CELL_CLEAR; }
+}

@@ -46,18 +46,22 @@ typedef struct sk_monitor_histogram {
   @ predicate sk_seen_twice_in{L}(sk_monitor_histogram *h, integer iy, integer ix, integer low, integer high) =
   @   (\exists integer b; low <= b < high && \at(h->seen[iy][ix][b], L) > 1) ||
   @   (\exists integer b, c; low <= b < c < high && \at(h->seen[iy][ix][b], L) > 0 && \at(h->seen[iy][ix][c], L) > 0);
-  @ // by bins from `low` on: a stray point counts where so few were seen that a line is all that is known of the ground
-  @ predicate sk_departs_from{L}(sk_monitor_histogram *h, integer iy, integer ix, integer z, integer rise, integer low) =
-  @   \at(h->state[iy][ix], L) != SK_CELL_LEARNING &&
+  @ // those who saw enough of the cell saw nothing, or one point, from bin `low` on
+  @ predicate sk_known_lower{L}(sk_monitor_histogram *known, integer iy, integer ix, integer low) =
+  @   \at(known->state[iy][ix], L) != SK_CELL_LEARNING && \at(known->observed[iy][ix], L) >= SK_HISTOGRAM_ENOUGH &&
+  @   !sk_seen_twice_in{L}(known, iy, ix, low, SK_HISTOGRAM_BINS);
+  @ // by bins from `low` on: a stray point counts where so few were seen that the ground is known by lines or from others alone
+  @ predicate sk_departs_from{L}(sk_monitor_histogram *h, sk_monitor_histogram *known, integer iy, integer ix, integer z, integer rise,
+  @   integer low) = \at(h->state[iy][ix], L) != SK_CELL_LEARNING &&
   @   (\at(h->observed[iy][ix], L) >= SK_HISTOGRAM_ENOUGH ==> !sk_seen_twice_in{L}(h, iy, ix, low, SK_HISTOGRAM_BINS)) &&
   @   (\at(h->observed[iy][ix], L) < SK_HISTOGRAM_ENOUGH ==> !sk_seen_in{L}(h, iy, ix, low, SK_HISTOGRAM_BINS) &&
-  @     \at(h->lines[iy][ix], L) >= SK_LINES_ENOUGH && z - \at(h->line_mm[iy][ix], L) > rise);
+  @     ((\at(h->lines[iy][ix], L) >= SK_LINES_ENOUGH && z - \at(h->line_mm[iy][ix], L) > rise) || sk_known_lower{L}(known, iy, ix, low)));
   @ // `low` is the lowest bin that explains z
   @ predicate sk_lowest_bin(integer low, integer z, integer rise) = sk_in_bins(low) &&
   @   \forall integer b; sk_in_bins(b) ==> (b >= low <==> sk_bin_explains(b, z, rise));
-  @ predicate sk_departs{L}(sk_monitor_histogram *h, sk_monitor_rules *r, integer iy, integer ix, integer z) =
+  @ predicate sk_departs{L}(sk_monitor_histogram *h, sk_monitor_histogram *known, sk_monitor_rules *r, integer iy, integer ix, integer z) =
   @   \exists integer low; sk_lowest_bin(low, z, \at(r->height_threshold_mm, L)) &&
-  @     sk_departs_from{L}(h, iy, ix, z, \at(r->height_threshold_mm, L), low);
+  @     sk_departs_from{L}(h, known, iy, ix, z, \at(r->height_threshold_mm, L), low);
   @
   @ // as long as a lone point waits in the temporary map to be joined by another
   @ logic integer sk_window{L}(sk_monitor_rules *r) = 2 * \at(r->period_us, L);
@@ -83,18 +87,19 @@ typedef struct sk_monitor_histogram {
   @   sk_recent_at{L}(h, sk_window{L}(r), now, iy, ix) == 0 && sk_recent_beside{L}(h, sk_window{L}(r), now, iy, ix) == 0 &&
   @   \at(h->ground_us[iy][ix], L) <= now && now - \at(h->ground_us[iy][ix], L) >= \at(r->wait_us, L);
   @
-  @ // where too little was seen, a bin wholly above the lines: nothing there is counted, or who stands there would be his own ground
-  @ predicate sk_above_lines{L}(sk_monitor_histogram *h, integer iy, integer ix, integer b) = \at(h->state[iy][ix], L) != SK_CELL_LEARNING &&
-  @   \at(h->observed[iy][ix], L) < SK_HISTOGRAM_ENOUGH && \at(h->lines[iy][ix], L) >= SK_LINES_ENOUGH &&
-  @   sk_bin_low(b) > \at(h->line_mm[iy][ix], L);
+  @ // where too little was seen, a bin wholly above the lines, or above what others know: nothing there is counted, or who stands there would be
+  @ // his own ground
+  @ predicate sk_above_ground{L}(sk_monitor_histogram *h, sk_monitor_histogram *known, integer iy, integer ix, integer b) =
+  @   \at(h->state[iy][ix], L) != SK_CELL_LEARNING && \at(h->observed[iy][ix], L) < SK_HISTOGRAM_ENOUGH &&
+  @   ((\at(h->lines[iy][ix], L) >= SK_LINES_ENOUGH && sk_bin_low(b) > \at(h->line_mm[iy][ix], L)) || sk_known_lower{L}(known, iy, ix, b));
   @ // higher than what has been seen twice, if not by so much that it departs. Within a window one such point is counted: somebody who is scanned
   @ // from the feet upwards would else be his own ground
   @ predicate sk_raises{L}(sk_monitor_histogram *h, integer iy, integer ix, integer b) = \at(h->state[iy][ix], L) != SK_CELL_LEARNING &&
   @   \at(h->observed[iy][ix], L) >= SK_HISTOGRAM_ENOUGH && !sk_seen_twice_in{L}(h, iy, ix, b, SK_HISTOGRAM_BINS);
   @ predicate sk_may_raise{L}(sk_monitor_histogram *h, sk_monitor_rules *r, integer now, integer iy, integer ix) =
   @   \at(h->state[iy][ix], L) == SK_CELL_CLEAR && (\at(h->ground_us[iy][ix], L) > now || now - \at(h->ground_us[iy][ix], L) > sk_window{L}(r));
-  @ predicate sk_counts{L}(sk_monitor_histogram *h, sk_monitor_rules *r, integer now, integer iy, integer ix, integer b) =
-  @   !sk_above_lines{L}(h, iy, ix, b) && (sk_raises{L}(h, iy, ix, b) ==> sk_may_raise{L}(h, r, now, iy, ix));
+  @ predicate sk_counts{L}(sk_monitor_histogram *h, sk_monitor_histogram *known, sk_monitor_rules *r, integer now, integer iy, integer ix,
+  @   integer b) = !sk_above_ground{L}(h, known, iy, ix, b) && (sk_raises{L}(h, iy, ix, b) ==> sk_may_raise{L}(h, r, now, iy, ix));
   @
   @ predicate sk_bins_kept{A, B}(sk_monitor_histogram *h, integer iy, integer ix) =
   @   \forall integer b; sk_in_bins(b) ==> \at(h->seen[iy][ix][b], A) == \at(h->seen[iy][ix][b], B);
@@ -138,10 +143,11 @@ typedef struct sk_monitor_histogram {
 void sk_histogram_begin(sk_monitor_histogram *h);
 
 /* A measured point over cell (iy, ix). Returns whether it departs from what was seen there: such a point is never counted, so that nobody becomes the
- * ground by standing. Outside the map, or with now_us < 0, nothing changes. */
-/*@ requires \valid(h) && \valid_read(r) && \separated(h, r);
+ * ground by standing. Where too little was seen of the cell, what `known` has seen of it counts: the histograms of other sensors, or h itself.
+ * Outside the map, or with now_us < 0, nothing changes. */
+/*@ requires \valid(h) && \valid_read(known) && \valid_read(r) && \separated(h, r);
   @ assigns h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->departed_mm[..][..], h->departed_us[..][..], h->ground_us[..][..];
-  @ ensures departs: \result == true <==> sk_in_map(iy, ix) && now_us >= 0 && sk_departs{Pre}(h, r, iy, ix, z_mm);
+  @ ensures departs: \result == true <==> sk_in_map(iy, ix) && now_us >= 0 && sk_departs{Pre}(h, known, r, iy, ix, z_mm);
   @ ensures appears: \result == true && sk_joined_by_others{Pre}(h, r, now_us, iy, ix) ==> sk_somebody_at(h, iy, ix);
   @ ensures nobody: sk_in_map(iy, ix) && sk_somebody_at(h, iy, ix) ==>
   @   sk_somebody_at{Pre}(h, iy, ix) || (\result == true && sk_joined_by_others{Pre}(h, r, now_us, iy, ix));
@@ -150,14 +156,15 @@ void sk_histogram_begin(sk_monitor_histogram *h);
   @ ensures time: \result == true ==> h->departed_us[iy][ix] == now_us && h->ground_us[iy][ix] == SK_NO_GROUND &&
   @   sk_ground_kept{Pre, Post}(h, iy, ix);
   @ ensures counted: \result == false && sk_in_map(iy, ix) && now_us >= 0 ==>
-  @   \exists integer b; sk_is_bin(b, z_mm) && (sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_counted{Pre, Post}(h, iy, ix, b)) &&
-  @     (!sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_bins_kept{Pre, Post}(h, iy, ix));
+  @   \exists integer b; sk_is_bin(b, z_mm) && (sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==> sk_counted{Pre, Post}(h, iy, ix, b)) &&
+  @     (!sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==> sk_bins_kept{Pre, Post}(h, iy, ix));
   @ ensures observed: \result == false && sk_in_map(iy, ix) && now_us >= 0 ==> h->departed_us[iy][ix] == \old(h->departed_us[iy][ix]) &&
-  @   \exists integer b; sk_is_bin(b, z_mm) && (sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> sk_observed{Pre, Post}(h, iy, ix)) &&
-  @     (!sk_counts{Pre}(h, r, now_us, iy, ix, b) ==> h->observed[iy][ix] == \old(h->observed[iy][ix]));
+  @   \exists integer b; sk_is_bin(b, z_mm) && (sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==> sk_observed{Pre, Post}(h, iy, ix)) &&
+  @     (!sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==> h->observed[iy][ix] == \old(h->observed[iy][ix]));
   @ ensures others: \forall integer j, i; sk_in_map(j, i) && (now_us < 0 || !(j == iy && i == ix)) ==> sk_cell_kept{Pre, Post}(h, j, i);
   @*/
-bool sk_histogram_insert(sk_monitor_histogram *h, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us);
+bool sk_histogram_insert(sk_monitor_histogram *h, const sk_monitor_histogram *known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm,
+                         int64_t now_us);
 
 /* An interpolated height over cell (iy, ix). It is no observation; while those are too few, what most lines agree on is taken for the ground. */
 /*@ requires \valid(h);
@@ -189,6 +196,23 @@ void sk_histogram_forget(sk_monitor_histogram *h, int32_t x_low_mm, int32_t y_lo
   @   \old(h->state[iy][ix]) == SK_CELL_LEARNING) ==> h->state[iy][ix] == \old(h->state[iy][ix]);
   @*/
 void sk_histogram_settle(sk_monitor_histogram *h, int32_t x_low_mm, int32_t y_low_mm, int32_t x_high_mm, int32_t y_high_mm);
+
+/* The two for cell (iy, ix) alone; outside the map nothing changes. */
+/*@ requires \valid(h);
+  @ assigns h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->line_mm[..][..], h->lines[..][..], h->departed_mm[..][..],
+  @   h->departed_us[..][..], h->ground_us[..][..];
+  @ ensures forgotten: sk_in_map(iy, ix) ==> sk_histogram_blank(h, iy, ix);
+  @ ensures others: \forall integer j, i; sk_in_map(j, i) && !(j == iy && i == ix) ==> sk_cell_kept{Pre, Post}(h, j, i);
+  @*/
+void sk_histogram_forget_cell(sk_monitor_histogram *h, int32_t iy, int32_t ix);
+
+/*@ requires \valid(h);
+  @ assigns h->state[..][..];
+  @ ensures settled: sk_in_map(iy, ix) && \old(h->state[iy][ix]) == SK_CELL_LEARNING ==> h->state[iy][ix] == SK_CELL_CLEAR;
+  @ ensures others: \forall integer j, i; sk_in_map(j, i) && !(j == iy && i == ix && \old(h->state[j][i]) == SK_CELL_LEARNING) ==>
+  @   h->state[j][i] == \old(h->state[j][i]);
+  @*/
+void sk_histogram_settle_cell(sk_monitor_histogram *h, int32_t iy, int32_t ix);
 
 /* For every cycle: whether the machine must stop. *where: a cell of the region with somebody in it, or -1, -1. With rules that do not fit, or
  * now_us < 0, it must stop and nothing but *where changes. */

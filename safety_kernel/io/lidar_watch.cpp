@@ -97,21 +97,21 @@ bool LidarWatch::counts(const Column& column, int channel, const Column* before,
 // What lasers above each other meet of something upright goes into one cell, or errors of a few centimetres would share it out among two and give
 // each another height at every turn: that of the lowest return, a little farther into what it met, so that what only just reaches into a cell does
 // not fill it. Its highest return is no spurious one, there being another below it, so it is not the one to discard.
-void LidarWatch::insert(const Column& column, const bool (&counting)[kVlp16Channels], std::int64_t now_us) {
+void LidarWatch::insert(const Column& column, const bool (&counting)[kVlp16Channels], const MonitorWatch* others, std::int64_t now_us) {
   for (int c = 0; c < kVlp16Channels;) {
     const int lowest = c++;
     if (!counting[lowest]) continue;
     while (c < kVlp16Channels && counting[c] && std::abs(column.level_mm[c] - column.level_mm[lowest]) <= kBesideUprightMm) ++c;
     if (c == lowest + 1) {
-      monitor_.insert(column.point[lowest], now_us);
+      monitor_.insert(column.point[lowest], now_us, others);
       continue;
     }
     sk_point at = farther(column.head, column.point[lowest]);
     for (int channel = lowest; channel < c; ++channel) {
       at.z_mm = column.point[channel].z_mm;
-      monitor_.insert(at, now_us);
+      monitor_.insert(at, now_us, others);
     }
-    monitor_.insert(at, now_us);
+    monitor_.insert(at, now_us, others);
   }
 }
 
@@ -120,10 +120,10 @@ void LidarWatch::note(const Column& column, const bool (&counting)[kVlp16Channel
     if (counting[channel] && returns_.count < LidarReturns::kCapacity) returns_.hit[returns_.count++] = {column.head, column.point[channel], lined};
 }
 
-void LidarWatch::finish(const Column& column, const Column* before, const Column* after, std::int64_t now_us) {
+void LidarWatch::finish(const Column& column, const Column* before, const Column* after, const MonitorWatch* others, std::int64_t now_us) {
   bool counting[kVlp16Channels];
   for (int c = 0; c < kVlp16Channels; ++c) counting[c] = column.met[c] == Met::kThing && counts(column, c, before, after);
-  insert(column, counting, now_us);
+  insert(column, counting, others, now_us);
   const bool lined = draws_lines(column.azimuth_mdeg);
   note(column, counting, lined);
   if (lined) draw(column, now_us);
@@ -158,7 +158,7 @@ void LidarWatch::draw_line(const sk_point& from, const sk_point& to, std::int64_
   monitor_.interpolate(from, clipped(from, to), MonitorWatch::Over::kUnmeasured, now_us);
 }
 
-void LidarWatch::take(const Vlp16Packet& packet, const JointAngles& joints, std::int64_t now_us) {
+void LidarWatch::take(const Vlp16Packet& packet, const JointAngles& joints, std::int64_t now_us, const MonitorWatch* others) {
   Pose pose{self_.pose(joints), std::cos(joints.swing), std::sin(joints.swing), {}};
   pose.head = lidar_base_point(mount_.place, pose.cosine, pose.sine);
   returns_.count = 0;
@@ -174,7 +174,7 @@ void LidarWatch::take(const Vlp16Packet& packet, const JointAngles& joints, std:
     const Column* before = columns_ > 2 ? &newest_[(columns_ - 3) % 3] : nullptr;
     const bool follows = follow(column.azimuth_mdeg, after.azimuth_mdeg);
     if (before != nullptr && !follow(before->azimuth_mdeg, column.azimuth_mdeg)) before = nullptr;
-    finish(column, before, follows ? &after : nullptr, now_us);
+    finish(column, before, follows ? &after : nullptr, others, now_us);
   }
 }
 

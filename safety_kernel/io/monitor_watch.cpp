@@ -8,6 +8,14 @@
 
 namespace berm::kernel {
 
+namespace {
+
+// Of what is learned: pan, swing and range carry a return so far past the edge of a thing (93 mm seen), a whole scanline with it. Wider, and a child
+// beside a truck would stand in cells that know the truck alone.
+constexpr std::int32_t kBesideMm = SK_CELL_MM / 2;
+
+}  // namespace
+
 MonitorWatch::MonitorWatch(const berm_parameters& parameters, std::int32_t wait_us, std::int32_t period_us)
     : histogram_(parameters.workspace_histogram != 0 ? 1 : 0) {
   rules_.height_threshold_mm = parameters.workspace_rise_mm;
@@ -17,8 +25,15 @@ MonitorWatch::MonitorWatch(const berm_parameters& parameters, std::int32_t wait_
   rules_.period_us = period_us;
   rules_.dwell_us = parameters.workspace_dwell_us;
   rules_.continuous = parameters.workspace_follows != 0;
-  sk_watch_region(&rules_, &parameters, true);
+  watch_region(parameters, true);
   begin();
+}
+
+// With histograms of the dig zones too: dig() has what the machine itself changes in them.
+void MonitorWatch::watch_region(const berm_parameters& parameters, bool lanes_open) {
+  berm_parameters region = parameters;
+  if (!histogram_.empty()) region.dig_zones = 0;
+  sk_watch_region(&rules_, &region, lanes_open);
 }
 
 void MonitorWatch::begin() {
@@ -28,11 +43,26 @@ void MonitorWatch::begin() {
   newest_us_ = -1;
 }
 
-void MonitorWatch::insert(const sk_point& point, std::int64_t now_us) {
+void MonitorWatch::insert(const sk_point& point, std::int64_t now_us, const MonitorWatch* others) {
   newest_us_ = now_us;
   const std::int32_t iy = sk_map_index(point.y_mm), ix = sk_map_index(point.x_mm);
-  if (histogram_.empty()) sk_monitor_insert(&monitor_, iy, ix, point.z_mm, false, now_us);
-  else sk_histogram_insert(histogram_.data(), &rules_, iy, ix, point.z_mm, now_us);
+  if (histogram_.empty()) {
+    sk_monitor_insert(&monitor_, iy, ix, point.z_mm, false, now_us);
+    return;
+  }
+  const sk_monitor_histogram* known = others != nullptr && others->histogram() != nullptr ? others->histogram() : histogram();
+  sk_histogram_insert(histogram_.data(), known, &rules_, iy, ix, point.z_mm, now_us);
+  learn_beside(point, now_us);
+}
+
+void MonitorWatch::learn_beside(const sk_point& point, std::int64_t now_us) {
+  sk_monitor_histogram& h = histogram_.front();
+  const std::int32_t own_y = sk_map_index(point.y_mm), own_x = sk_map_index(point.x_mm);
+  for (std::int32_t iy = sk_map_index(point.y_mm - kBesideMm); iy <= sk_map_index(point.y_mm + kBesideMm); ++iy)
+    for (std::int32_t ix = sk_map_index(point.x_mm - kBesideMm); ix <= sk_map_index(point.x_mm + kBesideMm); ++ix) {
+      const bool learns = sk_is_in_map(iy, ix) && h.state[iy][ix] == SK_CELL_LEARNING;
+      if (learns && (iy != own_y || ix != own_x)) sk_histogram_insert(&h, &h, &rules_, iy, ix, point.z_mm, now_us);
+    }
 }
 
 void MonitorWatch::interpolate(const sk_point& from, const sk_point& to, Over over, std::int64_t now_us) {
@@ -56,12 +86,21 @@ void MonitorWatch::change_lanes(const berm_parameters& parameters, bool open) {
     sk_forget_rectangle(&monitor_, lane.x_low_mm, lane.y_low_mm, lane.x_high_mm, lane.y_high_mm);
     for (sk_monitor_histogram& h : histogram_) sk_histogram_forget(&h, lane.x_low_mm, lane.y_low_mm, lane.x_high_mm, lane.y_high_mm);
   }
-  sk_watch_region(&rules_, &parameters, open);
+  watch_region(parameters, open);
 }
 
 void MonitorWatch::settle(const berm_lane& at) {
   sk_settle_rectangle(&monitor_, rules_.continuous, at.x_low_mm, at.y_low_mm, at.x_high_mm, at.y_high_mm);
   for (sk_monitor_histogram& h : histogram_) sk_histogram_settle(&h, at.x_low_mm, at.y_low_mm, at.x_high_mm, at.y_high_mm);
+}
+
+void MonitorWatch::dig(const std::vector<DigWatch::Cell>& cells, bool learned, bool holds) {
+  for (sk_monitor_histogram& h : histogram_)
+    for (const DigWatch::Cell& cell : cells) {
+      const auto [iy, ix] = cell.at;
+      if (cell.near && !holds && h.state[iy][ix] != SK_CELL_LEARNING) sk_histogram_forget_cell(&h, iy, ix);
+      if (!cell.near && cell.was_near && learned) sk_histogram_settle_cell(&h, iy, ix);
+    }
 }
 
 bool MonitorWatch::step(std::int64_t now_us) {

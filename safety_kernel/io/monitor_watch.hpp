@@ -8,6 +8,7 @@
 #include "core/monitor_histogram.h"
 #include "core/scanline_raster.h"
 #include "core/workspace_monitor.h"
+#include "io/dig_watch.hpp"
 
 namespace berm::kernel {
 
@@ -17,8 +18,8 @@ class MonitorWatch {
   MonitorWatch(const berm_parameters& parameters, std::int32_t wait_us, std::int32_t period_us);
 
   void begin();
-  // A return, base frame.
-  void insert(const sk_point& point, std::int64_t now_us);
+  // A return, base frame. others: with histograms, whose knowledge stands for what this one has not seen of a cell.
+  void insert(const sk_point& point, std::int64_t now_us, const MonitorWatch* others = nullptr);
   enum class Over { kEverything, kUnmeasured };  // kUnmeasured: not where the accumulated map has a measured height
   // The line from one return to the next, in steps of half a cell: what a corner of it cuts off stays EMPTY. It counts in EMPTY cells only.
   void interpolate(const sk_point& from, const sk_point& to, Over over, std::int64_t now_us);
@@ -26,6 +27,9 @@ class MonitorWatch {
   void change_lanes(const berm_parameters& parameters, bool open);
   // The rectangle is learned: what has CHANGED in it by now belongs to the ground and explains what is seen beside it.
   void settle(const berm_lane& at);
+  // With histograms, once a cycle: nothing is known of dig zones near the bucket, where soil moves; where it no longer is, what was seen meanwhile is
+  // the ground. learned: the whole region's ground is. holds: somebody is in the region, and no cell may be forgotten, lest it be his.
+  void dig(const std::vector<DigWatch::Cell>& cells, bool learned, bool holds);
   // Once a cycle: whether the machine must stand for what this monitor holds.
   bool step(std::int64_t now_us);
 
@@ -38,6 +42,10 @@ class MonitorWatch {
 
  private:
   static constexpr std::int64_t kStepsMost = 250;  // across the whole map
+
+  void watch_region(const berm_parameters& parameters, bool lanes_open);
+  // With histograms: what is measured nearer to a cell than half a cell counts for it too, while it is learning.
+  void learn_beside(const sk_point& point, std::int64_t now_us);
 
   sk_monitor_rules rules_{};
   sk_monitor monitor_;                           // the accumulated map's heights (leger-1998, section 3.2)

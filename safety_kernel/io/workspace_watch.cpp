@@ -10,6 +10,7 @@ WorkspaceWatch::WorkspaceWatch(const berm_parameters& parameters)
       lidars_(std::clamp<int>(parameters.lidars, 0, BERM_LIDARS)),
       scanners_(parameters, parameters.workspace_wait_us, parameters.workspace_period_us),
       lidar_{{parameters, 0}, {parameters, 1}, {parameters, 2}, {parameters, 3}},
+      digs_(parameters),
       space_(parameters) {
   static_assert(BERM_LIDARS == 4);
 }
@@ -22,7 +23,7 @@ void WorkspaceWatch::begin() {
   space_.watch(lanes_open_, false);
   in_space_ = {-1, -1};
   in_space_us_ = -1;
-  begun_ = false;
+  begun_ = holds_ = false;
   learned_us_ = lane_learned_us_ = kNotLearning;
 }
 
@@ -61,7 +62,7 @@ void WorkspaceWatch::take(const ScanBlocks& blocks, const JointHistory& joints, 
 
 void WorkspaceWatch::take(int lidar, const Vlp16Packet& packet, const JointAngles& joints, std::int64_t now_us) {
   if (!watched() || lidar < 0 || lidar >= lidars_) return;
-  lidar_[lidar].take(packet, joints, now_us);
+  lidar_[lidar].take(packet, joints, now_us, &scanners_);
   const LidarReturns& returns = lidar_[lidar].returns();
   for (int i = 0; space_.kept() && i < returns.count; ++i) {
     const LidarReturns::Return& r = returns.hit[i];
@@ -100,12 +101,19 @@ bool WorkspaceWatch::foreign(std::int64_t now_us) {
   return in_space_us_ >= 0 && now_us - in_space_us_ < parameters_.workspace_dwell_us;
 }
 
+void WorkspaceWatch::dig(const JointAngles& joints) {
+  if (!watched() || parameters_.workspace_histogram == 0) return;
+  digs_.step(joints);
+  const bool learned = begun_ && learned_us_ == kNotLearning;
+  for (int number = 0; number < monitors(); ++number) of(number).dig(digs_.cells(), learned, holds_);
+}
+
 bool WorkspaceWatch::step(std::int64_t now_us) {
   if (!watched()) return false;
   end_learning(now_us);
-  bool stop = foreign(now_us);
-  for (int number = 0; number < monitors(); ++number) stop = of(number).step(now_us) || stop;
-  return stop;
+  holds_ = foreign(now_us);
+  for (int number = 0; number < monitors(); ++number) holds_ = of(number).step(now_us) || holds_;
+  return holds_;
 }
 
 bool WorkspaceWatch::place(std::int32_t& x_mm, std::int32_t& y_mm, std::int32_t& height_mm) const {

@@ -34,6 +34,8 @@ class WorkspaceWatch {
   // Once a cycle. With no fresh word of the spotter the lanes stay as they were. A truck that has parked is learned with its lane; until it leaves the
   // lane is watched.
   void trucks(bool spotter_fresh, bool parked, std::int64_t now_us);
+  // Once a cycle, before what is seen in it is taken: where the bucket is.
+  void dig(const JointAngles& joints);
   // Once a cycle, after them: whether somebody came into the region, and has not left it for long enough. False where nobody watches it.
   bool step(std::int64_t now_us);
 
@@ -71,6 +73,7 @@ class WorkspaceWatch {
   const int lidars_;
   MonitorWatch scanners_;
   LidarWatch lidar_[BERM_LIDARS];
+  DigWatch digs_;
   SpaceWatch space_;
   sk_monitor_cell in_space_{-1, -1};             // a cell with somebody in free space
   std::int64_t in_space_us_ = -1;                // when somebody was last there; -1 never
@@ -79,6 +82,7 @@ class WorkspaceWatch {
   std::int64_t lane_learned_us_ = kNotLearning;  // the same of the lanes
   Last last_[BERM_SCANNERS];
   bool lanes_open_ = true;
+  bool holds_ = false;                           // the newest step said stop
 };
 
 }  // namespace berm::kernel

@@ -10,6 +10,8 @@ namespace {
 constexpr int kBins = 64, kEnough = 8;
 constexpr double kBin = 150.0, kFloor = -5100.0;
 
+bool believed(const ReferenceHistogram::Cell& c) { return c.state != ReferenceHistogram::State::kLearning && c.observed >= kEnough; }
+
 int bin_of(std::int64_t z) { return static_cast<int>(std::clamp(std::floor((static_cast<double>(z) - kFloor) / kBin), 0.0, kBins - 1.0)); }
 }  // namespace
 
@@ -25,15 +27,19 @@ bool ReferenceHistogram::touched(Place at, double x_low, double y_low, double x_
   return std::max(x, x_low) <= std::min(x + 300.0, x_high) && std::max(y, y_low) <= std::min(y + 300.0, y_high);
 }
 
-// Every height ever seen of the cell, one entry a point, that is less than a rise below z; what lies in z's own bin or higher always is.
-bool ReferenceHistogram::departs(const ReferenceRules& r, const Cell& c, std::int64_t z) const {
+bool ReferenceHistogram::departs(const ReferenceRules& r, const Cell& c, const Cell& known, std::int64_t z) const {
   if (c.state == State::kLearning) return false;
-  std::vector<int> as_high;
-  for (const auto& [bin, points] : c.seen)
-    if (kFloor + kBin * bin >= static_cast<double>(z - r.rise) || bin >= bin_of(z))
-      as_high.insert(as_high.end(), static_cast<std::size_t>(points), bin);
-  if (c.observed >= kEnough) return as_high.size() <= 1;
-  return as_high.empty() && c.votes >= 3 && z > c.line + r.rise;
+  // Every height ever seen of a cell, one entry a point, that is less than a rise below z; what lies in z's own bin or higher always is.
+  const auto as_high = [&r, z](const Cell& cell) {
+    std::vector<int> heights;
+    for (const auto& [bin, points] : cell.seen)
+      if (kFloor + kBin * bin >= static_cast<double>(z - r.rise) || bin >= bin_of(z))
+        heights.insert(heights.end(), static_cast<std::size_t>(points), bin);
+    return heights.size();
+  };
+  if (c.observed >= kEnough) return as_high(c) <= 1;
+  const bool over_lines = c.votes >= 3 && z > c.line + r.rise, over_known = believed(known) && as_high(known) <= 1;
+  return as_high(c) == 0 && (over_lines || over_known);
 }
 
 int ReferenceHistogram::recent_around(const ReferenceRules& r, Place at, std::int64_t now, bool with_itself) const {
@@ -44,11 +50,12 @@ int ReferenceHistogram::recent_around(const ReferenceRules& r, Place at, std::in
   }));
 }
 
-bool ReferenceHistogram::insert(const ReferenceRules& r, Place at, std::int64_t z, std::int64_t now) {
+bool ReferenceHistogram::insert(const ReferenceRules& r, const ReferenceHistogram& others, Place at, std::int64_t z, std::int64_t now) {
   if (!inside(at) || now < 0) return false;
+  const Cell known = others.cell(at);
   Cell& c = make(at);
   const int around = recent_around(r, at, now, true), beside = recent_around(r, at, now, false);
-  if (departs(r, c, z)) {
+  if (departs(r, c, known, z)) {
     if (around > beside || beside >= 2) c.state = State::kSomebody;
     c.departed = now;
     c.ground = -1;
@@ -59,11 +66,15 @@ bool ReferenceHistogram::insert(const ReferenceRules& r, Place at, std::int64_t 
     if (c.ground < 0 || c.ground > now) c.ground = now;
     else if (now >= c.ground + r.wait) c.state = State::kClear;
   }
-  int as_high = 0;
-  for (const auto& entry : c.seen) as_high += entry.first >= bin_of(z) ? entry.second : 0;
+  const auto as_high = [z](const Cell& cell) {
+    int points = 0;
+    for (const auto& entry : cell.seen) points += entry.first >= bin_of(z) ? entry.second : 0;
+    return points;
+  };
   const bool above_lines = c.votes >= 3 && kFloor + kBin * bin_of(z) > static_cast<double>(c.line);
-  if (c.state != State::kLearning && c.observed < kEnough && above_lines) return false;
-  if (c.state != State::kLearning && c.observed >= kEnough && as_high < 2) {
+  const bool above_known = believed(known) && as_high(known) < 2;
+  if (c.state != State::kLearning && c.observed < kEnough && (above_lines || above_known)) return false;
+  if (c.state != State::kLearning && c.observed >= kEnough && as_high(c) < 2) {
     if (was != State::kClear || (c.ground >= 0 && c.ground <= now && now <= c.ground + r.period + r.period)) return false;
     c.ground = now;
   }

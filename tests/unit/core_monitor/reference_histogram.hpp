@@ -26,7 +26,8 @@ class ReferenceHistogram {
   using Place = std::pair<int, int>;  // row, column
 
   void begin() { cells_.clear(), somebody_ = -1; }
-  bool insert(const ReferenceRules& r, Place at, std::int64_t z, std::int64_t now);
+  // others: stand for what this one has not seen; itself for none.
+  bool insert(const ReferenceRules& r, const ReferenceHistogram& others, Place at, std::int64_t z, std::int64_t now);
   void line(Place at, std::int64_t z);
   void forget(double x_low, double y_low, double x_high, double y_high);
   void settle(double x_low, double y_low, double x_high, double y_high);
@@ -38,7 +39,7 @@ class ReferenceHistogram {
   static bool inside(Place at) { return at.first >= 0 && at.first < 104 && at.second >= 0 && at.second < 104; }
   static bool touched(Place at, double x_low, double y_low, double x_high, double y_high);
   int recent_around(const ReferenceRules& r, Place at, std::int64_t now, bool with_itself) const;
-  bool departs(const ReferenceRules& r, const Cell& c, std::int64_t z) const;
+  bool departs(const ReferenceRules& r, const Cell& c, const Cell& known, std::int64_t z) const;
   Cell& make(Place at);
 
   std::map<Place, Cell> cells_;  // those that were ever touched by a call

@@ -22,7 +22,7 @@ class MonitorHistogram : public testing::Test {
   MonitorHistogram() { sk_histogram_begin(h.get()); }
   bool see(int iy, int ix, std::int32_t z_mm, int points = 1) {
     bool departs = false;
-    for (int i = 0; i < points; ++i) departs = sk_histogram_insert(h.get(), rules.get(), iy, ix, z_mm, now_us);
+    for (int i = 0; i < points; ++i) departs = sk_histogram_insert(h.get(), h.get(), rules.get(), iy, ix, z_mm, now_us);
     return departs;
   }
   void ground(std::int32_t z_mm = 0) {
@@ -168,6 +168,31 @@ TEST_F(MonitorHistogram, TheRiseIsOverTheLowSideOfWhatWasSeen) {
   EXPECT_FALSE(see(50, 50, -3000)) << "what has sunk is ground";
 }
 
+// verifies: SK-WM-68
+TEST_F(MonitorHistogram, WhereTooLittleWasSeenWhatOthersKnowCounts) {
+  const auto others = std::make_unique<sk_monitor_histogram>();
+  const auto departs = [&](std::int32_t z_mm) { return sk_histogram_insert(h.get(), others.get(), rules.get(), 50, 50, z_mm, now_us); };
+  sk_histogram_begin(others.get());
+  settle();
+  for (int i = 0; i < SK_HISTOGRAM_ENOUGH; ++i) sk_histogram_insert(others.get(), others.get(), rules.get(), 50, 50, 0, now_us);
+  EXPECT_FALSE(departs(900)) << "the others are learning";
+  sk_histogram_begin(h.get());
+  settle();
+  sk_histogram_settle(others.get(), kLow, kLow, kHigh, kHigh);
+  EXPECT_FALSE(departs(400)) << "no rise";
+  EXPECT_EQ(h->observed[50][50], 0U) << "higher than what the others know";
+  EXPECT_FALSE(departs(100));
+  EXPECT_EQ(h->observed[50][50], 1U);
+  EXPECT_TRUE(departs(900));
+  EXPECT_FALSE(somebody(50, 50)) << "a lone point";
+  EXPECT_TRUE(departs(700));
+  EXPECT_TRUE(somebody(50, 50));
+  sk_histogram_begin(h.get());
+  see(50, 50, 1000, SK_HISTOGRAM_ENOUGH);
+  settle();
+  EXPECT_FALSE(departs(1000)) << "enough of its own";
+}
+
 // verifies: SK-WM-62, SK-WM-63
 TEST_F(MonitorHistogram, WhoIsScannedFromTheFeetUpwardsIsNotHisOwnGround) {
   for (const bool downwards : {false, true}) {
@@ -304,15 +329,17 @@ void expect_same(const sk_monitor_histogram& h, const ReferenceHistogram& refere
 
 bool lower_half(ReferenceHistogram::Place at) { return at.first < 52; }
 
-// verifies: SK-WM-60, SK-WM-61, SK-WM-62, SK-WM-63, SK-WM-64, SK-WM-65
+// verifies: SK-WM-60, SK-WM-61, SK-WM-62, SK-WM-63, SK-WM-64, SK-WM-65, SK-WM-68
 TEST_F(MonitorHistogram, RandomSequencesAreAsTheReferenceHasThem) {
   std::printf("seed %llu\n", static_cast<unsigned long long>(kSeed));
   std::mt19937_64 random(kSeed);
   const auto below = [&random](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  const auto others = std::make_unique<sk_monitor_histogram>();
   int departed = 0, stops = 0, left = 0;
   for (int sequence = 0; sequence < 30; ++sequence) {
-    ReferenceHistogram reference;
+    ReferenceHistogram reference, reference_of_others;
     sk_histogram_begin(h.get());
+    sk_histogram_begin(others.get());
     now_us = below(1'000'000);
     rules->height_threshold_mm = 100 + below(900);
     rules->wait_us = sequence % 5 == 0 ? 0 : below(400'000);
@@ -345,8 +372,17 @@ TEST_F(MonitorHistogram, RandomSequencesAreAsTheReferenceHasThem) {
         if (below(30) == 0) z = 500 + below(1500);
         if (below(300) == 0) z = below(2) == 0 ? -6000 : 7000;
         if (below(3000) == 0) z = below(2) == 0 ? std::numeric_limits<std::int32_t>::min() : std::numeric_limits<std::int32_t>::max();
-        const bool departs = sk_histogram_insert(h.get(), rules.get(), iy, ix, z, now_us);
-        ASSERT_EQ(departs, reference.insert(r, {iy, ix}, z, now_us)) << sequence << " " << turn << ": " << z << " mm";
+        if (sequence % 2 == 0 && below(3) == 0) {  // what the others see
+          sk_histogram_insert(others.get(), others.get(), rules.get(), iy, ix, z, now_us);
+          reference_of_others.insert(r, reference_of_others, {iy, ix}, z, now_us);
+          continue;
+        }
+        if (below(20) == 0) {
+          sk_histogram_settle(others.get(), kLow, kLow, kHigh, kHigh);
+          reference_of_others.settle(kLow, kLow, kHigh, kHigh);
+        }
+        const bool departs = sk_histogram_insert(h.get(), others.get(), rules.get(), iy, ix, z, now_us);
+        ASSERT_EQ(departs, reference.insert(r, reference_of_others, {iy, ix}, z, now_us)) << sequence << " " << turn << ": " << z << " mm";
         departed += departs ? 1 : 0;
         left += was && !somebody(iy, ix) ? 1 : 0;
       }
