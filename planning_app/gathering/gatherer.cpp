@@ -55,7 +55,7 @@ void PointCloudGatherer::add_scan(std::size_t number, const Eigen::Isometry3d& f
   counts_.points_in += returns.size();
   // One count for all scanners: points of different scanners are always of different epochs and merge.
   if (scanner.epochs.begins_with(frame.linear())) scanner.epoch = ++epoch_;
-  scan_time_s_.push_back(time_s);
+  times_.begin_scan(time_s, store_);
   take_valid(returns);
   if (scanner.has_scan) {
     const ScannerDeviations& d = scanner.deviations;
@@ -75,7 +75,7 @@ void PointCloudGatherer::add_points(std::size_t number, const Eigen::Isometry3d&
   ++counts_.scans;
   counts_.points_in += points.size();
   if (scanner.epoch == 0) scanner.epoch = ++epoch_;
-  scan_time_s_.push_back(time_s);
+  times_.begin_scan(time_s, store_);
   for (const ScanPoint& p : points) {
     const Eigen::Vector3d place(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
     const Eigen::Vector3d ray = mount.linear() * (place - origin);
@@ -145,7 +145,7 @@ void PointCloudGatherer::insert(const Scanner& scanner, const Eigen::Isometry3d&
                       static_cast<float>(place[1]),
                       static_cast<float>(place[2]),
                       point_covariance(scanner.deviations, p.range_m, {direction[0], direction[1], direction[2]}, {across[0], across[1], across[2]}),
-                      static_cast<std::uint32_t>(scan_time_s_.size() - 1),
+                      times_.newest(),
                       CloudStore::kNone};
   const double own_width = largest_half_width(fresh.covariance, options_.quantile);
   widest_m_ = std::max(widest_m_, own_width);
@@ -187,7 +187,7 @@ GatheringCounts PointCloudGatherer::counts() const {
   return out;
 }
 
-std::size_t PointCloudGatherer::bytes() const { return store_.bytes() + scan_time_s_.capacity() * sizeof(double); }
+std::size_t PointCloudGatherer::bytes() const { return store_.bytes() + times_.bytes(); }
 
 std::vector<ScanPoint> PointCloudGatherer::points() const {
   std::vector<ScanPoint> out;
@@ -195,7 +195,7 @@ std::vector<ScanPoint> PointCloudGatherer::points() const {
   for (std::uint32_t index = 0; index < store_.places(); ++index) {
     if (!store_.used(index)) continue;
     const GatheredPoint& p = store_[index];
-    out.push_back({p.x, p.y, p.z, p.scan, scan_time_s_[p.scan]});
+    out.push_back({p.x, p.y, p.z, p.scan, times_.of(p.scan)});
   }
   std::sort(out.begin(), out.end(), [](const ScanPoint& p, const ScanPoint& q) { return p.scanline < q.scanline; });
   return out;

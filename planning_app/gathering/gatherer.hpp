@@ -10,6 +10,7 @@
 #include "gathering/deletion_volume.hpp"
 #include "gathering/epoch_counter.hpp"
 #include "gathering/kinematic_chain.hpp"
+#include "gathering/scan_times.hpp"
 #include "points/point_cloud.hpp"
 
 namespace berm::app {
@@ -78,7 +79,7 @@ private:
   GatheringOptions options_;
   CloudStore store_;
   std::vector<Scanner> scanners_;
-  std::vector<double> scan_time_s_;
+  ScanTimes times_;
   std::vector<PolarReturn> valid_;
   std::vector<std::uint32_t> passed_;
   DeletionVolume volume_;

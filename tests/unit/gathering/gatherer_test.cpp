@@ -56,6 +56,30 @@ TEST(Gatherer, MergedPointHasTheHigherEpochAndASmallerVolume) {
   EXPECT_EQ(gatherer.epoch(), 3U);
 }
 
+// A shift has two million scans: what is kept of them follows the points, and those that stay keep the time of the scan that met them last.
+TEST(Gatherer, OfManyScansOnlyTheTimesThatPointsNeedAreKept) {
+  PointCloudGatherer gatherer(GatheringOptions{});
+  gatherer.add_scanner({0.02, 0.004, 0.004}, upright());
+  const auto scan_at = [&gatherer](double pan, double time_s) {
+    const double encoder[] = {pan};
+    const PolarReturn hit[] = {{0.0, 3.0}};
+    gatherer.add_scan(0, encoder, hit, time_s);
+  };
+  for (int i = 0; i < 50; ++i) scan_at(1.0 + 0.01 * i, i);  // seen once, covered ever after
+  std::size_t most = 0;
+  for (int i = 50; i < 60000; ++i) {
+    scan_at(0.0, i);
+    most = std::max(most, gatherer.bytes());
+  }
+  EXPECT_EQ(gatherer.counts().scans, 60000U);
+  EXPECT_LT(most - gatherer.store().bytes(), 200'000U) << "the times of all of them take 480 kB and more";
+  std::map<double, int> times;
+  for (const ScanPoint& p : gatherer.points()) ++times[p.time_s];
+  ASSERT_EQ(gatherer.store().size(), 51U);
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(times[i], 1) << i;
+  EXPECT_EQ(times[59999], 1);
+}
+
 // An ellipsoid is long across the beam and short along it: a sphere of either size gives another answer.
 TEST(Gatherer, MergesByEllipsoidsNotSpheres) {
   for (const auto& [along, range, merges] :
