@@ -85,7 +85,8 @@ bool listen(Job& job, const std::function<void(int, const std::string&)>& told) 
   if (n == 0) return false;
   job.pending.append(buffer, static_cast<std::size_t>(n));
   std::size_t from = 0;
-  for (std::size_t end; (end = job.pending.find('\n', from)) != std::string::npos; from = end + 1) told(job.number, job.pending.substr(from, end - from));
+  for (std::size_t end; (end = job.pending.find('\n', from)) != std::string::npos; from = end + 1)
+    told(job.number, job.pending.substr(from, end - from));
   job.pending.erase(0, from);
   return true;
 }

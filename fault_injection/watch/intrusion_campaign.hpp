@@ -8,8 +8,8 @@
 
 namespace berm::watch {
 
-// Runs trials 0 to count - 1 of the campaign's seed, so many processes at a time (0: one for each core), and puts those that are over into it, in order of
-// their numbers. done(result) follows each. Whatever the number of processes, the results are the same.
+// Runs trials 0 to count - 1 of the campaign's seed, so many processes at a time (0: one for each core), and puts those that are over into it, in
+// order of their numbers. done(result) follows each. Whatever the number of processes, the results are the same.
 void run_campaign(const Bench& bench, int count, int jobs, Campaign& campaign, const std::function<void(const IntrusionResult&)>& done);
 
 }  // namespace berm::watch

@@ -183,7 +183,8 @@ static bool sk_is_above_ground(const sk_monitor_histogram *h, const sk_monitor_h
 /*@ requires \valid(h) && \valid_read(known) && \valid_read(r) && \separated(h, r) && sk_in_map(iy, ix) && sk_in_bins(b) && now_us >= 0;
   @ assigns h->seen[iy][ix][0 .. SK_HISTOGRAM_BINS - 1], h->observed[iy][ix], h->ground_us[iy][ix];
   @ ensures counted: sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==> sk_counted{Pre, Post}(h, iy, ix, b) && sk_observed{Pre, Post}(h, iy, ix);
-  @ ensures kept: !sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==> sk_bins_kept{Pre, Post}(h, iy, ix) && h->observed[iy][ix] == \old(h->observed[iy][ix]);
+  @ ensures kept: !sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==>
+  @   sk_bins_kept{Pre, Post}(h, iy, ix) && h->observed[iy][ix] == \old(h->observed[iy][ix]);
   @ ensures time: h->ground_us[iy][ix] == \old(h->ground_us[iy][ix]) || (h->ground_us[iy][ix] == now_us && h->state[iy][ix] == SK_CELL_CLEAR);
   @*/
 static void sk_count_ground(sk_monitor_histogram *h, const sk_monitor_histogram *known, const sk_monitor_rules *r, int32_t iy, int32_t ix,

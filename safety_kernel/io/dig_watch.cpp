@@ -41,7 +41,8 @@ DigWatch::DigWatch(const berm_parameters& parameters) : parameters_(parameters),
       double ceiling_m = -std::numeric_limits<double>::infinity();
       for (int k = 0; k < std::clamp<int>(parameters.dig_zones, 0, BERM_DIG_ZONES); ++k) {
         const berm_dig_zone& zone = parameters.dig_zone[k];
-        if (sk_is_touched(iy, ix, zone.x_low_mm, zone.y_low_mm, zone.x_high_mm, zone.y_high_mm)) ceiling_m = std::max(ceiling_m, zone.ceiling_mm * 1e-3);
+        const bool touched = sk_is_touched(iy, ix, zone.x_low_mm, zone.y_low_mm, zone.x_high_mm, zone.y_high_mm);
+        if (touched) ceiling_m = std::max(ceiling_m, zone.ceiling_mm * 1e-3);
       }
       if (std::isfinite(ceiling_m)) cells_.push_back({{iy, ix}, middle_m(ix), middle_m(iy), ceiling_m, false, false});
     }

@@ -11,8 +11,8 @@ namespace berm::kernel {
 
 class DigWatch {
  public:
-  // Soil that heaps up by more than a rise does so no farther from the bucket than this, as seen from above: it is pulled towards the machine, where a
-  // heap of 1.1 m on the edge is 1.4 m wide (seen in simulation); beyond the teeth and beside them the face only slides down.
+  // Soil that heaps up by more than a rise does so no farther from the bucket than this, as seen from above: it is pulled towards the machine,
+  // where a heap of 1.1 m on the edge is 1.4 m wide (seen in simulation); beyond the teeth and beside them the face only slides down.
   static constexpr double kBehindM = 1.5, kBeyondM = 0.5, kBesideM = 0.5;
 
   struct Cell {

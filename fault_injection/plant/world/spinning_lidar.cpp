@@ -18,6 +18,17 @@ constexpr std::uint8_t strongest = 0x37, dual = 0x39, product = 0x22, reflectivi
 // Of laser k in firing order, degrees.
 constexpr double elevation_deg(int laser) { return laser % 2 == 0 ? -15.0 + laser : laser; }
 
+// Of each laser: its elevation, and how far the sensor turns from the firing's begin until it fires.
+struct Laser { double up_cosine, up_sine, turn_cosine, turn_sine; };
+std::array<Laser, lasers> make_lasers() {
+  std::array<Laser, lasers> all{};
+  for (int laser = 0; laser < lasers; ++laser) {
+    const double e = elevation_deg(laser) * std::numbers::pi / 180, turn = turns_per_s * 2 * std::numbers::pi * laser * 2304e-9;
+    all[static_cast<std::size_t>(laser)] = {std::cos(e), std::sin(e), std::cos(turn), std::sin(turn)};
+  }
+  return all;
+}
+
 double azimuth(std::int64_t firing) {
   const double turns = static_cast<double>(firing) * firing_ns * 1e-9 * turns_per_s;
   return 2 * std::numbers::pi * (turns - std::floor(turns));
@@ -88,10 +99,13 @@ void SpinningLidar::fire(std::int64_t firing, double swing, const SensorAir& air
   std::fill(records, records + record_bytes * lasers, std::uint8_t{0});
   if (others != nullptr) std::fill(others, others + record_bytes * lasers, std::uint8_t{0});
   if (!in_sector) return;
-  for (int laser = 0; laser < lasers; ++laser) {
+  static const std::array<Laser, lasers> fired = make_lasers();
+  const double cosine = std::cos(at), sine = std::sin(at);
+  for (std::size_t laser = 0; laser < fired.size(); ++laser) {
+    const Laser& l = fired[laser];
     const double noise = random_.normal(), lost = random_.uniform();  // drawn whatever is hit
-    const double e = elevation_deg(laser) * std::numbers::pi / 180, turn = at + turns_per_s * 2 * std::numbers::pi * laser * 2304e-9;
-    const Vec3 direction = turned({std::cos(e) * std::cos(turn), -std::cos(e) * std::sin(turn), std::sin(e)});
+    const double ahead = cosine * l.turn_cosine - sine * l.turn_sine, aside = sine * l.turn_cosine + cosine * l.turn_sine;
+    const Vec3 direction = turned({l.up_cosine * ahead, -l.up_cosine * aside, l.up_sine});
     const Ray upper{{mount_.position[0], mount_.position[1], mount_.position[2]}, direction};
     const Ray base{body.out(upper.origin), body.out(upper.direction)};
     const Ray world = stand.out(base);
@@ -101,8 +115,8 @@ void SpinningLidar::fire(std::int64_t firing, double swing, const SensorAir& air
     blow(range, air, back);
     if (air.covers(at) || lost < noise_.dropout_probability) continue;
     if (back.met) note(*hit, world, returns);
-    put_return(records + record_bytes * static_cast<std::size_t>(laser), back.last);
-    if (others != nullptr) put_return(others + record_bytes * static_cast<std::size_t>(laser), back.other);
+    put_return(records + record_bytes * laser, back.last);
+    if (others != nullptr) put_return(others + record_bytes * laser, back.other);
   }
 }
 
