@@ -17,6 +17,7 @@ using nlohmann::ordered_json;
 using Some = std::vector<const IntrusionResult*>;
 
 constexpr int listed_most = 30;
+constexpr std::size_t slowest_listed = 5;
 
 // The value that share of them do not exceed; null of none.
 ordered_json percentile(std::vector<double> values, double share) {
@@ -41,12 +42,17 @@ std::vector<double> detect_ms(const Some& some) {
   return ms;
 }
 
-// Of those that the monitor stopped for: what it took once a sensor had seen them.
+// What it took once a sensor had seen it, if the monitor stopped for it after that.
+std::optional<double> seen_to_stop_ms(const IntrusionResult& r) {
+  const bool stopped = r.outcome == Outcome::detected && r.record.detected_by == BERM_STOP_INTRUDER;
+  if (!stopped || !r.seen_s || *r.seen_s > *r.record.detected_s) return std::nullopt;
+  return 1000.0 * (*r.record.detected_s - *r.seen_s);
+}
+
 std::vector<double> seen_to_stop_ms(const Some& some) {
   std::vector<double> ms;
   for (const auto* r : some)
-    if (r->outcome == Outcome::detected && r->record.detected_by == BERM_STOP_INTRUDER && r->seen_s && *r->seen_s <= *r->record.detected_s)
-      ms.push_back(1000.0 * (*r->record.detected_s - *r->seen_s));
+    if (const auto one = seen_to_stop_ms(*r)) ms.push_back(*one);
   return ms;
 }
 
@@ -136,6 +142,18 @@ std::string row_of(const std::string& name, const ordered_json& f) {
                      in_ms(f["detect_ms_p50"]), in_ms(f["detect_ms_p95"]));
 }
 
+ordered_json slowest_of(const Campaign& campaign, Some some) {
+  some.erase(std::remove_if(some.begin(), some.end(), [](const auto* r) { return !seen_to_stop_ms(*r); }), some.end());
+  std::stable_sort(some.begin(), some.end(), [](const auto* a, const auto* b) { return *seen_to_stop_ms(*a) > *seen_to_stop_ms(*b); });
+  ordered_json slowest = ordered_json::array();
+  for (std::size_t i = 0; i < std::min(some.size(), slowest_listed); ++i)
+    slowest.push_back({{"run", some[i]->intrusion.run},
+                       {"who", describe(some[i]->intrusion)},
+                       {"seen_to_stop_ms", number(seen_to_stop_ms(*some[i]))},
+                       {"command", command_of(campaign, *some[i])}});
+  return slowest;
+}
+
 }  // namespace
 
 std::string command_of(const Campaign& campaign, const IntrusionResult& r) {
@@ -161,7 +179,7 @@ ordered_json flat_json(const Campaign& campaign) {
   out["truck_side_undetected"] = truck_side_undetected;
   std::map<std::string, int> by_reason;
   for (const auto* r : all)
-    if (r->record.detected_s) ++by_reason[run::stop_reason_name(r->record.detected_by)];
+    if (r->outcome == Outcome::detected) ++by_reason[run::stop_reason_name(r->record.detected_by)];
   out["detected_by"] = by_reason;
   for (const auto& [group, members] : groups_of(campaign))
     for (const auto& [name, some] : members) out[group][name] = figures(some);
@@ -179,6 +197,7 @@ ordered_json flat_json(const Campaign& campaign) {
   }
   out["failures"] = failures;
   out["false_alarm_list"] = quiet;
+  out["slowest"] = slowest_of(campaign, all);
   out["wall_seconds"] = campaign.wall_seconds;
   return out;
 }

@@ -34,6 +34,8 @@ def trials_are_judged_the_same_again():
     assert sum(result[kind] for kind in kinds) == TRIALS, [result[kind] for kind in kinds]
     assert result["contacts"] == 0, "somebody was touched"
     assert result["detected"] >= 2, "hardly anybody was detected: the trials show nothing"
+    assert sum(result["detected_by"].values()) == result["detected"]
+    assert result["slowest"][0]["seen_to_stop_ms"] == result["seen_to_stop_ms_max"] and "--only" in result["slowest"][0]["command"]
     assert 0 < result["detect_ms_p50"] <= result["detect_ms_p95"]
     assert 0 <= result["seen_to_stop_ms_p50"] <= result["seen_to_stop_ms_p95"] <= result["seen_to_stop_ms_max"]
     # From a point to the stop: at most the monitor's wait and two periods (3 s) and some cycles, once its cell is judged at all.
