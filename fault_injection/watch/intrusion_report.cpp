@@ -164,7 +164,7 @@ std::string command_of(const Campaign& campaign, const IntrusionResult& r) {
 
 ordered_json flat_json(const Campaign& campaign) {
   const Some all = all_of(campaign);
-  ordered_json out{{"machine", campaign.machine}, {"histogram", campaign.histogram}, {"seed", campaign.seed}};
+  ordered_json out{{"machine", campaign.machine}, {"histogram", campaign.histogram}, {"seed", campaign.seed}, {"asked", campaign.asked}};
   out.update(figures(all));
   int false_alarms = 0, truck_side_undetected = 0;
   std::vector<double> truck_side;

@@ -183,7 +183,6 @@ class Preparation::Work {
   IntrusionResult result_;
 };
 
-
 const char* name_of(Outcome outcome) {
   switch (outcome) {
     case Outcome::detected: return "detected";

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <exception>
+#include <filesystem>
 
 #include "config/whole_file.hpp"
 #include "run/parameter_file.hpp"
@@ -17,11 +18,17 @@ namespace {
 
 constexpr std::size_t told_every = 50;  // intrusions; what is over by then is written, too
 
+// A pipe or a device takes the result once, at the end.
+bool can_be_written_again(const std::string& path) {
+  return !path.empty() && (std::filesystem::is_regular_file(path) || !std::filesystem::exists(path));
+}
+
 int watch_intrusions(const Options& options) {
   Campaign campaign;
   campaign.machine = options.machine.empty() ? "zx200" : options.machine;
   campaign.histogram = options.histogram;
   campaign.seed = options.seed;
+  campaign.asked = options.only >= 0 ? 1 : options.intrusions;
   const Bench bench = make_bench(campaign.machine, campaign.histogram, BERM_PLANT_PROFILES);
   const auto draw = [&](int run) { return draw_intrusion(options.seed, run, bench.intrusion_site); };
   if (options.only >= 0) {
@@ -38,7 +45,7 @@ int watch_intrusions(const Options& options) {
       if (finished % told_every != 0) return;
       if (!progress) fmt::print(stderr, "{} of {} intrusions\n", finished, options.intrusions);
       campaign.wall_seconds = seconds();
-      if (!options.json.empty()) config::write_whole_file(options.json, flat_json(campaign).dump(1) + "\n");
+      if (can_be_written_again(options.json)) config::write_whole_file(options.json, flat_json(campaign).dump(1) + "\n");
     });
     if (progress) fmt::print(stderr, "\n");
     campaign.wall_seconds = seconds();

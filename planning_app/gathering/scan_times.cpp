@@ -13,14 +13,13 @@ double ScanTimes::of(std::uint32_t scan) const {
   return std::lower_bound(times_.begin(), times_.end(), scan, [](const auto& entry, std::uint32_t number) { return entry.first < number; })->second;
 }
 
-// Twice as many must come before the next time, so that each scan pays for a fixed number of looks.
+// One look at each point, and twice as many scans must come before the next time.
 void ScanTimes::forget_unnamed(const CloudStore& store) {
-  std::vector<std::uint32_t> named;
-  named.reserve(store.size());
+  const std::uint32_t first = times_.front().first;
+  std::vector<bool> named(next_ - first);
   for (std::uint32_t index = 0; index < store.places(); ++index)
-    if (store.used(index)) named.push_back(store[index].scan);
-  std::sort(named.begin(), named.end());
-  const auto unnamed = [&named](const auto& entry) { return !std::binary_search(named.begin(), named.end(), entry.first); };
+    if (store.used(index)) named[store[index].scan - first] = true;
+  const auto unnamed = [&named, first](const auto& entry) { return !named[entry.first - first]; };
   times_.erase(std::remove_if(times_.begin(), times_.end(), unnamed), times_.end());
   forget_at_ = std::max(kFewest, 2 * times_.size());
 }

@@ -48,13 +48,13 @@ DigWatch::DigWatch(const berm_parameters& parameters) : parameters_(parameters),
     }
 }
 
-void DigWatch::step(const JointAngles& joints) {
+void DigWatch::step(const JointAngles& joints, bool stands) {
   const Outline bucket = bucket_of(parameters_, kinematics_.implements(joints));
   const double c = std::cos(joints.swing), s = std::sin(joints.swing), cell_m = kHalfCellM * std::sqrt(2.0);
   for (Cell& cell : cells_) {
     const double r = c * cell.x_m + s * cell.y_m, aside = std::fabs(c * cell.y_m - s * cell.x_m);
     cell.was_near = cell.near;
-    cell.near = bucket.lowest < cell.ceiling_m && r > bucket.r_low - kBehindM - cell_m && r < bucket.r_high + kBeyondM + cell_m &&
+    cell.near = !stands && bucket.lowest < cell.ceiling_m && r > bucket.r_low - kBehindM - cell_m && r < bucket.r_high + kBeyondM + cell_m &&
                 aside < bucket.half_width + kBesideM + cell_m;
   }
 }

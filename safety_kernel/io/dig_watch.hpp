@@ -19,13 +19,13 @@ class DigWatch {
     sk_monitor_cell at;
     double x_m, y_m;     // its middle, base frame
     double ceiling_m;    // of its zone: soil heaps up no higher
-    bool near, was_near;  // the bucket, in the newest step and in the one before
+    bool near, was_near; // a bucket that may move soil, in the newest step and in the one before
   };
 
   explicit DigWatch(const berm_parameters& parameters);
 
-  // Once a cycle, with the joints as they are now. A bucket above the zone's ceiling moves no soil.
-  void step(const JointAngles& joints);
+  // Once a cycle, with the joints as they are now. A bucket above the zone's ceiling moves no soil, nor does one that stands.
+  void step(const JointAngles& joints, bool stands);
   const std::vector<Cell>& cells() const { return cells_; }
 
  private:

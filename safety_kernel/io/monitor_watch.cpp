@@ -50,8 +50,7 @@ void MonitorWatch::insert(const sk_point& point, std::int64_t now_us, const Moni
     sk_monitor_insert(&monitor_, iy, ix, point.z_mm, false, now_us);
     return;
   }
-  const sk_monitor_histogram* known = others != nullptr && others->histogram() != nullptr ? others->histogram() : histogram();
-  sk_histogram_insert(histogram_.data(), known, &rules_, iy, ix, point.z_mm, now_us);
+  sk_histogram_insert(histogram_.data(), (others != nullptr ? *others : *this).histogram(), &rules_, iy, ix, point.z_mm, now_us);
   learn_beside(point, now_us);
 }
 

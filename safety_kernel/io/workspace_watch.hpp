@@ -34,8 +34,8 @@ class WorkspaceWatch {
   // Once a cycle. With no fresh word of the spotter the lanes stay as they were. A truck that has parked is learned with its lane; until it leaves the
   // lane is watched.
   void trucks(bool spotter_fresh, bool parked, std::int64_t now_us);
-  // Once a cycle, before what is seen in it is taken: where the bucket is.
-  void dig(const JointAngles& joints);
+  // Once a cycle, before what is seen in it is taken: where the bucket is, and whether the machine stands.
+  void dig(const JointAngles& joints, bool stands);
   // Once a cycle, after them: whether somebody came into the region, and has not left it for long enough. False where nobody watches it.
   bool step(std::int64_t now_us);
 

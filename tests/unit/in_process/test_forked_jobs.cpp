@@ -53,7 +53,7 @@ TEST(ForkedJobs, SoManyAtATimeAndNoMore) {
   Shared& shared = *new (memory) Shared;
   const auto work = [&shared](int, const Say& say) {
     const int here = ++shared.here;
-    if (here > shared.most) shared.most = here;
+    for (int most = shared.most; here > most && !shared.most.compare_exchange_weak(most, here);) {}
     ++shared.begun;
     for (int i = 0; i < 3000 && shared.begun < 3; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     say(shared.begun >= 3 ? "together" : "alone");

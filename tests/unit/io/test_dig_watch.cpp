@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "core/height_map.h"
 #include "io/workspace_watch.hpp"
@@ -46,7 +47,7 @@ TEST_F(DigWatchTest, NearIsWhereALowBucketMovesSoil) {
   DigWatch digs(parameters);
   EXPECT_EQ(cell_at(digs, 3.0, 0.0), nullptr) << "not of a dig zone";
   ASSERT_NE(cell_at(digs, 6.0, 0.0), nullptr);
-  digs.step(digging());
+  digs.step(digging(), false);
   const double from = bucket_from(digging()), to = bucket_to(digging());
   ASSERT_GT(from, 5.5);
   ASSERT_LT(to, 9.0);
@@ -56,7 +57,7 @@ TEST_F(DigWatchTest, NearIsWhereALowBucketMovesSoil) {
   EXPECT_TRUE(cell_at(digs, 0.5 * (from + to), 1.0)->near);
   EXPECT_FALSE(cell_at(digs, 0.5 * (from + to), 1.8)->near) << "beside it";
   EXPECT_FALSE(cell_at(digs, 0.5 * (from + to), 0.0)->was_near);
-  digs.step(digging(25.0));
+  digs.step(digging(25.0), false);
   const double r = 0.5 * (from + to);
   EXPECT_TRUE(cell_at(digs, r * std::cos(25 * kDegree), r * std::sin(25 * kDegree))->near) << "it swings with the upper body";
   EXPECT_FALSE(cell_at(digs, r, 0.0)->near);
@@ -67,7 +68,7 @@ TEST_F(DigWatchTest, NearIsWhereALowBucketMovesSoil) {
 TEST_F(DigWatchTest, ABucketAboveTheCeilingMovesNone) {
   DigWatch digs(parameters);
   ASSERT_GT(std::min(pin(carrying()).y(), Kinematics(parameters).implements(carrying()).tip.y()), 1.1) << "the pose tests nothing";
-  digs.step(carrying());
+  digs.step(carrying(), false);
   EXPECT_TRUE(std::none_of(digs.cells().begin(), digs.cells().end(), [](const auto& c) { return c.near; }));
 }
 
@@ -87,7 +88,7 @@ class DugWorkspaceTest : public DigWatchTest {
   DugWorkspaceTest() {
     watch = std::make_unique<WorkspaceWatch>(parameters);
     watch->begin();
-    watch->dig(carrying());
+    watch->dig(carrying(), false);
     for (const double x : {near_m, far_m}) see(x, 0, SK_HISTOGRAM_ENOUGH);
     watch->step(now);
     now += parameters.workspace_learn_us;
@@ -106,6 +107,11 @@ class DugWorkspaceTest : public DigWatchTest {
   }
   std::uint16_t state(double x_m) const { return watch->histogram()->state[sk_map_index(150)][sk_map_index(static_cast<std::int32_t>(x_m * 1e3))]; }
 
+  int points_seen(double x_m) const {
+    const auto& bins = watch->histogram()->seen[sk_map_index(150)][sk_map_index(static_cast<std::int32_t>(x_m * 1e3))];
+    return std::accumulate(std::begin(bins), std::end(bins), 0);
+  }
+
   static constexpr double near_m = 6.6, far_m = 9.9;
   std::int64_t now = kNow;
   JointHistory joints;
@@ -115,7 +121,7 @@ class DugWorkspaceTest : public DigWatchTest {
 
 // verifies: SK-WM-46, SK-WM-69
 TEST_F(DugWorkspaceTest, WhoComesIntoADigZoneStopsItAwayFromTheBucket) {
-  watch->dig(digging());
+  watch->dig(digging(), false);
   see(far_m, 900, 2);
   EXPECT_TRUE(watch->step(now));
   berm_parameters without = parameters;
@@ -126,11 +132,11 @@ TEST_F(DugWorkspaceTest, WhoComesIntoADigZoneStopsItAwayFromTheBucket) {
 
 // verifies: SK-WM-69
 TEST_F(DugWorkspaceTest, SoilHeapedUpBesideTheBucketIsTheGroundWhenItIsGone) {
-  watch->dig(digging());
+  watch->dig(digging(), false);
   EXPECT_EQ(state(near_m), SK_CELL_LEARNING);
   see(near_m, 900, SK_HISTOGRAM_ENOUGH);
   EXPECT_FALSE(watch->step(now)) << "beside the bucket";
-  watch->dig(carrying());
+  watch->dig(carrying(), false);
   EXPECT_EQ(state(near_m), SK_CELL_CLEAR);
   see(near_m, 950, 2);
   EXPECT_FALSE(watch->step(now)) << "learned while it was there";
@@ -142,17 +148,40 @@ TEST_F(DugWorkspaceTest, SoilHeapedUpBesideTheBucketIsTheGroundWhenItIsGone) {
 TEST_F(DugWorkspaceTest, WhileItHoldsTheMachineNothingIsForgotten) {
   see(near_m, 900, 2);
   EXPECT_TRUE(watch->step(now));
-  watch->dig(digging());
+  watch->dig(digging(), false);
   EXPECT_EQ(state(near_m), SK_CELL_SOMEBODY) << "the bucket still moves while it comes to a stand";
   EXPECT_TRUE(watch->step(now));
+}
+
+// Who has stopped it walks up to the bucket: he is to stop it there too.
+// verifies: SK-WM-69
+TEST_F(DugWorkspaceTest, WhereTheBucketStandsIsWatchedToo) {
+  watch->dig(digging(), false);
+  see(near_m, 0, SK_HISTOGRAM_ENOUGH);
+  see(far_m, 900, 2);
+  EXPECT_TRUE(watch->step(now));
+  watch->dig(digging(), true);
+  EXPECT_EQ(state(near_m), SK_CELL_CLEAR) << "what stands moves no soil";
+  see(near_m, 900, 2);
+  EXPECT_EQ(state(near_m), SK_CELL_SOMEBODY);
+  for (int i = 0; i < 3; ++i) {  // from where he came he is gone, and the dwell is over
+    now += parameters.workspace_wait_us + 2 * parameters.workspace_period_us + 1;
+    see(near_m, 900, 1);
+    see(far_m, 0, 1);
+    watch->dig(digging(), true);
+    EXPECT_TRUE(watch->step(now)) << i;
+  }
+  EXPECT_EQ(state(far_m), SK_CELL_CLEAR);
+  watch->dig(digging(), false);
+  EXPECT_EQ(state(near_m), SK_CELL_SOMEBODY) << "nor forgotten when it stirs";
 }
 
 // verifies: SK-WM-69
 TEST_F(DugWorkspaceTest, BeforeTheGroundIsLearnedACellThatTheBucketLeavesGoesOnLearning) {
   watch->begin();
-  watch->dig(digging());
+  watch->dig(digging(), false);
   watch->step(now);
-  watch->dig(carrying());
+  watch->dig(carrying(), false);
   EXPECT_EQ(state(near_m), SK_CELL_LEARNING);
 }
 
@@ -167,8 +196,9 @@ TEST_F(DugWorkspaceTest, WhatIsLearnedCountsHalfACellBesideItToo) {
   watch->step(now);
   see(9.85, 1400, 2);
   EXPECT_FALSE(watch->step(now)) << "the edge of what was learned";
-  see(9.95, 1500, 200);
-  EXPECT_EQ(watch->histogram()->observed[sk_map_index(150)][sk_map_index(9500)], 0U) << "what is no longer learning counts for its own cell alone";
+  const int beside_before = points_seen(9.8);
+  see(9.95, 1500, 20);
+  EXPECT_EQ(points_seen(9.8), beside_before) << "what is no longer learning counts for its own cell alone";
 }
 
 }  // namespace
