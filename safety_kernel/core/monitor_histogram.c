@@ -6,7 +6,7 @@
 static int32_t sk_bin_of(int32_t z_mm)
 {
   if (z_mm < SK_HISTOGRAM_FLOOR_MM) { return 0; }
-  if (z_mm >= SK_HISTOGRAM_FLOOR_MM + SK_HISTOGRAM_BIN_MM * SK_HISTOGRAM_BINS) { return SK_HISTOGRAM_BINS - 1; }
+  if (z_mm >= SK_HISTOGRAM_TOP_MM) { return SK_HISTOGRAM_BINS - 1; }
   return (z_mm - SK_HISTOGRAM_FLOOR_MM) / SK_HISTOGRAM_BIN_MM;
 }
 
@@ -252,7 +252,7 @@ static void sk_take_departing(sk_monitor_histogram *h, const sk_monitor_rules *r
 bool sk_histogram_insert(sk_monitor_histogram *h, const sk_monitor_histogram *known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm,
                          int64_t now_us)
 {
-  if (now_us < 0 || !sk_is_in_map(iy, ix)) { return false; }
+  if (now_us < 0 || z_mm >= SK_HISTOGRAM_TOP_MM || !sk_is_in_map(iy, ix)) { return false; }
   if (!sk_is_departing(h, known, r, iy, ix, z_mm)) {
     sk_take_ground(h, known, r, iy, ix, z_mm, now_us);
     return false;

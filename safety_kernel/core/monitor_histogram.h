@@ -9,7 +9,8 @@ SK_BEGIN
 /* A bin is as high as half a cell is wide: several times the noise of a height, less than a third of the least rise that is worth a stop. */
 #define SK_HISTOGRAM_BIN_MM 150
 #define SK_HISTOGRAM_BINS 64
-#define SK_HISTOGRAM_FLOOR_MM (-5100) /* low side of the lowest bin; what is lower is in it, what is too high in the highest */
+#define SK_HISTOGRAM_FLOOR_MM (-5100) /* low side of the lowest bin; what is lower is in it */
+#define SK_HISTOGRAM_TOP_MM 4500      /* high side of the highest: what is there or higher is nobody, and counts for nothing */
 #define SK_HISTOGRAM_ENOUGH 8         /* points after which a cell's histogram is believed */
 #define SK_HISTOGRAM_BESIDE 2         /* neighbours with a departing point that make somebody of a cell's first: three points in all */
 #define SK_HISTOGRAM_FULL 255
@@ -144,10 +145,11 @@ void sk_histogram_begin(sk_monitor_histogram *h);
 
 /* A measured point over cell (iy, ix). Returns whether it departs from what was seen there: such a point is never counted, so that nobody becomes the
  * ground by standing. Where too little was seen of the cell, what `known` has seen of it counts: the histograms of other sensors, or h itself.
- * Outside the map, or with now_us < 0, nothing changes. */
+ * Outside the map, too high, or with now_us < 0, nothing changes. */
 /*@ requires \valid(h) && \valid_read(known) && \valid_read(r) && \separated(h, r);
   @ assigns h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->departed_mm[..][..], h->departed_us[..][..], h->ground_us[..][..];
-  @ ensures departs: \result == true <==> sk_in_map(iy, ix) && now_us >= 0 && sk_departs{Pre}(h, known, r, iy, ix, z_mm);
+  @ ensures departs: \result == true <==> sk_in_map(iy, ix) && now_us >= 0 && z_mm < SK_HISTOGRAM_TOP_MM &&
+  @   sk_departs{Pre}(h, known, r, iy, ix, z_mm);
   @ ensures appears: \result == true && sk_joined_by_others{Pre}(h, r, now_us, iy, ix) ==> sk_somebody_at(h, iy, ix);
   @ ensures nobody: sk_in_map(iy, ix) && sk_somebody_at(h, iy, ix) ==>
   @   sk_somebody_at{Pre}(h, iy, ix) || (\result == true && sk_joined_by_others{Pre}(h, r, now_us, iy, ix));
@@ -155,13 +157,15 @@ void sk_histogram_begin(sk_monitor_histogram *h);
   @   sk_somebody_at(h, iy, ix) || (\result == false && now_us >= 0 && sk_ground_is_back{Pre}(h, r, now_us, iy, ix));
   @ ensures time: \result == true ==> h->departed_us[iy][ix] == now_us && h->ground_us[iy][ix] == SK_NO_GROUND &&
   @   sk_ground_kept{Pre, Post}(h, iy, ix);
-  @ ensures counted: \result == false && sk_in_map(iy, ix) && now_us >= 0 ==>
+  @ ensures counted: \result == false && sk_in_map(iy, ix) && now_us >= 0 && z_mm < SK_HISTOGRAM_TOP_MM ==>
   @   \exists integer b; sk_is_bin(b, z_mm) && (sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==> sk_counted{Pre, Post}(h, iy, ix, b)) &&
   @     (!sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==> sk_bins_kept{Pre, Post}(h, iy, ix));
-  @ ensures observed: \result == false && sk_in_map(iy, ix) && now_us >= 0 ==> h->departed_us[iy][ix] == \old(h->departed_us[iy][ix]) &&
+  @ ensures observed: \result == false && sk_in_map(iy, ix) && now_us >= 0 && z_mm < SK_HISTOGRAM_TOP_MM ==>
+  @   h->departed_us[iy][ix] == \old(h->departed_us[iy][ix]) &&
   @   \exists integer b; sk_is_bin(b, z_mm) && (sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==> sk_observed{Pre, Post}(h, iy, ix)) &&
   @     (!sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==> h->observed[iy][ix] == \old(h->observed[iy][ix]));
-  @ ensures others: \forall integer j, i; sk_in_map(j, i) && (now_us < 0 || !(j == iy && i == ix)) ==> sk_cell_kept{Pre, Post}(h, j, i);
+  @ ensures others: \forall integer j, i; sk_in_map(j, i) && (now_us < 0 || z_mm >= SK_HISTOGRAM_TOP_MM || !(j == iy && i == ix)) ==>
+  @   sk_cell_kept{Pre, Post}(h, j, i);
   @*/
 bool sk_histogram_insert(sk_monitor_histogram *h, const sk_monitor_histogram *known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm,
                          int64_t now_us);

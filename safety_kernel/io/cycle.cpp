@@ -48,7 +48,7 @@ void Cycle::step(const CycleInputs& in, CycleOutputs& out) {
   map_points_ = 0;
   take_frames(in);
   if (!map_only_) learn_base(in.now_us);
-  if (!map_only_ && joints_.size() > 0) workspace_.dig(joints_.at(in.now_us).angles, standstill_);
+  if (!map_only_ && joints_.size() > 0) workspace_.dig(joints_.at(in.now_us).angles, standstill_, in.now_us);
   take_scans(in, out.blocks);
   map_points_ += scans_.points() - points_before;
   take_points(in);

@@ -44,18 +44,21 @@ DigWatch::DigWatch(const berm_parameters& parameters) : parameters_(parameters),
         const bool touched = sk_is_touched(iy, ix, zone.x_low_mm, zone.y_low_mm, zone.x_high_mm, zone.y_high_mm);
         if (touched) ceiling_m = std::max(ceiling_m, zone.ceiling_mm * 1e-3);
       }
-      if (std::isfinite(ceiling_m)) cells_.push_back({{iy, ix}, middle_m(ix), middle_m(iy), ceiling_m, false, false});
+      if (std::isfinite(ceiling_m)) cells_.push_back({{iy, ix}, middle_m(ix), middle_m(iy), ceiling_m, false, false, -1});
     }
 }
 
-void DigWatch::step(const JointAngles& joints, bool stands) {
+void DigWatch::step(const JointAngles& joints, bool stands, bool held, std::int64_t now_us) {
   const Outline bucket = bucket_of(parameters_, kinematics_.implements(joints));
   const double c = std::cos(joints.swing), s = std::sin(joints.swing), cell_m = kHalfCellM * std::sqrt(2.0);
   for (Cell& cell : cells_) {
     const double r = c * cell.x_m + s * cell.y_m, aside = std::fabs(c * cell.y_m - s * cell.x_m);
-    cell.was_near = cell.near;
-    cell.near = !stands && bucket.lowest < cell.ceiling_m && r > bucket.r_low - kBehindM - cell_m && r < bucket.r_high + kBeyondM + cell_m &&
-                aside < bucket.half_width + kBesideM + cell_m;
+    const bool near = !stands && bucket.lowest < cell.ceiling_m && r > bucket.r_low - kBehindM - cell_m && r < bucket.r_high + kBeyondM + cell_m &&
+                      aside < bucket.half_width + kBesideM + cell_m;
+    if (near) cell.stirred_us = now_us;
+    cell.was_stirred = cell.stirred;
+    cell.stirred = near || (cell.stirred_us >= 0 && !held && now_us - cell.stirred_us < kLearnsOnUs);
+    if (!cell.stirred) cell.stirred_us = -1;
   }
 }
 

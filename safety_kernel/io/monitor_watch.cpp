@@ -97,8 +97,8 @@ void MonitorWatch::dig(const std::vector<DigWatch::Cell>& cells, bool learned, b
   for (sk_monitor_histogram& h : histogram_)
     for (const DigWatch::Cell& cell : cells) {
       const auto [iy, ix] = cell.at;
-      if (cell.near && !holds && h.state[iy][ix] != SK_CELL_LEARNING) sk_histogram_forget_cell(&h, iy, ix);
-      if (!cell.near && cell.was_near && learned) sk_histogram_settle_cell(&h, iy, ix);
+      if (cell.stirred && !holds && h.state[iy][ix] != SK_CELL_LEARNING) sk_histogram_forget_cell(&h, iy, ix);
+      if (!cell.stirred && cell.was_stirred && learned) sk_histogram_settle_cell(&h, iy, ix);
     }
 }
 

@@ -27,8 +27,8 @@ class MonitorWatch {
   void change_lanes(const berm_parameters& parameters, bool open);
   // The rectangle is learned: what has CHANGED in it by now belongs to the ground and explains what is seen beside it.
   void settle(const berm_lane& at);
-  // With histograms, once a cycle: nothing is known of dig zones where soil may be moving; where it no longer is, what was seen meanwhile is the
-  // ground. learned: the whole region's ground is. holds: somebody is in the region, and no cell may be forgotten, lest it be his.
+  // With histograms, once a cycle: nothing is known of dig zones where soil may have been moved; where it no longer is, what was seen meanwhile is
+  // the ground. learned: the whole region's ground is. holds: somebody is in the region, and no cell may be forgotten, lest it be his.
   void dig(const std::vector<DigWatch::Cell>& cells, bool learned, bool holds);
   // Once a cycle: whether the machine must stand for what this monitor holds.
   bool step(std::int64_t now_us);

@@ -101,9 +101,9 @@ bool WorkspaceWatch::foreign(std::int64_t now_us) {
   return in_space_us_ >= 0 && now_us - in_space_us_ < parameters_.workspace_dwell_us;
 }
 
-void WorkspaceWatch::dig(const JointAngles& joints, bool stands) {
+void WorkspaceWatch::dig(const JointAngles& joints, bool stands, std::int64_t now_us) {
   if (!watched() || parameters_.workspace_histogram == 0) return;
-  digs_.step(joints, stands);
+  digs_.step(joints, stands, holds_, now_us);
   const bool learned = begun_ && learned_us_ == kNotLearning;
   for (int number = 0; number < monitors(); ++number) of(number).dig(digs_.cells(), learned, holds_);
 }

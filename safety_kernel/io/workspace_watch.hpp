@@ -35,7 +35,7 @@ class WorkspaceWatch {
   // lane is watched.
   void trucks(bool spotter_fresh, bool parked, std::int64_t now_us);
   // Once a cycle, before what is seen in it is taken: where the bucket is, and whether the machine stands.
-  void dig(const JointAngles& joints, bool stands);
+  void dig(const JointAngles& joints, bool stands, std::int64_t now_us);
   // Once a cycle, after them: whether somebody came into the region, and has not left it for long enough. False where nobody watches it.
   bool step(std::int64_t now_us);
 

@@ -51,7 +51,7 @@ int ReferenceHistogram::recent_around(const ReferenceRules& r, Place at, std::in
 }
 
 bool ReferenceHistogram::insert(const ReferenceRules& r, const ReferenceHistogram& others, Place at, std::int64_t z, std::int64_t now) {
-  if (!inside(at) || now < 0) return false;
+  if (!inside(at) || now < 0 || static_cast<double>(z) >= kFloor + kBin * kBins) return false;
   const Cell known = others.cell(at);
   Cell& c = make(at);
   const int around = recent_around(r, at, now, true), beside = recent_around(r, at, now, false);

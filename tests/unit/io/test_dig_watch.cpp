@@ -47,29 +47,29 @@ TEST_F(DigWatchTest, NearIsWhereALowBucketMovesSoil) {
   DigWatch digs(parameters);
   EXPECT_EQ(cell_at(digs, 3.0, 0.0), nullptr) << "not of a dig zone";
   ASSERT_NE(cell_at(digs, 6.0, 0.0), nullptr);
-  digs.step(digging(), false);
+  digs.step(digging(), false, false, kNow);
   const double from = bucket_from(digging()), to = bucket_to(digging());
   ASSERT_GT(from, 5.5);
   ASSERT_LT(to, 9.0);
-  EXPECT_TRUE(cell_at(digs, 0.5 * (from + to), 0.0)->near);
-  EXPECT_TRUE(cell_at(digs, from - 1.4, 0.0)->near) << "towards the machine, where it is pulled";
-  EXPECT_FALSE(cell_at(digs, to + 1.6, 0.0)->near) << "beyond the teeth";
-  EXPECT_TRUE(cell_at(digs, 0.5 * (from + to), 1.0)->near);
-  EXPECT_FALSE(cell_at(digs, 0.5 * (from + to), 1.8)->near) << "beside it";
-  EXPECT_FALSE(cell_at(digs, 0.5 * (from + to), 0.0)->was_near);
-  digs.step(digging(25.0), false);
+  EXPECT_TRUE(cell_at(digs, 0.5 * (from + to), 0.0)->stirred);
+  EXPECT_TRUE(cell_at(digs, from - 1.4, 0.0)->stirred) << "towards the machine, where it is pulled";
+  EXPECT_FALSE(cell_at(digs, to + 1.6, 0.0)->stirred) << "beyond the teeth";
+  EXPECT_TRUE(cell_at(digs, 0.5 * (from + to), 1.0)->stirred);
+  EXPECT_FALSE(cell_at(digs, 0.5 * (from + to), 1.8)->stirred) << "beside it";
+  EXPECT_FALSE(cell_at(digs, 0.5 * (from + to), 0.0)->was_stirred);
+  digs.step(digging(25.0), false, true, kNow + 1);
   const double r = 0.5 * (from + to);
-  EXPECT_TRUE(cell_at(digs, r * std::cos(25 * kDegree), r * std::sin(25 * kDegree))->near) << "it swings with the upper body";
-  EXPECT_FALSE(cell_at(digs, r, 0.0)->near);
-  EXPECT_TRUE(cell_at(digs, r, 0.0)->was_near);
+  EXPECT_TRUE(cell_at(digs, r * std::cos(25 * kDegree), r * std::sin(25 * kDegree))->stirred) << "it swings with the upper body";
+  EXPECT_FALSE(cell_at(digs, r, 0.0)->stirred);
+  EXPECT_TRUE(cell_at(digs, r, 0.0)->was_stirred);
 }
 
 // verifies: SK-WM-69
 TEST_F(DigWatchTest, ABucketAboveTheCeilingMovesNone) {
   DigWatch digs(parameters);
   ASSERT_GT(std::min(pin(carrying()).y(), Kinematics(parameters).implements(carrying()).tip.y()), 1.1) << "the pose tests nothing";
-  digs.step(carrying(), false);
-  EXPECT_TRUE(std::none_of(digs.cells().begin(), digs.cells().end(), [](const auto& c) { return c.near; }));
+  digs.step(carrying(), false, false, kNow);
+  EXPECT_TRUE(std::none_of(digs.cells().begin(), digs.cells().end(), [](const auto& c) { return c.stirred; }));
 }
 
 // Zones that overlap have a cell once, with the higher ceiling.
@@ -88,7 +88,7 @@ class DugWorkspaceTest : public DigWatchTest {
   DugWorkspaceTest() {
     watch = std::make_unique<WorkspaceWatch>(parameters);
     watch->begin();
-    watch->dig(carrying(), false);
+    watch->dig(carrying(), false, now);
     for (const double x : {near_m, far_m}) see(x, 0, SK_HISTOGRAM_ENOUGH);
     watch->step(now);
     now += parameters.workspace_learn_us;
@@ -121,7 +121,7 @@ class DugWorkspaceTest : public DigWatchTest {
 
 // verifies: SK-WM-46, SK-WM-69
 TEST_F(DugWorkspaceTest, WhoComesIntoADigZoneStopsItAwayFromTheBucket) {
-  watch->dig(digging(), false);
+  watch->dig(digging(), false, now);
   see(far_m, 900, 2);
   EXPECT_TRUE(watch->step(now));
   berm_parameters without = parameters;
@@ -132,11 +132,12 @@ TEST_F(DugWorkspaceTest, WhoComesIntoADigZoneStopsItAwayFromTheBucket) {
 
 // verifies: SK-WM-69
 TEST_F(DugWorkspaceTest, SoilHeapedUpBesideTheBucketIsTheGroundWhenItIsGone) {
-  watch->dig(digging(), false);
+  watch->dig(digging(), false, now);
   EXPECT_EQ(state(near_m), SK_CELL_LEARNING);
   see(near_m, 900, SK_HISTOGRAM_ENOUGH);
   EXPECT_FALSE(watch->step(now)) << "beside the bucket";
-  watch->dig(carrying(), false);
+  now += DigWatch::kLearnsOnUs;
+  watch->dig(carrying(), false, now);
   EXPECT_EQ(state(near_m), SK_CELL_CLEAR);
   see(near_m, 950, 2);
   EXPECT_FALSE(watch->step(now)) << "learned while it was there";
@@ -144,11 +145,44 @@ TEST_F(DugWorkspaceTest, SoilHeapedUpBesideTheBucketIsTheGroundWhenItIsGone) {
   EXPECT_TRUE(watch->step(now)) << "watched again";
 }
 
+// Of a face that the bucket hid the foot was seen first: all of it is its ground.
+// verifies: SK-WM-69
+TEST_F(DugWorkspaceTest, WhenTheBucketHasGoneASweepIsLearned) {
+  watch->dig(digging(), false, now);
+  see(near_m, -1300, SK_HISTOGRAM_ENOUGH);
+  for (int i = 0; i < 2; ++i) {  // it comes back once
+    now += DigWatch::kLearnsOnUs - 1;
+    watch->dig(carrying(), false, now);
+    EXPECT_EQ(state(near_m), SK_CELL_LEARNING);
+    see(near_m, -600, SK_HISTOGRAM_ENOUGH / 2);
+    EXPECT_FALSE(watch->step(now));
+    if (i == 0) watch->dig(digging(), false, now);
+  }
+  watch->dig(carrying(), false, ++now);
+  EXPECT_EQ(state(near_m), SK_CELL_CLEAR);
+  see(near_m, -600, 2);
+  EXPECT_FALSE(watch->step(now));
+  see(near_m, 500, 2);
+  EXPECT_TRUE(watch->step(now));
+}
+
+// verifies: SK-WM-69
+TEST_F(DugWorkspaceTest, WhileItHoldsTheMachineNothingIsLearnedOn) {
+  watch->dig(digging(), false, now);
+  see(near_m, 0, SK_HISTOGRAM_ENOUGH);
+  watch->dig(carrying(), false, ++now);
+  EXPECT_EQ(state(near_m), SK_CELL_LEARNING);
+  see(far_m, 900, 2);
+  EXPECT_TRUE(watch->step(now));
+  watch->dig(carrying(), false, ++now);
+  EXPECT_EQ(state(near_m), SK_CELL_CLEAR);
+}
+
 // verifies: SK-WM-69
 TEST_F(DugWorkspaceTest, WhileItHoldsTheMachineNothingIsForgotten) {
   see(near_m, 900, 2);
   EXPECT_TRUE(watch->step(now));
-  watch->dig(digging(), false);
+  watch->dig(digging(), false, now);
   EXPECT_EQ(state(near_m), SK_CELL_SOMEBODY) << "the bucket still moves while it comes to a stand";
   EXPECT_TRUE(watch->step(now));
 }
@@ -156,11 +190,11 @@ TEST_F(DugWorkspaceTest, WhileItHoldsTheMachineNothingIsForgotten) {
 // Who has stopped it walks up to the bucket: he is to stop it there too.
 // verifies: SK-WM-69
 TEST_F(DugWorkspaceTest, WhereTheBucketStandsIsWatchedToo) {
-  watch->dig(digging(), false);
+  watch->dig(digging(), false, now);
   see(near_m, 0, SK_HISTOGRAM_ENOUGH);
   see(far_m, 900, 2);
   EXPECT_TRUE(watch->step(now));
-  watch->dig(digging(), true);
+  watch->dig(digging(), true, now);
   EXPECT_EQ(state(near_m), SK_CELL_CLEAR) << "what stands moves no soil";
   see(near_m, 900, 2);
   EXPECT_EQ(state(near_m), SK_CELL_SOMEBODY);
@@ -168,20 +202,20 @@ TEST_F(DugWorkspaceTest, WhereTheBucketStandsIsWatchedToo) {
     now += parameters.workspace_wait_us + 2 * parameters.workspace_period_us + 1;
     see(near_m, 900, 1);
     see(far_m, 0, 1);
-    watch->dig(digging(), true);
+    watch->dig(digging(), true, now);
     EXPECT_TRUE(watch->step(now)) << i;
   }
   EXPECT_EQ(state(far_m), SK_CELL_CLEAR);
-  watch->dig(digging(), false);
+  watch->dig(digging(), false, now);
   EXPECT_EQ(state(near_m), SK_CELL_SOMEBODY) << "nor forgotten when it stirs";
 }
 
 // verifies: SK-WM-69
 TEST_F(DugWorkspaceTest, BeforeTheGroundIsLearnedACellThatTheBucketLeavesGoesOnLearning) {
   watch->begin();
-  watch->dig(digging(), false);
+  watch->dig(digging(), false, now);
   watch->step(now);
-  watch->dig(carrying(), false);
+  watch->dig(carrying(), false, now);
   EXPECT_EQ(state(near_m), SK_CELL_LEARNING);
 }
 
