@@ -17,7 +17,7 @@ static void sk_blank_bins(sk_monitor_histogram *h, int32_t iy, int32_t ix)
 
 /*@ requires \valid(h) && sk_in_map(iy, ix);
   @ assigns h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->line_mm[..][..], h->lines[..][..], h->departed_mm[..][..],
-  @   h->departed_us[..][..], h->ground_us[..][..];
+  @   h->departed_us[..][..][..], h->ground_us[..][..];
   @ ensures blank: sk_histogram_blank(h, iy, ix);
   @ ensures others: \forall integer j, i; sk_in_map(j, i) && !(j == iy && i == ix) ==> sk_cell_kept{Pre, Post}(h, j, i);
   @*/
@@ -30,7 +30,8 @@ static void sk_blank_histogram(sk_monitor_histogram *h, int32_t iy, int32_t ix)
   h->line_mm[iy][ix] = 0;
   h->lines[iy][ix] = 0;
   h->departed_mm[iy][ix] = 0;
-  h->departed_us[iy][ix] = -1;
+  h->departed_us[iy][ix][0] = -1;
+  h->departed_us[iy][ix][1] = -1;
   h->ground_us[iy][ix] = SK_NO_GROUND;
   /*@ assert own_bins: sk_bins_blank(h, iy, ix); */
   /*@ assert still: \forall integer j, i; sk_in_map(j, i) && !(j == iy && i == ix) ==> sk_bins_kept{Pre, Here}(h, j, i); */
@@ -40,7 +41,7 @@ static void sk_blank_histogram(sk_monitor_histogram *h, int32_t iy, int32_t ix)
 
 /*@ requires \valid(h) && 0 <= iy < SK_MAP_CELLS;
   @ assigns h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->line_mm[..][..], h->lines[..][..], h->departed_mm[..][..],
-  @   h->departed_us[..][..], h->ground_us[..][..];
+  @   h->departed_us[..][..][..], h->ground_us[..][..];
   @ ensures forgotten: \forall integer ix; 0 <= ix < SK_MAP_CELLS && sk_touches(iy, ix, x_low_mm, y_low_mm, x_high_mm, y_high_mm) ==>
   @   sk_histogram_blank(h, iy, ix);
   @ ensures others: \forall integer j, i; sk_in_map(j, i) && !(j == iy && sk_touches(j, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) ==>
@@ -55,7 +56,7 @@ static void sk_forget_histograms(sk_monitor_histogram *h, int32_t iy, int32_t x_
     @ loop invariant others: \forall integer j, i; sk_in_map(j, i) &&
     @   !(j == iy && i < ix && sk_touches(j, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) ==> sk_cell_kept{Pre, Here}(h, j, i);
     @ loop assigns ix, h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->line_mm[..][..], h->lines[..][..], h->departed_mm[..][..],
-    @   h->departed_us[..][..], h->ground_us[..][..];
+    @   h->departed_us[..][..][..], h->ground_us[..][..];
     @ loop variant SK_MAP_CELLS - ix;
     @*/
   for (ix = 0; ix < SK_MAP_CELLS; ix++) {
@@ -75,7 +76,7 @@ void sk_histogram_forget(sk_monitor_histogram *h, int32_t x_low_mm, int32_t y_lo
     @ loop invariant others: \forall integer j, i; sk_in_map(j, i) && !(j < iy && sk_touches(j, i, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) ==>
     @   sk_cell_kept{Pre, Here}(h, j, i);
     @ loop assigns iy, h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->line_mm[..][..], h->lines[..][..], h->departed_mm[..][..],
-    @   h->departed_us[..][..], h->ground_us[..][..];
+    @   h->departed_us[..][..][..], h->ground_us[..][..];
     @ loop variant SK_MAP_CELLS - iy;
     @*/
   for (iy = 0; iy < SK_MAP_CELLS; iy++) { sk_forget_histograms(h, iy, x_low_mm, y_low_mm, x_high_mm, y_high_mm); }

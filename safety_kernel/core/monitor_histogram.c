@@ -73,20 +73,29 @@ static bool sk_is_departing(const sk_monitor_histogram *h, const sk_monitor_hist
   return sk_is_known_lower(known, iy, ix, low);
 }
 
+/*@ requires now_us >= 0;
+  @ assigns \nothing;
+  @ ensures \result == sk_recent_time(departed_us, window_us, now_us) && 0 <= \result <= 1;
+  @*/
+static int32_t sk_is_recent(int64_t departed_us, int64_t window_us, int64_t now_us)
+{
+  if (departed_us < 0) { return 0; }
+  return now_us - departed_us <= window_us ? 1 : 0;
+}
+
 /*@ requires \valid_read(h) && now_us >= 0;
   @ assigns \nothing;
-  @ ensures \result == sk_recent_at(h, window_us, now_us, iy, ix);
+  @ ensures \result == sk_recent_at(h, window_us, now_us, iy, ix) && 0 <= \result <= 2;
   @*/
 static int32_t sk_recent(const sk_monitor_histogram *h, int64_t window_us, int64_t now_us, int32_t iy, int32_t ix)
 {
   if (!sk_is_in_map(iy, ix)) { return 0; }
-  if (h->departed_us[iy][ix] < 0) { return 0; }
-  return now_us - h->departed_us[iy][ix] <= window_us ? 1 : 0;
+  return sk_is_recent(h->departed_us[iy][ix][0], window_us, now_us) + sk_is_recent(h->departed_us[iy][ix][1], window_us, now_us);
 }
 
 /*@ requires \valid_read(h) && now_us >= 0 && 0 <= ix < SK_MAP_CELLS;
   @ assigns \nothing;
-  @ ensures \result == sk_recent_in_row(h, window_us, now_us, iy, ix) && 0 <= \result <= 3;
+  @ ensures \result == sk_recent_in_row(h, window_us, now_us, iy, ix) && 0 <= \result <= 6;
   @*/
 static int32_t sk_recent_row(const sk_monitor_histogram *h, int64_t window_us, int64_t now_us, int32_t iy, int32_t ix)
 {
@@ -95,7 +104,7 @@ static int32_t sk_recent_row(const sk_monitor_histogram *h, int64_t window_us, i
 
 /*@ requires \valid_read(h) && now_us >= 0 && sk_in_map(iy, ix);
   @ assigns \nothing;
-  @ ensures \result == sk_recent_beside(h, window_us, now_us, iy, ix) && 0 <= \result <= 8;
+  @ ensures \result == sk_recent_beside(h, window_us, now_us, iy, ix) && 0 <= \result <= 16;
   @*/
 static int32_t sk_recent_neighbours(const sk_monitor_histogram *h, int64_t window_us, int64_t now_us, int32_t iy, int32_t ix)
 {
@@ -221,8 +230,7 @@ static void sk_take_ground(sk_monitor_histogram *h, const sk_monitor_histogram *
 static bool sk_is_joined(const sk_monitor_histogram *h, const sk_monitor_rules *r, int32_t iy, int32_t ix, int64_t now_us)
 {
   int64_t window_us = 2 * (int64_t)r->period_us;
-  if (sk_recent(h, window_us, now_us, iy, ix) > 0) { return true; }
-  return sk_recent_neighbours(h, window_us, now_us, iy, ix) >= SK_HISTOGRAM_BESIDE;
+  return sk_recent(h, window_us, now_us, iy, ix) + sk_recent_neighbours(h, window_us, now_us, iy, ix) >= SK_HISTOGRAM_OTHERS;
 }
 
 /*@ assigns \nothing;
@@ -236,16 +244,18 @@ static int16_t sk_clamp_height(int32_t z_mm)
 }
 
 /*@ requires \valid(h) && \valid_read(r) && \separated(h, r) && sk_in_map(iy, ix) && now_us >= 0;
-  @ assigns h->state[iy][ix], h->departed_mm[iy][ix], h->departed_us[iy][ix], h->ground_us[iy][ix];
+  @ assigns h->state[iy][ix], h->departed_mm[iy][ix], h->departed_us[iy][ix][0], h->departed_us[iy][ix][1], h->ground_us[iy][ix];
   @ ensures appears: sk_joined_by_others{Pre}(h, r, now_us, iy, ix) ==> sk_somebody_at(h, iy, ix);
   @ ensures alone: !sk_joined_by_others{Pre}(h, r, now_us, iy, ix) ==> h->state[iy][ix] == \old(h->state[iy][ix]);
-  @ ensures time: h->departed_us[iy][ix] == now_us && h->ground_us[iy][ix] == SK_NO_GROUND;
+  @ ensures time: h->departed_us[iy][ix][0] == now_us && h->departed_us[iy][ix][1] == \old(h->departed_us[iy][ix][0]) &&
+  @   h->ground_us[iy][ix] == SK_NO_GROUND;
   @*/
 static void sk_take_departing(sk_monitor_histogram *h, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us)
 {
   if (sk_is_joined(h, r, iy, ix, now_us)) { h->state[iy][ix] = SK_CELL_SOMEBODY; }
   h->departed_mm[iy][ix] = sk_clamp_height(z_mm);
-  h->departed_us[iy][ix] = now_us;
+  h->departed_us[iy][ix][1] = h->departed_us[iy][ix][0];
+  h->departed_us[iy][ix][0] = now_us;
   h->ground_us[iy][ix] = SK_NO_GROUND;
 }
 
@@ -258,6 +268,8 @@ bool sk_histogram_insert(sk_monitor_histogram *h, const sk_monitor_histogram *kn
     return false;
   }
   sk_take_departing(h, r, iy, ix, z_mm, now_us);
+  /*@ assert times: \forall integer j, i; sk_in_map(j, i) && !(j == iy && i == ix) ==> sk_times_kept{Pre, Here}(h, j, i); */
+  /*@ assert ground: \forall integer j, i; sk_in_map(j, i) && !(j == iy && i == ix) ==> sk_ground_kept{Pre, Here}(h, j, i); */
   return true;
 }
 

@@ -1,5 +1,6 @@
 /* A histogram of heights per cell (leger-1998, section 4.2, proposes it) in place of the accumulated map's single height. A point that is higher than
- * what has been seen of its cell departs from it; a lone one may be dust, two in a cell or three in a cell and beside it are somebody. A cell where
+ * what has been seen of its cell departs from it; a lone one may be dust, and two a scanner's spurious returns, one after the other: three in a cell
+ * and beside it are somebody. A cell where
  * now the one and now the other of two heights is hit (a truck's rim) knows both, so needs no neighbour to explain a rise. */
 #ifndef SK_MONITOR_HISTOGRAM_H
 #define SK_MONITOR_HISTOGRAM_H
@@ -12,7 +13,7 @@ SK_BEGIN
 #define SK_HISTOGRAM_FLOOR_MM (-5100) /* low side of the lowest bin; what is lower is in it */
 #define SK_HISTOGRAM_TOP_MM 4500      /* high side of the highest: what is there or higher is nobody, and counts for nothing */
 #define SK_HISTOGRAM_ENOUGH 8         /* points after which a cell's histogram is believed */
-#define SK_HISTOGRAM_BESIDE 2         /* neighbours with a departing point that make somebody of a cell's first: three points in all */
+#define SK_HISTOGRAM_OTHERS 2         /* departing points, in a cell and beside it, that make somebody of the next: three in all */
 #define SK_HISTOGRAM_FULL 255
 #define SK_LINE_NEAR_MM 150 /* lines so near each other agree */
 #define SK_LINES_ENOUGH 3   /* lines that agree, less those that do not, after which they are believed */
@@ -30,7 +31,7 @@ typedef struct sk_monitor_histogram {
   int32_t line_mm[SK_MAP_CELLS][SK_MAP_CELLS];                 /* what most interpolated heights agree on; the ground of a cell with too few points */
   int8_t lines[SK_MAP_CELLS][SK_MAP_CELLS];                    /* that agree, less the others: one to a spurious return crosses many cells */
   int16_t departed_mm[SK_MAP_CELLS][SK_MAP_CELLS];             /* of the newest departing point */
-  int64_t departed_us[SK_MAP_CELLS][SK_MAP_CELLS];             /* when it came; -1 none */
+  int64_t departed_us[SK_MAP_CELLS][SK_MAP_CELLS][2];          /* when it came, and the one before it; -1 none */
   /* of a cell with somebody: when its ground was first seen again; of a clear one: when something higher than what is known was last counted */
   uint64_t ground_us[SK_MAP_CELLS][SK_MAP_CELLS];
   int64_t somebody_us;                                         /* newest step with somebody in the region; -1 none */
@@ -66,9 +67,11 @@ typedef struct sk_monitor_histogram {
   @
   @ // as long as a lone point waits in the temporary map to be joined by another
   @ logic integer sk_window{L}(sk_monitor_rules *r) = 2 * \at(r->period_us, L);
+  @ logic integer sk_recent_time(integer departed, integer window, integer now) = departed < 0 ? 0 : (now - departed <= window ? 1 : 0);
+  @ // points, up to two, that departed from a cell within a window
   @ logic integer sk_recent_at{L}(sk_monitor_histogram *h, integer window, integer now, integer j, integer i) =
-  @   j < 0 ? 0 : (j >= SK_MAP_CELLS ? 0 : (i < 0 ? 0 : (i >= SK_MAP_CELLS ? 0 : (\at(h->departed_us[j][i], L) < 0 ? 0 :
-  @   (now - \at(h->departed_us[j][i], L) <= window ? 1 : 0)))));
+  @   j < 0 ? 0 : (j >= SK_MAP_CELLS ? 0 : (i < 0 ? 0 : (i >= SK_MAP_CELLS ? 0 :
+  @   sk_recent_time(\at(h->departed_us[j][i][0], L), window, now) + sk_recent_time(\at(h->departed_us[j][i][1], L), window, now))));
   @ logic integer sk_recent_in_row{L}(sk_monitor_histogram *h, integer window, integer now, integer j, integer ix) =
   @   sk_recent_at{L}(h, window, now, j, ix - 1) + sk_recent_at{L}(h, window, now, j, ix) + sk_recent_at{L}(h, window, now, j, ix + 1);
   @ logic integer sk_recent_beside{L}(sk_monitor_histogram *h, integer window, integer now, integer iy, integer ix) =
@@ -76,7 +79,7 @@ typedef struct sk_monitor_histogram {
   @   sk_recent_at{L}(h, window, now, iy, ix - 1) + sk_recent_at{L}(h, window, now, iy, ix + 1);
   @ // with one that departs now there are enough
   @ predicate sk_joined_by_others{L}(sk_monitor_histogram *h, sk_monitor_rules *r, integer now, integer iy, integer ix) =
-  @   sk_recent_at{L}(h, sk_window{L}(r), now, iy, ix) > 0 || sk_recent_beside{L}(h, sk_window{L}(r), now, iy, ix) >= SK_HISTOGRAM_BESIDE;
+  @   sk_recent_at{L}(h, sk_window{L}(r), now, iy, ix) + sk_recent_beside{L}(h, sk_window{L}(r), now, iy, ix) >= SK_HISTOGRAM_OTHERS;
   @ predicate sk_somebody_flag(integer state) = state != SK_CELL_LEARNING && state != SK_CELL_CLEAR;
   @ predicate sk_somebody_at{L}(sk_monitor_histogram *h, integer iy, integer ix) = sk_somebody_flag(\at(h->state[iy][ix], L));
   @ predicate sk_somebody_watched{L}(sk_monitor_histogram *h, sk_monitor_rules *r, integer iy, integer ix) =
@@ -105,7 +108,8 @@ typedef struct sk_monitor_histogram {
   @ predicate sk_bins_kept{A, B}(sk_monitor_histogram *h, integer iy, integer ix) =
   @   \forall integer b; sk_in_bins(b) ==> \at(h->seen[iy][ix][b], A) == \at(h->seen[iy][ix][b], B);
   @ predicate sk_times_kept{A, B}(sk_monitor_histogram *h, integer iy, integer ix) =
-  @   \at(h->departed_us[iy][ix], A) == \at(h->departed_us[iy][ix], B) && \at(h->ground_us[iy][ix], A) == \at(h->ground_us[iy][ix], B) &&
+  @   \at(h->departed_us[iy][ix][0], A) == \at(h->departed_us[iy][ix][0], B) &&
+  @   \at(h->departed_us[iy][ix][1], A) == \at(h->departed_us[iy][ix][1], B) && \at(h->ground_us[iy][ix], A) == \at(h->ground_us[iy][ix], B) &&
   @   \at(h->departed_mm[iy][ix], A) == \at(h->departed_mm[iy][ix], B);
   @ predicate sk_ground_kept{A, B}(sk_monitor_histogram *h, integer iy, integer ix) = sk_bins_kept{A, B}(h, iy, ix) &&
   @   \at(h->observed[iy][ix], A) == \at(h->observed[iy][ix], B) && \at(h->line_mm[iy][ix], A) == \at(h->line_mm[iy][ix], B) &&
@@ -131,13 +135,13 @@ typedef struct sk_monitor_histogram {
   @   \forall integer b; sk_in_bins(b) ==> \at(h->seen[iy][ix][b], L) == 0;
   @ predicate sk_histogram_blank{L}(sk_monitor_histogram *h, integer iy, integer ix) = sk_bins_blank{L}(h, iy, ix) &&
   @   \at(h->state[iy][ix], L) == SK_CELL_LEARNING && \at(h->observed[iy][ix], L) == 0 && \at(h->lines[iy][ix], L) == 0 &&
-  @   \at(h->departed_us[iy][ix], L) == -1 && \at(h->ground_us[iy][ix], L) == SK_NO_GROUND;
+  @   \at(h->departed_us[iy][ix][0], L) == -1 && \at(h->departed_us[iy][ix][1], L) == -1 && \at(h->ground_us[iy][ix], L) == SK_NO_GROUND;
   @*/
 
 /* Nothing is known of any cell, and every one is learning. */
 /*@ requires \valid(h);
   @ assigns h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->line_mm[..][..], h->lines[..][..], h->departed_mm[..][..],
-  @   h->departed_us[..][..], h->ground_us[..][..], h->somebody_us;
+  @   h->departed_us[..][..][..], h->ground_us[..][..], h->somebody_us;
   @ ensures blank: \forall integer iy, ix; sk_in_map(iy, ix) ==> sk_histogram_blank(h, iy, ix);
   @ ensures times: h->somebody_us == -1;
   @*/
@@ -147,7 +151,7 @@ void sk_histogram_begin(sk_monitor_histogram *h);
  * ground by standing. Where too little was seen of the cell, what `known` has seen of it counts: the histograms of other sensors, or h itself.
  * Outside the map, too high, or with now_us < 0, nothing changes. */
 /*@ requires \valid(h) && \valid_read(known) && \valid_read(r) && \separated(h, r);
-  @ assigns h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->departed_mm[..][..], h->departed_us[..][..], h->ground_us[..][..];
+  @ assigns h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->departed_mm[..][..], h->departed_us[..][..][..], h->ground_us[..][..];
   @ ensures departs: \result == true <==> sk_in_map(iy, ix) && now_us >= 0 && z_mm < SK_HISTOGRAM_TOP_MM &&
   @   sk_departs{Pre}(h, known, r, iy, ix, z_mm);
   @ ensures appears: \result == true && sk_joined_by_others{Pre}(h, r, now_us, iy, ix) ==> sk_somebody_at(h, iy, ix);
@@ -155,13 +159,14 @@ void sk_histogram_begin(sk_monitor_histogram *h);
   @   sk_somebody_at{Pre}(h, iy, ix) || (\result == true && sk_joined_by_others{Pre}(h, r, now_us, iy, ix));
   @ ensures stays: sk_in_map(iy, ix) && sk_somebody_at{Pre}(h, iy, ix) ==>
   @   sk_somebody_at(h, iy, ix) || (\result == false && now_us >= 0 && sk_ground_is_back{Pre}(h, r, now_us, iy, ix));
-  @ ensures time: \result == true ==> h->departed_us[iy][ix] == now_us && h->ground_us[iy][ix] == SK_NO_GROUND &&
+  @ ensures time: \result == true ==> h->departed_us[iy][ix][0] == now_us && h->departed_us[iy][ix][1] == \old(h->departed_us[iy][ix][0]) &&
+  @   h->ground_us[iy][ix] == SK_NO_GROUND &&
   @   sk_ground_kept{Pre, Post}(h, iy, ix);
   @ ensures counted: \result == false && sk_in_map(iy, ix) && now_us >= 0 && z_mm < SK_HISTOGRAM_TOP_MM ==>
   @   \exists integer b; sk_is_bin(b, z_mm) && (sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==> sk_counted{Pre, Post}(h, iy, ix, b)) &&
   @     (!sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==> sk_bins_kept{Pre, Post}(h, iy, ix));
   @ ensures observed: \result == false && sk_in_map(iy, ix) && now_us >= 0 && z_mm < SK_HISTOGRAM_TOP_MM ==>
-  @   h->departed_us[iy][ix] == \old(h->departed_us[iy][ix]) &&
+  @   h->departed_us[iy][ix][0] == \old(h->departed_us[iy][ix][0]) && h->departed_us[iy][ix][1] == \old(h->departed_us[iy][ix][1]) &&
   @   \exists integer b; sk_is_bin(b, z_mm) && (sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==> sk_observed{Pre, Post}(h, iy, ix)) &&
   @     (!sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==> h->observed[iy][ix] == \old(h->observed[iy][ix]));
   @ ensures others: \forall integer j, i; sk_in_map(j, i) && (now_us < 0 || z_mm >= SK_HISTOGRAM_TOP_MM || !(j == iy && i == ix)) ==>
@@ -183,7 +188,7 @@ void sk_histogram_line(sk_monitor_histogram *h, int32_t iy, int32_t ix, int32_t 
 /* Nothing is known any more of the cells that touch the rectangle, and they are learning. Whoever calls this must know that nobody is in it. */
 /*@ requires \valid(h);
   @ assigns h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->line_mm[..][..], h->lines[..][..], h->departed_mm[..][..],
-  @   h->departed_us[..][..], h->ground_us[..][..];
+  @   h->departed_us[..][..][..], h->ground_us[..][..];
   @ ensures forgotten: \forall integer iy, ix; sk_in_map(iy, ix) && sk_touches(iy, ix, x_low_mm, y_low_mm, x_high_mm, y_high_mm) ==>
   @   sk_histogram_blank(h, iy, ix);
   @ ensures others: \forall integer iy, ix; sk_in_map(iy, ix) && !sk_touches(iy, ix, x_low_mm, y_low_mm, x_high_mm, y_high_mm) ==>
@@ -204,7 +209,7 @@ void sk_histogram_settle(sk_monitor_histogram *h, int32_t x_low_mm, int32_t y_lo
 /* The two for cell (iy, ix) alone; outside the map nothing changes. */
 /*@ requires \valid(h);
   @ assigns h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->line_mm[..][..], h->lines[..][..], h->departed_mm[..][..],
-  @   h->departed_us[..][..], h->ground_us[..][..];
+  @   h->departed_us[..][..][..], h->ground_us[..][..];
   @ ensures forgotten: sk_in_map(iy, ix) ==> sk_histogram_blank(h, iy, ix);
   @ ensures others: \forall integer j, i; sk_in_map(j, i) && !(j == iy && i == ix) ==> sk_cell_kept{Pre, Post}(h, j, i);
   @*/

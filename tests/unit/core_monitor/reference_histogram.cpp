@@ -42,22 +42,24 @@ bool ReferenceHistogram::departs(const ReferenceRules& r, const Cell& c, const C
   return as_high(c) == 0 && (over_lines || over_known);
 }
 
-int ReferenceHistogram::recent_around(const ReferenceRules& r, Place at, std::int64_t now, bool with_itself) const {
-  return static_cast<int>(std::count_if(cells_.begin(), cells_.end(), [&](const auto& entry) {
-    const auto& [place, c] = entry;
-    if (std::max(std::abs(place.first - at.first), std::abs(place.second - at.second)) > 1 || (place == at && !with_itself)) return false;
-    return c.departed >= 0 && now <= c.departed + r.period + r.period;
-  }));
+long ReferenceHistogram::recent_around(const ReferenceRules& r, Place at, std::int64_t now) const {
+  long points = 0;
+  for (const auto& [place, c] : cells_) {
+    if (std::max(std::abs(place.first - at.first), std::abs(place.second - at.second)) > 1) continue;
+    // Of one cell the newest two: time runs backwards for none but a test.
+    for (std::size_t back = 1; back <= 2 && back <= c.departed.size(); ++back) points += now <= c.departed[c.departed.size() - back] + 2 * r.period;
+  }
+  return points;
 }
 
 bool ReferenceHistogram::insert(const ReferenceRules& r, const ReferenceHistogram& others, Place at, std::int64_t z, std::int64_t now) {
   if (!inside(at) || now < 0 || static_cast<double>(z) >= kFloor + kBin * kBins) return false;
   const Cell known = others.cell(at);
   Cell& c = make(at);
-  const int around = recent_around(r, at, now, true), beside = recent_around(r, at, now, false);
+  const long around = recent_around(r, at, now);
   if (departs(r, c, known, z)) {
-    if (around > beside || beside >= 2) c.state = State::kSomebody;
-    c.departed = now;
+    if (around >= 2) c.state = State::kSomebody;
+    c.departed.push_back(now);
     c.ground = -1;
     return true;
   }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <utility>
+#include <vector>
 
 namespace berm::core_test {
 
@@ -21,7 +22,8 @@ class ReferenceHistogram {
     int observed = 0;
     std::int64_t line = 0;
     int votes = 0;                              // for that line
-    std::int64_t departed = -1, ground = -1;    // times; -1 none
+    std::vector<std::int64_t> departed;         // times, all of them
+    std::int64_t ground = -1;                   // time; -1 none
   };
   using Place = std::pair<int, int>;  // row, column
 
@@ -38,7 +40,7 @@ class ReferenceHistogram {
  private:
   static bool inside(Place at) { return at.first >= 0 && at.first < 104 && at.second >= 0 && at.second < 104; }
   static bool touched(Place at, double x_low, double y_low, double x_high, double y_high);
-  int recent_around(const ReferenceRules& r, Place at, std::int64_t now, bool with_itself) const;
+  long recent_around(const ReferenceRules& r, Place at, std::int64_t now) const;  // points that departed in a cell and its neighbours
   bool departs(const ReferenceRules& r, const Cell& c, const Cell& known, std::int64_t z) const;
   Cell& make(Place at);
 

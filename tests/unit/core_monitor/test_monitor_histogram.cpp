@@ -61,8 +61,7 @@ TEST_F(MonitorHistogram, WhatIsTooHighIsNobodyAndCountsForNothing) {
     for (int i = 0; i < 3; ++i) EXPECT_FALSE(see(50, 50, z)) << z;
   EXPECT_EQ(std::memcmp(before.get(), h.get(), sizeof *h), 0);
   EXPECT_FALSE(step());
-  EXPECT_TRUE(see(50, 50, 4499));
-  EXPECT_TRUE(see(50, 50, 4499));
+  EXPECT_TRUE(see(50, 50, 4499, 3));
   EXPECT_TRUE(step());
 }
 
@@ -79,11 +78,13 @@ TEST_F(MonitorHistogram, AFullBinHalvesAllOfItsCell) {
 }
 
 // verifies: SK-WM-61, SK-WM-62
-TEST_F(MonitorHistogram, TwoPointsInACellStopInTheSameStep) {
+TEST_F(MonitorHistogram, ThreePointsInACellStopInTheSameStep) {
   ground();
   EXPECT_FALSE(step());
   EXPECT_TRUE(see(50, 50, 1500));
   EXPECT_FALSE(step()) << "a lone one";
+  EXPECT_TRUE(see(50, 50, 1400));
+  EXPECT_FALSE(step()) << "two spurious ones, one after the other";
   EXPECT_TRUE(see(50, 50, 1500));
   EXPECT_TRUE(step());
   EXPECT_EQ(where.iy, 50);
@@ -105,13 +106,25 @@ TEST_F(MonitorHistogram, ThreeInACellAndBesideItDoTwoDoNot) {
 }
 
 // verifies: SK-WM-62
+TEST_F(MonitorHistogram, TwoOfOneNeighbourCountTwiceAndMoreNoMore) {
+  ground();
+  see(51, 51, 1500, 2);
+  EXPECT_FALSE(step());
+  see(50, 50, 1500);
+  EXPECT_TRUE(somebody(50, 50));
+  EXPECT_FALSE(somebody(51, 51));
+}
+
+// verifies: SK-WM-62
 TEST_F(MonitorHistogram, OnlyWithinTheWindow) {
   ground();
-  see(50, 50, 1500);
+  see(50, 50, 1500, 2);
   now_us += 2 * kPeriod + 1;
   see(50, 50, 1500);
   EXPECT_FALSE(step());
   now_us += 2 * kPeriod;
+  see(50, 50, 1500);
+  EXPECT_FALSE(step()) << "with the one before it two";
   see(50, 50, 1500);
   EXPECT_TRUE(step());
 }
@@ -198,7 +211,8 @@ TEST_F(MonitorHistogram, WhereTooLittleWasSeenWhatOthersKnowCounts) {
   EXPECT_FALSE(departs(100));
   EXPECT_EQ(h->observed[50][50], 1U);
   EXPECT_TRUE(departs(900));
-  EXPECT_FALSE(somebody(50, 50)) << "a lone point";
+  EXPECT_TRUE(departs(800));
+  EXPECT_FALSE(somebody(50, 50)) << "two points";
   EXPECT_TRUE(departs(700));
   EXPECT_TRUE(somebody(50, 50));
   sk_histogram_begin(h.get());
@@ -243,7 +257,7 @@ TEST_F(MonitorHistogram, WhoStandsNeverBecomesTheGround) {
 // verifies: SK-WM-64
 TEST_F(MonitorHistogram, HeLeavesWhenTheGroundIsSeenTwiceAWaitApartAndTheDwellIsOver) {
   ground();
-  see(50, 50, 1700, 2);
+  see(50, 50, 1700, 3);
   EXPECT_TRUE(step());
   see(50, 50, 0, 5);
   EXPECT_TRUE(somebody(50, 50)) << "his feet, or what is beside him";
@@ -271,7 +285,7 @@ TEST_F(MonitorHistogram, HeLeavesWhenTheGroundIsSeenTwiceAWaitApartAndTheDwellIs
 // verifies: SK-WM-64
 TEST_F(MonitorHistogram, NobodyLeavesWhileSomethingDepartsBeside) {
   ground();
-  see(50, 50, 1700, 2);
+  see(50, 50, 1700, 3);
   now_us += 2 * kPeriod + 1;
   see(51, 51, 1700);
   see(50, 50, 0);
@@ -286,7 +300,7 @@ TEST_F(MonitorHistogram, LearningAndForgetting) {
   EXPECT_FALSE(see(50, 50, 1700)) << "learning";
   sk_histogram_begin(h.get());
   ground();
-  see(50, 50, 1700, 2);
+  see(50, 50, 1700, 3);
   EXPECT_TRUE(step());
   const std::int32_t x = SK_MAP_ORIGIN_MM + 50 * SK_CELL_MM + 150;
   sk_histogram_forget(h.get(), x, x, x, x);
@@ -302,7 +316,7 @@ TEST_F(MonitorHistogram, LearningAndForgetting) {
 TEST_F(MonitorHistogram, UnwatchedCellsStopNothingWildStatesDo) {
   ground();
   rules->watched[50][50] = 0;
-  see(50, 50, 1700, 2);
+  see(50, 50, 1700, 3);
   EXPECT_FALSE(step());
   h->state[45][45] = SK_CELL_CLEAR ^ 4;
   EXPECT_TRUE(step());
@@ -331,7 +345,8 @@ void expect_same(const sk_monitor_histogram& h, const ReferenceHistogram& refere
   const int states[] = {SK_CELL_LEARNING, SK_CELL_CLEAR, SK_CELL_SOMEBODY};
   ASSERT_EQ(h.state[iy][ix], states[static_cast<int>(c.state)]) << turn << ": " << iy << " " << ix;
   ASSERT_EQ(h.observed[iy][ix], static_cast<std::uint32_t>(c.observed)) << turn;
-  ASSERT_EQ(h.departed_us[iy][ix], c.departed) << turn;
+  for (std::size_t back = 0; back < 2; ++back)
+    ASSERT_EQ(h.departed_us[iy][ix][back], back < c.departed.size() ? c.departed[c.departed.size() - 1 - back] : -1) << turn << ": " << back;
   ASSERT_EQ(h.ground_us[iy][ix], c.ground < 0 ? SK_NO_GROUND : static_cast<std::uint64_t>(c.ground)) << turn;
   ASSERT_EQ(h.lines[iy][ix], c.votes) << turn;
   ASSERT_EQ(h.line_mm[iy][ix], c.line) << turn;

@@ -122,7 +122,7 @@ class DugWorkspaceTest : public DigWatchTest {
 // verifies: SK-WM-46, SK-WM-69
 TEST_F(DugWorkspaceTest, WhoComesIntoADigZoneStopsItAwayFromTheBucket) {
   watch->dig(digging(), false, now);
-  see(far_m, 900, 2);
+  see(far_m, 900, 3);
   EXPECT_TRUE(watch->step(now));
   berm_parameters without = parameters;
   without.workspace_histogram = 0;
@@ -139,9 +139,9 @@ TEST_F(DugWorkspaceTest, SoilHeapedUpBesideTheBucketIsTheGroundWhenItIsGone) {
   now += DigWatch::kLearnsOnUs;
   watch->dig(carrying(), false, now);
   EXPECT_EQ(state(near_m), SK_CELL_CLEAR);
-  see(near_m, 950, 2);
+  see(near_m, 950, 3);
   EXPECT_FALSE(watch->step(now)) << "learned while it was there";
-  see(near_m, 1800, 2);
+  see(near_m, 1800, 3);
   EXPECT_TRUE(watch->step(now)) << "watched again";
 }
 
@@ -160,9 +160,9 @@ TEST_F(DugWorkspaceTest, WhenTheBucketHasGoneASweepIsLearned) {
   }
   watch->dig(carrying(), false, ++now);
   EXPECT_EQ(state(near_m), SK_CELL_CLEAR);
-  see(near_m, -600, 2);
+  see(near_m, -600, 3);
   EXPECT_FALSE(watch->step(now));
-  see(near_m, 500, 2);
+  see(near_m, 500, 3);
   EXPECT_TRUE(watch->step(now));
 }
 
@@ -172,7 +172,7 @@ TEST_F(DugWorkspaceTest, WhileItHoldsTheMachineNothingIsLearnedOn) {
   see(near_m, 0, SK_HISTOGRAM_ENOUGH);
   watch->dig(carrying(), false, ++now);
   EXPECT_EQ(state(near_m), SK_CELL_LEARNING);
-  see(far_m, 900, 2);
+  see(far_m, 900, 3);
   EXPECT_TRUE(watch->step(now));
   watch->dig(carrying(), false, ++now);
   EXPECT_EQ(state(near_m), SK_CELL_CLEAR);
@@ -180,7 +180,7 @@ TEST_F(DugWorkspaceTest, WhileItHoldsTheMachineNothingIsLearnedOn) {
 
 // verifies: SK-WM-69
 TEST_F(DugWorkspaceTest, WhileItHoldsTheMachineNothingIsForgotten) {
-  see(near_m, 900, 2);
+  see(near_m, 900, 3);
   EXPECT_TRUE(watch->step(now));
   watch->dig(digging(), false, now);
   EXPECT_EQ(state(near_m), SK_CELL_SOMEBODY) << "the bucket still moves while it comes to a stand";
@@ -192,11 +192,11 @@ TEST_F(DugWorkspaceTest, WhileItHoldsTheMachineNothingIsForgotten) {
 TEST_F(DugWorkspaceTest, WhereTheBucketStandsIsWatchedToo) {
   watch->dig(digging(), false, now);
   see(near_m, 0, SK_HISTOGRAM_ENOUGH);
-  see(far_m, 900, 2);
+  see(far_m, 900, 3);
   EXPECT_TRUE(watch->step(now));
   watch->dig(digging(), true, now);
   EXPECT_EQ(state(near_m), SK_CELL_CLEAR) << "what stands moves no soil";
-  see(near_m, 900, 2);
+  see(near_m, 900, 3);
   EXPECT_EQ(state(near_m), SK_CELL_SOMEBODY);
   for (int i = 0; i < 3; ++i) {  // from where he came he is gone, and the dwell is over
     now += parameters.workspace_wait_us + 2 * parameters.workspace_period_us + 1;
@@ -228,7 +228,7 @@ TEST_F(DugWorkspaceTest, WhatIsLearnedCountsHalfACellBesideItToo) {
   watch->step(now);
   now += parameters.workspace_learn_us;
   watch->step(now);
-  see(9.85, 1400, 2);
+  see(9.85, 1400, 3);
   EXPECT_FALSE(watch->step(now)) << "the edge of what was learned";
   const int beside_before = points_seen(9.8);
   see(9.95, 1500, 20);

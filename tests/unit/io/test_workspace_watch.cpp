@@ -100,7 +100,7 @@ TEST_F(WorkspaceWatchTest, ALaneChangesOnlyOnAFreshWord) {
 }
 
 // verifies: SK-WM-62, SK-WM-63
-TEST_F(WorkspaceWatchTest, WithHistogramsTheGroundIsLearnedThenTwoPointsStopIt) {
+TEST_F(WorkspaceWatchTest, WithHistogramsTheGroundIsLearnedThenThreePointsStopIt) {
   EXPECT_EQ(watch->histogram(), nullptr);
   parameters.workspace_histogram = 1;
   watch = std::make_unique<WorkspaceWatch>(parameters);
@@ -112,8 +112,10 @@ TEST_F(WorkspaceWatchTest, WithHistogramsTheGroundIsLearnedThenTwoPointsStopIt) 
   EXPECT_EQ(watch->monitor().modified, 0) << "one of the two is fed";
   see({{4050, 3050, 1600}}, 100);
   EXPECT_FALSE(watch->step(kNow + parameters.workspace_learn_us)) << "lone";
+  see({{4050, 3050, 1500}}, 100);
+  EXPECT_FALSE(watch->step(kNow + parameters.workspace_learn_us)) << "two";
   see({{4050, 3050, 1700}}, 100);
-  EXPECT_TRUE(watch->step(kNow + parameters.workspace_learn_us)) << "lone no longer";
+  EXPECT_TRUE(watch->step(kNow + parameters.workspace_learn_us));
   std::int32_t x = 0, y = 0, height = 0;
   ASSERT_TRUE(watch->place(x, y, height));
   EXPECT_EQ(x, 4050);
