@@ -33,20 +33,24 @@ constexpr int trucks = 2;
 constexpr double near_m = 1.0;               // of a cell's middle: what stands there
 constexpr double column_radius = 0.15, column_low = -3.0, column_high = 8.0;  // of the cell, for the oracle
 constexpr double hour_s = 3600.0, longest_run_s = 1800.0;
+constexpr double longest_pause_s = 30.0;      // of a machine at work: a truck leaves and the next comes
 constexpr double beyond_alarm_s = 2.0;       // of the run that repeats one
 
-// Spans in which the kernel said intruder.
-std::vector<QuietAlarm> alarms_of(const std::string& journal, std::uint64_t seed) {
-  std::vector<QuietAlarm> alarms;
+// Of a run: spans in which the kernel said intruder, and the time for which the machine stood for another reason, longer than any exchange of trucks.
+void account(const std::string& journal, QuietRun& run) {
   bool said = false;
+  double before = 0.0, moved = 0.0;
   walk_decisions(journal, [&](const berm_decision& d) {
     const bool says = d.stop_reason == BERM_STOP_INTRUDER;
     const double t = static_cast<double>(d.time_us) * 1e-6;
-    if (says && !said) alarms.push_back({seed, t, 0.0, d.blocked_x_mm * 1e-3, d.blocked_y_mm * 1e-3, d.blocked_height_mm * 1e-3, {}});
-    if (says) alarms.back().for_s = t - alarms.back().time_s;
+    if (says && !said) run.alarms.push_back({run.seed, t, 0.0, d.blocked_x_mm * 1e-3, d.blocked_y_mm * 1e-3, d.blocked_height_mm * 1e-3, {}});
+    if (says) run.alarms.back().for_s = t - run.alarms.back().time_s;
+    if (std::any_of(std::begin(d.commanded_urad_s), std::end(d.commanded_urad_s), [](std::int32_t v) { return v != 0; })) moved = t;
+    if (says) run.held_s += t - before;
+    else if (t - moved > longest_pause_s) run.idle_s += t - before;
     said = says;
+    before = t;
   });
-  return alarms;
 }
 
 // What is within a metre of the alarm's cell at its time: the truck (its outline from above), else the implements (over or in the cell's column).
@@ -88,13 +92,10 @@ QuietRun one_run(const QuietOptions& options, std::uint64_t seed, double max_tim
   result.contacts = done.contacts;
   result.trucks_loaded = run::flat_json(done).value("trucks_loaded", 0);
   for (const auto& [reason, count] : done.stops) result.other_stops += reason == run::stop_reason_name(BERM_STOP_INTRUDER) ? 0 : count;
-  result.alarms = alarms_of(load.out + "/journal.mcap", seed);
+  account(load.out + "/journal.mcap", result);
   TraceReader trace(load.out + "/trace.csv");
   const SweptReach reach(plant::load_plant_profile(scenario.machine_file).shape);
-  for (QuietAlarm& alarm : result.alarms) {
-    result.held_s += alarm.for_s;
-    alarm.what = what_stands(alarm, scenario.world, reach, trace);
-  }
+  for (QuietAlarm& alarm : result.alarms) alarm.what = what_stands(alarm, scenario.world, reach, trace);
   return result;
 }
 
@@ -109,7 +110,7 @@ std::string command_of(const QuietResult& result, const QuietAlarm& alarm) {
 
 double QuietResult::seconds() const {
   double sum = 0.0;
-  for (const QuietRun& r : runs) sum += r.seconds - r.held_s;
+  for (const QuietRun& r : runs) sum += r.seconds - r.held_s - r.idle_s;
   return sum;
 }
 
@@ -137,14 +138,14 @@ QuietResult watch_quiet_hours(const QuietOptions& options) {
     const auto do_one = [&](int i) { round[static_cast<std::size_t>(i)] = one_run(options, first + static_cast<std::uint64_t>(i), run_s); };
     in_process::run_trials(jobs, jobs, do_one, [&](int, int i) {
       const QuietRun& r = round[static_cast<std::size_t>(i)];
-      fmt::print("seed {}: {:.0f} s, {} of {} trucks loaded, {} alarm(s), {}\n", r.seed, r.seconds, r.trucks_loaded, trucks, r.alarms.size(),
-                 r.end_reason);
+      fmt::print("seed {}: {:.0f} s, stood {:.0f} s for long, {} of {} trucks loaded, {} alarm(s), {}\n", r.seed, r.seconds, r.idle_s, r.trucks_loaded,
+                 trucks, r.alarms.size(), r.end_reason);
       std::fflush(stdout);
     });
     const double before = result.seconds();
     for (QuietRun& r : round)
       if (result.seconds() < wanted_s) result.runs.push_back(std::move(r));
-    if (result.seconds() <= before) throw std::runtime_error("no time passes: an alarm holds the machine from the first moment of every run");
+    if (result.seconds() <= before) throw std::runtime_error("no time passes: the machine stands from the first moment of every run");
   }
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
@@ -153,13 +154,15 @@ QuietResult watch_quiet_hours(const QuietOptions& options) {
 ordered_json flat_json(const QuietResult& result) {
   ordered_json runs = ordered_json::array(), alarms = ordered_json::array();
   int other_stops = 0;
-  double held_s = 0.0;
+  double held_s = 0.0, idle_s = 0.0;
   for (const QuietRun& r : result.runs) {
     other_stops += r.other_stops;
     held_s += r.held_s;
+    idle_s += r.idle_s;
     runs.push_back({{"seed", r.seed},
                     {"seconds", r.seconds},
                     {"held_s", r.held_s},
+                    {"idle_s", r.idle_s},
                     {"trucks_loaded", r.trucks_loaded},
                     {"false_alarms", r.alarms.size()},
                     {"end_reason", r.end_reason}});
@@ -175,8 +178,11 @@ ordered_json flat_json(const QuietResult& result) {
   }
   return {{"hours", result.seconds() / hour_s},
           {"false_alarms", result.false_alarms()},
+          {"machine", result.options.machine},
+          {"histogram", result.options.histogram},
           {"seed", result.options.seed},
           {"held_s", held_s},
+          {"idle_s", idle_s},
           {"contacts", result.contacts()},
           {"other_stops", other_stops},
           {"runs", runs},
@@ -187,9 +193,9 @@ ordered_json flat_json(const QuietResult& result) {
 std::string summary_text(const QuietResult& result) {
   const auto j = flat_json(result);
   std::string text = fmt::format(
-      "\nQuiet hours ({}, from seed {}; a simulation with nobody there)\n  hours {:.2f} in {} runs (and {:.0f} s held by alarms); false alarms {}; "
-      "contacts {}; other stops {}\n",
-      scenario_name, result.options.seed, result.seconds() / hour_s, result.runs.size(), j["held_s"].get<double>(), result.false_alarms(),
+      "\nQuiet hours ({}, from seed {}; a simulation with nobody there)\n  hours {:.2f} in {} runs (and {:.0f} s held by alarms, {:.0f} s that it stood for long); "
+      "false alarms {}; contacts {}; other stops {}\n",
+      scenario_name, result.options.seed, result.seconds() / hour_s, result.runs.size(), j["held_s"].get<double>(), j["idle_s"].get<double>(), result.false_alarms(),
       result.contacts(), j["other_stops"].get<int>());
   for (const QuietRun& r : result.runs)
     for (const QuietAlarm& a : r.alarms)

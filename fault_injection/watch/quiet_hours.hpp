@@ -27,6 +27,7 @@ struct QuietAlarm {
 struct QuietRun {
   std::uint64_t seed = 1;
   double seconds = 0.0, held_s = 0.0;  // simulated; of them with the machine held by an alarm
+  double idle_s = 0.0;                 // and standing for another reason for more than 30 s, from then on
   int trucks_loaded = 0, contacts = 0, other_stops = 0;
   std::string end_reason;
   std::vector<QuietAlarm> alarms;
@@ -36,7 +37,7 @@ struct QuietResult {
   QuietOptions options;
   std::vector<QuietRun> runs;
   double wall_seconds = 0.0;
-  double seconds() const;      // in which an alarm could begin: simulated, less those with the machine held by one
+  double seconds() const;      // in which an alarm could begin: simulated, less those with the machine held by one, or standing for long
   int false_alarms() const;
   int contacts() const;
 };
