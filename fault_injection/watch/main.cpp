@@ -64,7 +64,10 @@ int watch_one_scenario(const Options& o) {
 }
 
 int watch_quietly(const Options& o) {
-  const QuietResult result = watch_quiet_hours({o.quiet_hours, o.seed, o.machine, o.histogram, BERM_PLANT_PROFILES, o.jobs});
+  const auto so_far = [&](const QuietResult& result) {
+    if (can_be_written_again(o.json)) config::write_whole_file(o.json, flat_json(result).dump(1) + "\n");
+  };
+  const QuietResult result = watch_quiet_hours({o.quiet_hours, o.seed, o.machine, o.histogram, BERM_PLANT_PROFILES, o.jobs}, so_far);
   fmt::print("{}", summary_text(result));
   if (!o.json.empty()) config::write_whole_file(o.json, flat_json(result).dump(1) + "\n");
   return result.false_alarms() == 0 && result.contacts() == 0 ? 0 : 1;

@@ -126,7 +126,7 @@ int QuietResult::contacts() const {
   return sum;
 }
 
-QuietResult watch_quiet_hours(const QuietOptions& options) {
+QuietResult watch_quiet_hours(const QuietOptions& options, const std::function<void(const QuietResult&)>& told) {
   const auto begin = std::chrono::steady_clock::now();
   QuietResult result;
   result.options = options;
@@ -146,8 +146,9 @@ QuietResult watch_quiet_hours(const QuietOptions& options) {
     for (QuietRun& r : round)
       if (result.seconds() < wanted_s) result.runs.push_back(std::move(r));
     if (result.seconds() <= before) throw std::runtime_error("no time passes: the machine stands from the first moment of every run");
+    result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (told) told(result);
   }
-  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }
 

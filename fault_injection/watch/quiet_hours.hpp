@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -42,7 +43,8 @@ struct QuietResult {
   int contacts() const;
 };
 
-QuietResult watch_quiet_hours(const QuietOptions& options);
+// told: after each round of runs, what there is so far; may be empty.
+QuietResult watch_quiet_hours(const QuietOptions& options, const std::function<void(const QuietResult&)>& told);
 nlohmann::ordered_json flat_json(const QuietResult& result);
 std::string summary_text(const QuietResult& result);
 
