@@ -34,6 +34,7 @@ using nlohmann::json;
 constexpr int kTickDescriptor = 11;    // numbers in the children
 constexpr int kKernelDescriptor = 12;
 constexpr int kJournalDescriptor = 13;
+constexpr int kPaceDescriptor = 14;
 constexpr double kConnectPatience_s = 20.0;
 constexpr double kEndPatience_s = 10.0;
 constexpr double kSlowedWorthTelling_s = 1.0;
@@ -108,6 +109,7 @@ class LoadRun {
     const std::string mode = options_.realtime ? "--realtime" : "--lockstep";
     auto lifeline = FilePair::pipe();   // the kernel alone holds the write end: its death is a hang-up
     auto ticks = FilePair::packets();   // app to plant, simulation only
+    auto pace = FilePair::packets();    // journal's writer to plant, simulation only
     const std::string port = std::to_string(scan_port_);
 
     std::vector<std::string> kernel_options{"--can", can_, "--scan-port", port}, lidar_options;
@@ -117,7 +119,7 @@ class LoadRun {
     kernel_options.insert(kernel_options.end(), {"--journal-uid", std::to_string(uids_.journal)});
     start_kernel(kernel_, folder_, uids_, parameters, kernel_options, {{lifeline.second(), kKernelDescriptor}});
 
-    start_journal();
+    start_journal(pace.second());
 
     // The app runs as a stranger to this folder: it reads copies.
     std::filesystem::copy_file(machine_, folder_.file("machine.toml"));
@@ -139,6 +141,10 @@ class LoadRun {
                        "--scan-port", port, "--out", out_, mode, "--tick-fd", std::to_string(kTickDescriptor), "--kernel-fd", std::to_string(kKernelDescriptor)};
     plant.arguments.insert(plant.arguments.end(), lidar_options.begin(), lidar_options.end());
     plant.descriptors = {{ticks.first(), kTickDescriptor}, {lifeline.first(), kKernelDescriptor}};
+    if (!options_.realtime) {
+      plant.arguments.insert(plant.arguments.end(), {"--journal-fd", std::to_string(kPaceDescriptor)});
+      plant.descriptors.push_back({pace.first(), kPaceDescriptor});
+    }
     plant_.start(plant);
     result_.pids[0] = plant_.pid();
     result_.pids[1] = kernel_.pid();
@@ -151,7 +157,7 @@ class LoadRun {
   std::string journal_file() const { return out_ + "/journal.mcap"; }
 
   // The writer runs under a uid that can write nothing here: it is given the open file, and renaming it is ours.
-  void start_journal() {
+  void start_journal(int pace) {
     std::filesystem::remove(journal_file());
     const std::string part = journal_file() + ".part";
     const int file = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
@@ -160,6 +166,10 @@ class LoadRun {
     journal.program = program_folder() + "/berm_journal";
     journal.arguments = {"--socket", folder_.file("kernel.sock"), "--file-fd", std::to_string(kJournalDescriptor)};
     journal.descriptors = {{file, kJournalDescriptor}};
+    if (!options_.realtime) {
+      journal.arguments.insert(journal.arguments.end(), {"--pace-fd", std::to_string(kPaceDescriptor)});
+      journal.descriptors.push_back({pace, kPaceDescriptor});
+    }
     if (uids_.separate) journal.uid = uids_.journal;
     journal_.start(journal);
     close(file);

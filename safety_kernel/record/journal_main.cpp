@@ -1,9 +1,12 @@
 // berm_journal: the journal's writer. A process of its own, under a uid of its own: it reads the kernel's ring and writes the file.
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -21,13 +24,14 @@ using namespace berm::record;
 constexpr int kPollMs = 5;  // the ring holds more than a hundred times what the kernel makes in that time
 
 constexpr const char* kHelp =
-    "usage: berm_journal --socket PATH (--out FILE | --file-fd N)\n"
+    "usage: berm_journal --socket PATH (--out FILE | --file-fd N) [--pace-fd N]\n"
     "\n"
     "Writes the kernel's journal as an MCAP file until the kernel ends.\n"
     "\n"
     "  --socket PATH  the kernel's socket; the kernel must have been started with --journal-uid and this process's uid\n"
     "  --out FILE     written as FILE.part, renamed when complete\n"
     "  --file-fd N    an open, empty file instead; whoever opened it renames it when this process has ended with status 0\n"
+    "  --pace-fd N    simulation only: an open SOCK_SEQPACKET that is sent the newest cycle taken (uint64), so that a plant in lockstep can wait\n"
     "  --help         this text\n"
     "\n"
     "At the kernel's end it prints one line of JSON: cycles, lost, bytes. Status 0 when the file is complete (lost records do not change that).\n";
@@ -39,8 +43,15 @@ int fail(const std::string& error) {
 
 struct Options {
   std::string socket, out;
-  int fd = -1;
+  int fd = -1, pace = -1;
 };
+
+// False for what is not a number of a descriptor.
+bool read_descriptor(const std::string& text, int& fd) {
+  if (text.size() > 4 || text.find_first_not_of("0123456789") != std::string::npos) return false;
+  fd = std::atoi(text.c_str());
+  return true;
+}
 
 // Exit status when the program should end now, otherwise -1.
 int read_options(int argc, char** argv, Options& options) {
@@ -50,32 +61,43 @@ int read_options(int argc, char** argv, Options& options) {
       std::fputs(kHelp, stdout);
       return EXIT_SUCCESS;
     }
-    if (name != "--socket" && name != "--out" && name != "--file-fd") return fail("unknown option " + name + "; --help lists them");
+    if (name != "--socket" && name != "--out" && name != "--file-fd" && name != "--pace-fd") return fail("unknown option " + name + "; --help lists them");
     const std::string value = i + 1 < argc ? argv[++i] : "";
     if (value.empty()) return fail(name + " must not be empty");
     if (name == "--socket") options.socket = value;
     if (name == "--out") options.out = value;
-    if (name != "--file-fd") continue;
-    if (value.size() > 4 || value.find_first_not_of("0123456789") != std::string::npos) return fail("--file-fd must be a file descriptor from 0 to 9999, not \"" + value + "\"");
-    options.fd = std::atoi(value.c_str());
+    if (name == "--socket" || name == "--out") continue;
+    if (!read_descriptor(value, name == "--file-fd" ? options.fd : options.pace))
+      return fail(name + " must be a file descriptor from 0 to 9999, not \"" + value + "\"");
   }
   if (options.socket.empty()) return fail("--socket is required");
   if (options.out.empty() == (options.fd < 0)) return fail("either --out or --file-fd is required");
   return -1;
 }
 
+// Who listens reads all that is there: one that could not be sent is behind a newer one, or nobody listens.
+void tell_pace(int fd, std::uint64_t cycle) {
+  while (send(fd, &cycle, sizeof cycle, MSG_DONTWAIT | MSG_NOSIGNAL) < 0 && errno == EINTR) {
+  }
+}
+
 // Until the kernel is gone and the ring is empty. False with one line in error.
-bool follow(KernelLink& link, JournalFile& file, std::string& error) {
+bool follow(KernelLink& link, JournalFile& file, int pace, std::string& error) {
   RingReader reader(link.ring(), link.tail());
   std::vector<std::uint8_t> record;
   for (bool gone = false;;) {
     RingReader::Result result;
+    std::uint64_t newest = 0;
+    bool taken = false;
     while ((result = reader.next(record)) == RingReader::Result::kRecord) {
       if (!file.cycle(record.data(), record.size())) {
         error = file.error();
         return false;
       }
+      std::memcpy(&newest, record.data() + offsetof(berm_journal_cycle, cycle), sizeof newest);
+      taken = true;
     }
+    if (taken && pace >= 0) tell_pace(pace, newest);
     if (result == RingReader::Result::kBroken) {
       error = "the kernel's ring is damaged";
       return false;
@@ -106,7 +128,7 @@ int main(int argc, char** argv) {
   std::printf("{\"event\": \"connected\"}\n");
   std::fflush(stdout);
   if (!file.begin(link.ring().start)) return fail(shown + ": " + file.error());
-  if (!follow(link, file, error)) return fail(shown + ": " + error);
+  if (!follow(link, file, options.pace, error)) return fail(shown + ": " + error);
   if (close(options.fd) != 0) return fail(shown + ": " + std::strerror(errno));
   if (!options.out.empty() && std::rename(part.c_str(), options.out.c_str()) != 0) return fail(options.out + ": " + std::strerror(errno));
   std::printf("{\"cycles\": %llu, \"lost\": %llu, \"bytes\": %llu}\n", static_cast<unsigned long long>(file.cycles()),

@@ -64,8 +64,10 @@ int run(int argc, char** argv) {
   app.add_option("--out", options.out, "folder for the results, made when missing")->required();
   auto* step = app.add_flag("--lockstep", lockstep, "virtual time, in step with kernel and app (default)");
   app.add_flag("--realtime", options.realtime, "wall-clock time")->excludes(step);
-  app.add_option("--tick-fd", options.tick_fd, "inherited SOCK_SEQPACKET descriptor with the app's ticks")->check(CLI::Range(0, 1 << 20));
-  app.add_option("--kernel-fd", options.kernel_fd, "inherited read end of the kernel's lifeline pipe")->check(CLI::Range(0, 1 << 20));
+  app.add_option("--tick-fd", options.peers.tick, "inherited SOCK_SEQPACKET descriptor with the app's ticks")->check(CLI::Range(0, 1 << 20));
+  app.add_option("--kernel-fd", options.peers.kernel, "inherited read end of the kernel's lifeline pipe")->check(CLI::Range(0, 1 << 20));
+  app.add_option("--journal-fd", options.peers.journal, "inherited SOCK_SEQPACKET descriptor with the cycles that the journal's writer has taken")
+      ->check(CLI::Range(0, 1 << 20));
   if (const auto status = berm::config::parse_options(app, argc, argv)) return *status;
   options.stop_fd = stop_descriptor();
   try {

@@ -31,11 +31,30 @@ bool hung_up(int fd) {
   return poll(&p, 1, 0) > 0 && (p.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0;
 }
 
+// All messages that have come from a peer; what has another size is none.
+template <class Message, class Take>
+void take_messages(int fd, PeerState& state, const Take& take) {
+  if (state == PeerState::unused || state == PeerState::gone) return;
+  for (;;) {
+    Message message{};
+    const ssize_t n = recv(fd, &message, sizeof message, MSG_DONTWAIT);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;
+    if (n <= 0) {
+      state = PeerState::gone;
+      return;
+    }
+    if (n != static_cast<ssize_t>(sizeof message)) continue;
+    take(message);
+    state = PeerState::present;
+  }
+}
+
 }  // namespace
 
-Peers::Peers(can::Transport& bus, int kernel_fd, int tick_fd, std::function<void(const berm_can_frame&)> on_frame)
-    : bus_(bus), kernel_fd_(kernel_fd), tick_fd_(tick_fd), on_frame_(std::move(on_frame)),
-      app_(tick_fd >= 0 ? PeerState::present : PeerState::unused) {}
+Peers::Peers(can::Transport& bus, const Descriptors& descriptors, std::function<void(const berm_can_frame&)> on_frame)
+    : bus_(bus), fd_(descriptors), on_frame_(std::move(on_frame)), app_(fd_.tick >= 0 ? PeerState::present : PeerState::unused),
+      journal_(fd_.journal >= 0 ? PeerState::present : PeerState::unused) {}
 
 void Peers::take_frames() {
   berm_can_frame frame;
@@ -51,30 +70,24 @@ void Peers::take_frames() {
 }
 
 void Peers::take_ticks() {
-  if (app_ == PeerState::unused || app_ == PeerState::gone) return;
-  for (;;) {
-    Tick tick{};
-    const ssize_t n = recv(tick_fd_, &tick, sizeof tick, MSG_DONTWAIT);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;
-    if (n <= 0) {
-      app_ = PeerState::gone;
-      return;
-    }
-    if (n != static_cast<ssize_t>(sizeof tick)) continue;
+  take_messages<Tick>(fd_.tick, app_, [this](const Tick& tick) {
     tick_cycle_ = tick.cycle;
     finished_ = finished_ || (tick.flags & kFinishedFlag) != 0;
-    app_ = PeerState::present;
-  }
+  });
+}
+
+void Peers::take_pace() {
+  take_messages<std::uint64_t>(fd_.journal, journal_, [this](std::uint64_t cycle) { journal_cycle_ = cycle; });
 }
 
 void Peers::look_at_lifeline() {
-  if (kernel_fd_ >= 0 && kernel_ != PeerState::gone && hung_up(kernel_fd_)) kernel_ = PeerState::gone;
+  if (fd_.kernel >= 0 && kernel_ != PeerState::gone && hung_up(fd_.kernel)) kernel_ = PeerState::gone;
 }
 
 void Peers::drain() {
   take_frames();
   take_ticks();
+  take_pace();
   look_at_lifeline();
 }
 
@@ -84,25 +97,40 @@ bool Peers::kernel_answered(std::uint64_t cycle) const {
 
 bool Peers::app_answered(std::uint64_t cycle) const { return tick_cycle_ && *tick_cycle_ >= cycle; }
 
+PeerState* Peers::waits_for(std::uint64_t cycle) {
+  // app and writer have something to answer when the kernel has published: without it there is nothing to wait for
+  if (kernel_ != PeerState::present) return nullptr;
+  if (!kernel_answered(cycle)) return &kernel_;
+  if (app_ == PeerState::present && !app_answered(cycle)) return &app_;
+  if (journal_ == PeerState::present && cycle > journal_cycle_.value_or(0) + kUnreadMost) return &journal_;
+  return nullptr;
+}
+
+bool Peers::was_heard(const PeerState* peer) const {
+  if (peer == &kernel_) return heartbeat_cycle_.has_value();
+  return peer == &app_ ? tick_cycle_.has_value() : journal_cycle_.has_value();
+}
+
 void Peers::wait_for(std::uint64_t cycle, int stop_fd) {
   auto begin = Clock::now();
-  bool kernel_was_waiting = true;
+  const PeerState* waited_for = nullptr;
   for (;;) {
     drain();
-    const bool wait_kernel = kernel_ == PeerState::present && !kernel_answered(cycle);
-    // the app ticks when the kernel has published: without the kernel's answer there is nothing to wait for
-    const bool wait_app = !wait_kernel && kernel_ == PeerState::present && app_ == PeerState::present && !app_answered(cycle);
-    if (!wait_kernel && !wait_app) return;
-    if (kernel_was_waiting && !wait_kernel) begin = Clock::now();  // each peer has its own time
-    kernel_was_waiting = wait_kernel;
-    const bool known = wait_kernel ? heartbeat_cycle_.has_value() : tick_cycle_.has_value();
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>((known ? kSilence : kFirstContact) - (Clock::now() - begin)).count();
+    PeerState* const peer = waits_for(cycle);
+    if (peer == nullptr) return;
+    if (peer != waited_for) begin = Clock::now();  // each peer has its own time
+    waited_for = peer;
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>((was_heard(peer) ? kSilence : kFirstContact) - (Clock::now() - begin)).count();
     if (left <= 0) {
-      (wait_kernel ? kernel_ : app_) = PeerState::absent;
+      *peer = PeerState::absent;
       continue;
     }
-    std::array<pollfd, 4> fds{{{bus_.fd(), POLLIN, 0}, {stop_fd, POLLIN, 0}, {kernel_ == PeerState::gone ? -1 : kernel_fd_, 0, 0},
-                               {app_ == PeerState::gone ? -1 : tick_fd_, POLLIN, 0}}};
+    const auto unless_gone = [](PeerState state, int fd) { return state == PeerState::gone ? -1 : fd; };
+    std::array<pollfd, 5> fds{{{bus_.fd(), POLLIN, 0},
+                               {stop_fd, POLLIN, 0},
+                               {unless_gone(kernel_, fd_.kernel), 0, 0},
+                               {unless_gone(app_, fd_.tick), POLLIN, 0},
+                               {unless_gone(journal_, fd_.journal), POLLIN, 0}}};
     if (poll(fds.data(), fds.size(), static_cast<int>(left)) > 0 && (fds[1].revents & POLLIN) != 0) return;
   }
 }

@@ -1,5 +1,6 @@
-// The other processes of a run as the plant sees them: the kernel on the CAN bus and by its lifeline pipe, the app by its tick socket.
-// In lockstep the plant waits for both; a peer that answers nothing for 5 s of wall time is absent and is not waited for until heard again;
+// The other processes of a run as the plant sees them: the kernel on the CAN bus and by its lifeline pipe, the app by its tick socket, the
+// journal's writer by its pace socket. In lockstep the plant waits for kernel and app, and for the writer when it is so far behind that the
+// kernel's ring could overflow; a peer that answers nothing for 5 s of wall time is absent and is not waited for until heard again;
 // one whose descriptor hangs up is gone at once.
 #pragma once
 
@@ -15,16 +16,26 @@ enum class PeerState { unused, present, absent, gone };
 
 class Peers {
  public:
-  // Descriptors may be -1: no lifeline, no app. on_frame takes each frame of the kernel as it arrives.
-  Peers(can::Transport& bus, int kernel_fd, int tick_fd, std::function<void(const berm_can_frame&)> on_frame);
+  struct Descriptors {  // -1: no such peer
+    int kernel = -1;    // read end of its lifeline
+    int tick = -1;      // the app's ticks
+    int journal = -1;   // the cycles that the journal's writer has taken
+  };
+  // Cycles that the writer may be behind: with four lidars a cycle is 37 kB of journal, so this is a quarter of the kernel's ring.
+  static constexpr std::uint64_t kUnreadMost = 100;
+
+  // on_frame takes each frame of the kernel as it arrives.
+  Peers(can::Transport& bus, const Descriptors& descriptors, std::function<void(const berm_can_frame&)> on_frame);
 
   // Takes all that has arrived; never waits.
   void drain();
-  // Drains, then waits for the kernel's heartbeat of this cycle and for the app's tick of it. Returns early when stop_fd is readable.
+  // Drains, then waits for the kernel's heartbeat of this cycle, for the app's tick of it, and for the journal's writer to be no more than
+  // kUnreadMost cycles behind. Returns early when stop_fd is readable.
   void wait_for(std::uint64_t cycle, int stop_fd);
 
   PeerState kernel() const { return kernel_; }
   PeerState app() const { return app_; }
+  PeerState journal() const { return journal_; }
   bool app_finished() const { return finished_; }
 
  private:
@@ -32,14 +43,18 @@ class Peers {
   bool app_answered(std::uint64_t cycle) const;
   void take_frames();
   void take_ticks();
+  void take_pace();
   void look_at_lifeline();
+  // The peer to wait for next; nullptr: none.
+  PeerState* waits_for(std::uint64_t cycle);
+  bool was_heard(const PeerState* peer) const;
 
   can::Transport& bus_;
-  int kernel_fd_, tick_fd_;
+  Descriptors fd_;
   std::function<void(const berm_can_frame&)> on_frame_;
-  PeerState kernel_ = PeerState::present, app_;
+  PeerState kernel_ = PeerState::present, app_, journal_;
   std::optional<std::uint16_t> heartbeat_cycle_;   // of the newest heartbeat, whatever its guard: for keeping step, not for moving
-  std::optional<std::uint64_t> tick_cycle_;
+  std::optional<std::uint64_t> tick_cycle_, journal_cycle_;
   bool finished_ = false;
 };
 

@@ -61,7 +61,7 @@ PlantRun::PlantRun(const Scenario& scenario, const PlantProfile& profile, const 
     : scenario_(scenario), profile_(profile), options_(options), scans_(options.scan_port),
       world_(scenario.world, profile_.shape, options.seed, options.trucks), dynamics_(profile.dynamics, profile.shape, options.seed, scenario.start),
       controller_(profile), base_(scenario.base_motions), frames_(profile, options.seed), servo_{PanServo(profile.shape.scanner[0]), PanServo(profile.shape.scanner[1])},
-      peers_(opened(bus_, options.can_address), options.kernel_fd, options.tick_fd, [this](const berm_can_frame& frame) { controller_.receive(frame, now_); }),
+      peers_(opened(bus_, options.can_address), options.peers, [this](const berm_can_frame& frame) { controller_.receive(frame, now_); }),
       trace_(made_folder(options.out) + "/trace.csv", world_.movers()), kernel_seen_(peers_.kernel()), app_seen_(peers_.app()) {
   if (options.lidar_port.size() != profile.shape.lidar.size())
     throw ConfigError(fmt::format("--lidar-port: given {} times, {} has {} lidars", options.lidar_port.size(), scenario.machine_file, profile.shape.lidar.size()));

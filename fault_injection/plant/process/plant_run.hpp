@@ -30,7 +30,7 @@ struct RunOptions {
   std::vector<std::uint16_t> lidar_port;  // one for each lidar of the profile
   std::string out;          // folder, made when missing
   bool realtime = false;
-  int tick_fd = -1, kernel_fd = -1;
+  Peers::Descriptors peers;
   int stop_fd = -1;         // readable: end the run
 };
 

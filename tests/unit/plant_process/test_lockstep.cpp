@@ -34,8 +34,8 @@ Result run(const std::string& name, std::uint64_t seed, const std::function<Answ
   options.scan_port = 9;  // nobody listens
   const test::Scratch scratch;
   options.out = scratch.path(name);
-  options.tick_fd = peers.tick_fd;
-  options.kernel_fd = peers.kernel_fd;
+  options.peers.tick = peers.tick_fd;
+  options.peers.kernel = peers.kernel_fd;
   PlantRun(scenario, load_plant_profile(scenario.machine_file), options).run();
   Result r{options.out, text_of(options.out + "/trace.csv"), nlohmann::json::parse(text_of(options.out + "/truth.json"))};
   EXPECT_FALSE(std::filesystem::exists(options.out + "/trace.csv.part"));

@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 
+#include <thread>
+
 #include "fake_peers.hpp"
 #include "plant/process/peers.hpp"
 
@@ -17,10 +19,11 @@ class PeersTest : public ::testing::Test {
     ASSERT_EQ(other_.open(test_can_address()), "");
     ASSERT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET, 0, tick_), 0);
     ASSERT_EQ(pipe(life_), 0);
-    peers_ = std::make_unique<Peers>(bus_, life_[0], tick_[1], [this](const berm_can_frame& f) { frames_.push_back(f); });
+    ASSERT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET, 0, pace_), 0);
+    peers_ = std::make_unique<Peers>(bus_, Peers::Descriptors{life_[0], tick_[1], pace_[1]}, [this](const berm_can_frame& f) { frames_.push_back(f); });
   }
   void TearDown() override {
-    for (const int fd : {tick_[0], tick_[1], life_[0], life_[1]}) {
+    for (const int fd : {tick_[0], tick_[1], life_[0], life_[1], pace_[0], pace_[1]}) {
       if (fd >= 0) close(fd);
     }
   }
@@ -33,7 +36,8 @@ class PeersTest : public ::testing::Test {
     ASSERT_TRUE(other_.send(berm_encode_heartbeat(&m)));
   }
   can::Transport bus_, other_;
-  int tick_[2] = {-1, -1}, life_[2] = {-1, -1};
+  void pace(std::uint64_t cycle) { ASSERT_EQ(::send(pace_[0], &cycle, sizeof cycle, 0), static_cast<ssize_t>(sizeof cycle)); }
+  int tick_[2] = {-1, -1}, life_[2] = {-1, -1}, pace_[2] = {-1, -1};
   std::vector<berm_can_frame> frames_;
   std::unique_ptr<Peers> peers_;
 };
@@ -53,6 +57,7 @@ TEST_F(PeersTest, WaitReturnsWhenBothHaveAnswered) {
 TEST_F(PeersTest, CycleOfTheHeartbeatWraps) {
   heartbeat(3);
   tick(65539);
+  pace(65500);
   peers_->wait_for(65539, -1);
   EXPECT_EQ(peers_->kernel(), PeerState::present);
 }
@@ -98,6 +103,38 @@ TEST_F(PeersTest, SilentKernelIsAbsentAfterFiveSecondsAndBackWhenHeard) {
   tick(4);
   peers_->wait_for(4, -1);
   EXPECT_EQ(peers_->kernel(), PeerState::present);
+}
+
+TEST_F(PeersTest, TheJournalsWriterIsWaitedForWhenTheRingCouldOverflow) {
+  const std::uint16_t cycle = Peers::kUnreadMost + 11;
+  heartbeat(cycle);
+  tick(cycle);
+  pace(11);
+  auto begin = std::chrono::steady_clock::now();
+  const auto waited = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
+  peers_->wait_for(cycle, -1);
+  EXPECT_LT(waited(), 1.0) << "it is behind by as much as it may be";
+  heartbeat(cycle + 1);
+  tick(cycle + 1);
+  begin = std::chrono::steady_clock::now();
+  std::thread writer([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    pace(12);
+  });
+  peers_->wait_for(cycle + 1, -1);
+  writer.join();
+  EXPECT_GE(waited(), 0.3);
+  EXPECT_EQ(peers_->journal(), PeerState::present);
+  heartbeat(cycle + 2);
+  tick(cycle + 2);
+  begin = std::chrono::steady_clock::now();
+  peers_->wait_for(cycle + 2, -1);
+  EXPECT_NEAR(waited(), 5.0, 1.0);
+  EXPECT_EQ(peers_->journal(), PeerState::absent);
+  close(pace_[0]);
+  pace_[0] = -1;
+  peers_->drain();
+  EXPECT_EQ(peers_->journal(), PeerState::gone);
 }
 
 TEST_F(PeersTest, StopDescriptorEndsTheWait) {
