@@ -85,10 +85,17 @@ Trial judge(const Scene& scene, const app::RecognisedTruck& answer) {
   t.hidden_share = k.hidden_share;
   t.milliseconds = answer.milliseconds;
   t.evidence = answer.evidence;
+  t.cab = answer.cab;
   t.pose = answer.pose;
   if (!t.truck) return t;
   const app::BedPose true_pose = pose_of(k);
-  t.true_score = app::weigh(true_pose, app::rays_near(app::make_fans(scene.cloud, viewpoint_of(scene)), true_pose)).score;
+  app::FanSweep sweep = app::make_fans(scene.cloud, viewpoint_of(scene));
+  app::upright_segments(sweep);  // marks what is upright
+  app::BedInterpretation truly;
+  truly.pose = true_pose;
+  app::weigh_whole(sweep, truly);
+  t.true_cab = truly.cab;
+  t.true_score = truly.evidence.score;
   if (!t.found) return t;
   Vector3d middle = Vector3d::Zero();
   for (std::size_t i = 0; i < 4; ++i) {

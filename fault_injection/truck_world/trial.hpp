@@ -28,7 +28,8 @@ struct Trial {
   double nees = 0.0;              // of the eight parameters of the opening by the recogniser's own covariance
   double milliseconds = 0.0;
   app::BedEvidence evidence;
-  double true_score = 0.0;        // what the evidence weighs where the truck truly stands
+  double cab = 0.0;               // evidence of the cab
+  double true_score = 0.0, true_cab = 0.0;  // what bed and cab weigh where the truck truly stands
   app::BedPose pose;
 };
 

@@ -11,7 +11,7 @@
 
 namespace berm::truck_world {
 
-constexpr double place_near = 5.0, place_far = 12.0;      // of the middle of the bed from the swing axis
+constexpr double place_near = 5.0, place_far = 8.5;      // of the middle of the bed from the swing axis
 constexpr double drop_most = 3.0;
 constexpr double machine_clear = 3.4;                     // between the swing axis and anything that stands: tail radius and half a metre
 constexpr double look_down_least = 0.5;                   // of the sensor over the highest corner

@@ -40,9 +40,9 @@ void report(const Trial& t, const TrialOptions& o) {
   if (!o.list) return;
   const app::BedEvidence& e = t.evidence;
   fmt::print("  evidence {:.1f}: outer faces {}, inner faces {}, tops {}, inside {}, through {}, before {}, over {}; over the opening {} level, "
-             "{} below, {} above; open end {}; {:.2f} x {:.2f}; the truth weighs {:.1f}\n",
+             "{} below, {} above; open end {}; {:.2f} x {:.2f}, cab {:.0f}; the truth weighs {:.1f}, its cab {:.0f}\n",
              e.score, e.outer_face, e.inner_face, e.wall_top, e.inside, e.through, e.before, e.over, e.level_inside, e.below_inside, e.above_inside,
-             t.pose.open_end, t.pose.length, t.pose.width, t.true_score);
+             t.pose.open_end, t.pose.length, t.pose.width, t.cab, t.true_score, t.true_cab);
 }
 
 int run(int argc, char** argv) {

@@ -10,6 +10,7 @@ constexpr double kFaceDeviation = 0.010;  // m, of a wall's face: mud
 constexpr double kMud = 0.006;            // m, its mean on the part of the faces that is seen
 constexpr double kEdgeDeviation = 0.010;  // m, scale of the logistic function
 constexpr double kUprightSeen = 0.4;      // m below the top down to which a side is upright: below it may be a pipe
+constexpr double kTopHigher = 0.35;       // m
 constexpr double kEdgeReach = 0.45;       // m: rays that pass an edge farther away say nothing of it
 
 class Collector {
@@ -93,6 +94,21 @@ class Collector {
       case Meeting::none: break;
     }
     if (m.what == Meeting::none) beside(ray);
+    if (m.what == Meeting::above_face || m.what == Meeting::before || m.what == Meeting::wall_top) above_tops(ray);
+  }
+
+  // Returns in the plane of a wall that is seen, a little above where its top is thought to be: the top is higher.
+  void above_tops(const Ray& ray) {
+    const Eigen::Vector3d a = rotation_.transpose() * (ray.head - pose_.middle);
+    for (int axis = 0; axis < 2; ++axis)
+      for (const int side : {-1, 1}) {
+        if (axis == 0 && side == pose_.open_end) continue;
+        const BedPlane plane{axis, side, side * a[axis] > pose_.face(axis, side, true)};
+        const Eigen::Vector3d at = crossing(ray, plane), end = rotation_.transpose() * (ray.at - pose_.middle);
+        if (at.z() < 0.0 || at.z() > kTopHigher || (at - end).norm() > kRangeGate) continue;
+        if (at[1 - axis] > pose_.face(1 - axis, 1, true) || at[1 - axis] < -pose_.face(1 - axis, -1, true)) continue;
+        past(ray, plane, {2, 1, false}, 1, at);
+      }
   }
 
   // The return lies below the plane of the tops: the ray passed within the inner edges. Above it, it is a top that the pose does not have there yet.

@@ -6,12 +6,6 @@
 namespace berm::app {
 namespace {
 
-// Weights of the evidence: a return on a face that is predicted weighs 1.
-constexpr double kInside = 0.08;  // a return somewhere inside
-constexpr double kThrough = 2.5;  // a ray through a wall
-constexpr double kAbove = 1.0;    // a return where a wall goes on above its top
-constexpr double kLevel = 0.35;   // a return over the opening in the plane of the tops: a lid
-
 struct Crossing {
   double in = -1e9, out = 1e9;
   int in_axis = -1, in_side = 0, out_axis = -1, out_side = 0;
@@ -90,7 +84,7 @@ RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray&
   m.off = (1.0 - to_rim) * range;
   const bool over_opening = m.rim.x() < pose.face(0, 1, false) && m.rim.x() > -pose.face(0, -1, false) && std::abs(m.rim.y()) < pose.width / 2;
   if (!over_opening) {
-    m.what = m.off < -0.15 ? Meeting::before : m.off <= 0.15 ? Meeting::wall_top : Meeting::through_top;
+    m.what = m.off < -kTopGate ? Meeting::before : m.off <= kTopGate ? Meeting::wall_top : Meeting::through_top;
     for (int axis = 0; axis < 2; ++axis)
       for (int side = -1; side <= 1; side += 2)
         if (m.rim[axis] * side >= pose.face(axis, side, false)) m.axis = axis, m.side = side;
@@ -112,17 +106,20 @@ RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray&
 
 BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays) {
   BedEvidence e;
+  double face[2] = {0.0, 0.0};  // on outer faces of ends and of sides
   const Eigen::Matrix3d rotation = pose.rotation();
-  const auto fit = [](double off, double gate) { return 1.0 - off * off / (gate * gate); };
   for (const Ray& ray : rays) {
     const RayMeeting m = meet(pose, rotation, ray);
     switch (m.what) {
       case Meeting::none: break;
       case Meeting::before: ++e.before; break;
-      case Meeting::outer_face: ++e.outer_face, e.score += fit(m.off, kRangeGate); break;
+      case Meeting::outer_face: ++e.outer_face, face[m.axis] += fit(m.off, kRangeGate); break;
       case Meeting::above_face: ++e.above_face, e.score -= kAbove; break;
-      case Meeting::wall_top: ++e.wall_top, e.score += 0.7 * fit(m.off, 0.15); break;
-      case Meeting::inside: ++e.inside, e.score += kInside; break;
+      case Meeting::wall_top: ++e.wall_top, e.score += kTop * fit(m.off, kTopGate); break;
+      case Meeting::inside:
+        if (m.end.z() < -kDeepest) ++e.through, e.score -= kThrough;
+        else ++e.inside, e.score += kInside;
+        break;
       case Meeting::inner_face: ++e.inner_face, e.score += kInside + (1.0 - kInside) * fit(m.off, kRangeGate); break;
       case Meeting::over: ++e.over; break;
       case Meeting::through_face:
@@ -131,12 +128,17 @@ BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays) {
     }
     if (m.what == Meeting::none || m.what == Meeting::outer_face) continue;
     const Eigen::Vector3d& p = m.end;
-    if (std::abs(p.x()) > pose.length / 2 - 0.3 || std::abs(p.y()) > pose.width / 2 - 0.3) continue;
-    if (std::abs(p.z()) < 0.05) ++e.level_inside, e.score -= kLevel;
-    e.below_inside += p.z() < -0.05 ? 1 : 0;
-    e.above_inside += p.z() > 0.05 ? 1 : 0;
+    const double to_wall = std::min(pose.length / 2 - std::abs(p.x()), pose.width / 2 - std::abs(p.y()));
+    if (to_wall < 0.0) continue;
+    const bool steep = (ray.upright && to_wall > kUprightMargin) || to_wall < heap_margin(p.z());
+    if (steep && p.z() > -kDeepest && p.z() < kUprightAbove && m.what != Meeting::through_face && m.what != Meeting::through_top) ++e.not_soil, e.score -= kUpright;
+    if (to_wall < kLevelMargin) continue;
+    if (std::abs(p.z()) < kLevelWithin) ++e.level_inside, e.score -= kLevel;
+    e.below_inside += p.z() < -kLevelWithin ? 1 : 0;
+    e.above_inside += p.z() > kLevelWithin ? 1 : 0;
   }
-  if (pose.open_end != 0) e.score -= 12.0;
+  e.score += saturated(face[0]) + saturated(face[1]);
+  if (pose.open_end != 0) e.score -= kOpenEnd;
   return e;
 }
 

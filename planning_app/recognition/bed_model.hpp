@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "recognition/evidence_weights.hpp"
 #include "recognition/fans.hpp"
 
 namespace berm::app {
@@ -22,10 +23,8 @@ struct BedPose {
 
 struct Ray {
   Eigen::Vector3d head, at;  // from the sensor to the return
+  bool upright = false;      // one of several returns one above the other
 };
-
-constexpr double kWallSeen = 0.6;   // m below the top down to which every class has wall, a half pipe within the gate
-constexpr double kRangeGate = 0.12;  // m, four standard deviations of a range
 
 // Of the returns, what the model says of them.
 enum class Meeting {
@@ -57,6 +56,7 @@ struct BedEvidence {
   int level_inside = 0;  // of the returns over the opening, within 5 cm of the plane of the tops, more than 0.3 m from the walls
   int below_inside = 0;  // more than 5 cm below that plane
   int above_inside = 0;
+  int not_soil = 0;      // within or over the opening, too steep for soil
 };
 
 BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays);

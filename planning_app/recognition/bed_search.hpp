@@ -1,10 +1,11 @@
 // Interpretation of upright regions as faces of a bed: a tree over the roles that a region may have, pruned at every level by the classes' ranges
-// (stentz-1999, section 4.1; Grimson, 1990), and the refinement of the best interpretations against the rays.
+// (stentz-1999, section 4.1; Grimson, 1990). Level by level: the region, its role and the height of its top (region_strips), the ends and where the
+// cab stands (bed_ends), then a fit of the best, and their ends again.
 #pragma once
 
 #include <vector>
 
-#include "recognition/bed_model.hpp"
+#include "recognition/rays_of_sweep.hpp"
 #include "recognition/truck_ranges.hpp"
 #include "recognition/upright_regions.hpp"
 
@@ -14,13 +15,19 @@ struct BedInterpretation {
   BedPose pose;
   BedEvidence evidence;
   std::vector<Ray> rays;  // that come near the bed
+  double cab = 0.0;       // evidence of the cab, not in that of the bed
+  int cab_end = 0;        // 1: at +u
+  [[nodiscard]] double whole() const;
 };
 
-// The best interpretations by their evidence, at most kInterpretations, the best first.
-constexpr std::size_t kInterpretations = 4;
+// The best interpretations by their evidence with the cab, at most kInterpretations, the best first.
+constexpr std::size_t kInterpretations = 6;
 std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vector<UprightRegion>& regions, const TruckRangeSet& ranges);
 
-// Rays of the sweep that come to within 0.6 m of the bed's walls or opening, down to so many metres below the walls' tops.
-std::vector<Ray> rays_near(const FanSweep& sweep, const BedPose& pose, double below = 1.1);
+// The evidence for the pose as it is: of the bed, and of a cab beyond the end where there is more of it, or opposite an open end.
+void weigh_whole(const FanSweep& sweep, BedInterpretation& interpretation);
+
+// The length at which the bed's sides, taken for something longer than every class of trucks, agree better with the rays; 0 when they do not.
+double longer_length(const FanSweep& sweep, const BedPose& pose, const TruckRangeSet& ranges);
 
 }  // namespace berm::app

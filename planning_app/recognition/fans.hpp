@@ -15,7 +15,8 @@ namespace berm::app {
 
 struct FanReturn {
   Eigen::Vector3d at;
-  std::uint32_t fan;  // of FanSweep::heads
+  std::uint32_t fan;      // of FanSweep::heads
+  bool upright = false;   // of an upright segment (upright_regions)
 };
 
 struct FanSweep {

@@ -14,6 +14,7 @@ TruckRanges read_class(config::StrictTable& table) {
   c.inside_width = table.interval("inside_width", 1.8, 3.5, 0.0);
   c.wall_height = table.interval("wall_height", 0.6, 2.5, 0.0);
   c.wall_thickness = table.interval("wall_thickness", 0.03, 0.3, 0.0);
+  c.top_over_ground = table.interval("top_over_ground", 1.0, 5.0, 0.0);
   c.open_rear = table.flag("open_rear");
   table.finish();
   return c;

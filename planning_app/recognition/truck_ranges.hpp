@@ -12,6 +12,7 @@ using SizeRange = std::array<double, 2>;  // low, high; metres
 struct TruckRanges {
   std::string name;
   SizeRange inside_length{}, inside_width{}, wall_height{}, wall_thickness{};
+  SizeRange top_over_ground{};  // of the walls' tops over the ground that the truck stands on
   bool open_rear = false;  // the tailgate may be missing or hang down
 };
 

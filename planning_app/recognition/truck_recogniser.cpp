@@ -1,32 +1,22 @@
 #include "recognition/truck_recogniser.hpp"
 
 #include <fmt/format.h>
+#include <time.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace berm::app {
 namespace {
 
 constexpr double kScoreLeast = 62.0;  // evidence of a bed
+constexpr double kCabSeen = 30.0;      // evidence of a cab that leaves little doubt
+constexpr double kCabFaint = 2.0;      // evidence of anything at all where the cab would stand
+constexpr double kCabLeast = -30.0;   // evidence of its cab
+constexpr double kGroundSlack = 0.15;   // m: ruts
+constexpr double kGroundLeast = 0.02;   // share of returns
+constexpr double kMuchBetter = 1.1;
 constexpr double kPi = 3.14159265358979323846;
-
-// For a cab beyond an end of the bed: rays that end where every cab has its lower half, less those that pass through there.
-int cab_evidence(const FanSweep& sweep, const BedPose& pose, int side) {
-  const Eigen::Matrix3d rotation = pose.rotation();
-  const double begin = pose.length / 2 + pose.thickness + 0.5;
-  const Eigen::Array3d low(side > 0 ? begin : -begin - 0.8, -1.0, -1.9), high(side > 0 ? begin + 0.8 : -begin, 1.0, -1.0);
-  int count = 0;
-  for (const FanReturn& r : sweep.returns) {
-    const Eigen::Vector3d a = rotation.transpose() * (sweep.heads[r.fan] - pose.middle), end = rotation.transpose() * (r.at - pose.middle);
-    const Eigen::Array3d d = end - a, first = (low - a.array()) / d, second = (high - a.array()) / d;
-    const double in = first.min(second).maxCoeff(), out = first.max(second).minCoeff(), range = (end - a).norm();
-    if (in >= out || in <= 0.0 || in * range > range + 0.5) continue;
-    count += out * range + 0.15 < range ? -1 : 1;
-  }
-  return count;
-}
 
 void turn_round(BedPose& pose) {
   pose.yaw = std::remainder(pose.yaw + kPi, 2 * kPi);
@@ -85,18 +75,19 @@ double wall_height(const BedPose& pose, const std::vector<Ray>& rays, const Truc
   return best;
 }
 
-// Of the returns within 1.5 m outside the walls, the share that lies as low as the ground beside a truck.
-double share_low_beside(const FanSweep& sweep, const BedPose& pose) {
-  const Eigen::Matrix3d rotation = pose.rotation();
-  int low = 0, all = 0;
+// Of the returns within 2.5 m outside the walls, the share that lies as deep below their tops as the ground that a truck stands on; 1 with too few
+// returns. On the near side the bench may be higher, so a small share tells enough.
+double share_of_ground(const FanSweep& sweep, const BedPose& pose, const SizeRange& top_over_ground) {
+  const Eigen::Matrix3d turn = pose.rotation().transpose();
+  int all = 0, ground = 0;
   for (const FanReturn& r : sweep.returns) {
-    const Eigen::Vector3d p = rotation.transpose() * (r.at - pose.middle);
+    const Eigen::Vector3d p = turn * (r.at - pose.middle);
     const double beyond = std::max(std::abs(p.x()) - pose.length / 2, std::abs(p.y()) - pose.width / 2) - pose.thickness;
-    if (beyond < 0.2 || beyond > 1.5) continue;
+    if (beyond < 0.2 || beyond > 2.5) continue;
     ++all;
-    low += p.z() < -1.5 ? 1 : 0;
+    ground += -p.z() > top_over_ground[0] - kGroundSlack && -p.z() < top_over_ground[1] + 2 * kGroundSlack ? 1 : 0;
   }
-  return all == 0 ? 1.0 : static_cast<double>(low) / all;
+  return all < 25 ? 1.0 : static_cast<double>(ground) / all;
 }
 
 // Why the bed is none; empty when it is one.
@@ -105,27 +96,74 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
   const BedPose& p = fit.pose;
   if (e.score < kScoreLeast)
     return fmt::format("what is most like a bed is too little like one: its evidence weighs {:.0f} of the {:.0f} needed", e.score, kScoreLeast);
+  if (i.cab < kCabLeast) return fmt::format("rays pass where its cab would stand, at either end: evidence of {:.0f}", i.cab);
   if (!fit.converged) return "the fit of the bed did not converge";
   // From behind an open rear the walls show their inner faces alone.
-  if (e.outer_face < 12 && (p.open_end == 0 || e.inner_face < 150))
+  if (e.outer_face < 12 && (p.open_end == 0 || e.inner_face < 50 || i.cab < kCabFaint))
     return fmt::format("the bed has {} returns on outer faces of its walls, and needs 12", e.outer_face);
   // A closed box, a lorry's board or a trench box matches as well from outside: the far walls' inside tells a bed.
-  if (e.inner_face < 8) return fmt::format("the bed has {} returns on inner faces of its far walls, and needs 8", e.inner_face);
+  const bool has_cab = i.cab > kCabSeen;
+  if (e.inner_face < (has_cab ? 4 : 8)) return fmt::format("the bed has {} returns on inner faces of its far walls, and needs 8", e.inner_face);
   const int explained = e.outer_face + e.inner_face + e.wall_top + e.inside;
-  if (e.through > 0.15 * explained) return fmt::format("{} rays pass through its walls, {} agree with them", e.through, explained);
+  if (e.through > 0.1 * explained) return fmt::format("{} rays pass through its walls, {} agree with them", e.through, explained);
   const int over_opening = e.level_inside + e.below_inside + e.above_inside;
   if (e.level_inside > 0.75 * over_opening && over_opening >= 10)
     return fmt::format("it is closed on top: {} of {} returns over its opening lie in the plane of the walls' tops", e.level_inside, over_opening);
-  const double low = share_low_beside(sweep, p);
-  if (low < 0.15) return fmt::format("the ground beside it lies too high: {:.0f} % of the returns there are 1.5 m below the walls' tops", 100 * low);
+  const SizeRange over_ground = ranges.hull(&TruckRanges::top_over_ground);
+  const double ground = share_of_ground(sweep, p, over_ground);
+  if (ground < kGroundLeast)
+    return fmt::format("{:.1f} % of the returns beside it lie {:.2f} to {:.2f} m below the walls' tops, where the ground would be", 100 * ground, over_ground[0], over_ground[1]);
+  if (!has_cab) {
+    // Without a cab, what goes on beyond the lengths of trucks' beds is a container.
+    const double further = longer_length(sweep, p, ranges);
+    if (further > 0.0) return fmt::format("it has no cab and goes on for {:.2f} m, longer than every class of trucks", further);
+  }
   if (ranges.find(p.length, p.width, p.open_end != 0) == nullptr)
     return fmt::format("its opening of {:.2f} by {:.2f} m is outside every class of trucks", p.length, p.width);
   return {};
 }
 
+struct Verified {
+  BedInterpretation interpretation;
+  FittedBed fit;
+  std::string refusal;  // empty: it is a bed
+};
+
+// Whether both say that something stands at the same place: more than half of the shorter one's length.
+bool same_place(const BedPose& a, const BedPose& b) {
+  if (std::abs(std::remainder(a.yaw - b.yaw, kPi)) > 0.1) return false;
+  const Eigen::Vector2d u(std::cos(a.yaw), std::sin(a.yaw)), between = b.middle.head<2>() - a.middle.head<2>();
+  const double along = std::abs(u.dot(between)), across = std::abs(u.x() * between.y() - u.y() * between.x());
+  return across < 0.3 && 0.5 * (a.length + b.length) - along > 0.5 * std::min(a.length, b.length);
+}
+
+// The bed with the most evidence; with none, the one that was refused with the most. A bed that is only a part of something that agrees with the rays
+// much better, and is none, is none either: a container, or a bed that has no cab.
+const Verified& choose(const std::vector<Verified>& all) {
+  const auto less = [](const Verified& a, const Verified& b) {
+    if (a.refusal.empty() != b.refusal.empty()) return b.refusal.empty();
+    return a.interpretation.whole() < b.interpretation.whole();
+  };
+  const Verified* best = &*std::max_element(all.begin(), all.end(), less);
+  if (!best->refusal.empty()) return *best;
+  const Verified* whole = best;
+  for (const Verified& v : all)
+    if (!v.refusal.empty() && v.interpretation.evidence.score > kMuchBetter * whole->interpretation.evidence.score &&
+        same_place(v.interpretation.pose, best->interpretation.pose))
+      whole = &v;
+  return *whole;
+}
+
+// Of CPU, so that a busy machine measures the same.
+double thread_milliseconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
+}
+
 RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array<double, 3>& viewpoint, const TruckRangeSet& ranges) {
   RecognisedTruck out;
-  const FanSweep sweep = make_fans(points, viewpoint);
+  FanSweep sweep = make_fans(points, viewpoint);
   out.reason = sweep.reason;
   if (!out.reason.empty()) return out;
   const std::vector<UprightRegion> regions = upright_regions(sweep, upright_segments(sweep));
@@ -134,27 +172,26 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
   std::vector<BedInterpretation> interpretations = interpret(sweep, regions, ranges);
   out.reason = "no upright wall can be one of a bed";
   if (interpretations.empty()) return out;
-  // The one that survives verification with the most evidence; with none, why the first did not.
-  FittedBed fit;
-  BedInterpretation best;
+  std::vector<Verified> verified;
   for (BedInterpretation& i : interpretations) {
-    FittedBed own = fit_bed(i.pose, i.rays, 3);
-    i.rays = rays_near(sweep, own.pose);
-    i.evidence = weigh(own.pose, i.rays);
-    const std::string why = refusal(sweep, i, own, ranges);
-    if (why.empty() ? i.evidence.score > best.evidence.score : &i == &interpretations.front()) {
-      out.evidence = i.evidence;
-      out.pose = own.pose;
-      out.reason = why;
-    }
-    if (!why.empty() || i.evidence.score <= best.evidence.score) continue;
-    fit = own;
-    best = i;
+    Verified v;
+    v.fit = fit_bed(i.pose, i.rays, 3);
+    i.pose = v.fit.pose;
+    weigh_whole(sweep, i);
+    v.refusal = refusal(sweep, i, v.fit, ranges);
+    v.interpretation = std::move(i);
+    verified.push_back(std::move(v));
   }
+  const Verified& chosen = choose(verified);
+  const BedInterpretation& best = chosen.interpretation;
+  FittedBed fit = chosen.fit;
+  out.evidence = best.evidence;
+  out.cab = best.cab;
+  out.pose = fit.pose;
+  out.reason = chosen.refusal;
   if (!out.reason.empty()) return out;
 
-  const bool reversed = fit.pose.open_end != 0 ? fit.pose.open_end == 1 : cab_evidence(sweep, fit.pose, -1) > cab_evidence(sweep, fit.pose, 1);
-  if (reversed) {
+  if (best.cab_end < 0) {
     turn_round(fit.pose);
     const Eigen::Matrix<double, 8, 1> sign{1, 1, 1, 1, -1, -1, 1, 1};
     fit.covariance = sign.asDiagonal() * fit.covariance * sign.asDiagonal();
@@ -176,9 +213,9 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
 }  // namespace
 
 RecognisedTruck recognise_truck(const std::vector<ScanPoint>& points, const std::array<double, 3>& viewpoint, const TruckRangeSet& ranges) {
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin = thread_milliseconds();
   RecognisedTruck out = recognise(points, viewpoint, ranges);
-  out.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  out.milliseconds = thread_milliseconds() - begin;
   return out;
 }
 

@@ -27,7 +27,8 @@ struct RecognisedTruck {
   Matrix8d pose_covariance = Matrix8d::Zero();  // of middle x y z, yaw, pitch, roll, length, width
   BedPose pose;
   BedEvidence evidence;
-  double milliseconds = 0.0;
+  double cab = 0.0;                             // evidence of its cab
+  double milliseconds = 0.0;                    // of CPU, in one thread
 };
 
 // points in measuring order; viewpoint: of the sensor in the middle of the sweep. Never throws for what the points are.

@@ -53,7 +53,7 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-std::vector<UprightSegment> upright_segments(const FanSweep& sweep) {
+std::vector<UprightSegment> upright_segments(FanSweep& sweep) {
   std::vector<UprightSegment> out;
   for (std::size_t fan = 0; fan + 1 < sweep.begin.size(); ++fan) {
     const std::span<const FanReturn> returns = sweep.of(fan);
@@ -75,6 +75,7 @@ std::vector<UprightSegment> upright_segments(const FanSweep& sweep) {
       }
       if (count >= 3 && high - low >= kRiseLeast) {
         out.push_back({fan, sum / count, low, high, count});
+        for (std::size_t k = i; k < end; ++k) sweep.returns[sweep.begin[fan] + k].upright = true;
         i = end;
       } else {
         ++i;
@@ -124,6 +125,7 @@ std::vector<UprightRegion> upright_regions(const FanSweep& sweep, const std::vec
     r.low = median(lows);
     r.high = median(highs);
     r.count = static_cast<int>(g.n);
+    r.segments = g.members;
     if (most - least > 0.5) out.push_back(r);
   }
   std::sort(out.begin(), out.end(), [](const UprightRegion& a, const UprightRegion& b) { return a.count > b.count; });

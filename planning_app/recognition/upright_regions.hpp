@@ -22,9 +22,11 @@ struct UprightRegion {
   Eigen::Vector2d first, last;
   double low = 0.0, high = 0.0;  // the medians of its segments' ends
   int count = 0;                 // of returns
+  std::vector<UprightSegment> segments;
 };
 
-std::vector<UprightSegment> upright_segments(const FanSweep& sweep);
+// Marks their returns in the sweep.
+std::vector<UprightSegment> upright_segments(FanSweep& sweep);
 
 // The largest first. segments by rising fan. Linear in them: each is offered to the regions that grew within the last three fans.
 std::vector<UprightRegion> upright_regions(const FanSweep& sweep, const std::vector<UprightSegment>& segments);

@@ -19,7 +19,7 @@ def a_drawn_truck_is_found_and_bare_ground_is_none():
     summary = json.loads((scratch / "trucks.json").read_text())
     assert SUMMARY <= summary.keys(), summary.keys()
     assert summary["trucks"] == summary["non_trucks"] == 12
-    assert summary["recognised"] >= 6, "half of the trucks: far below what RECOGNITION.md measured"
+    assert summary["recognised"] >= 9, "three quarters of the trucks: far below what RECOGNITION.md measured"
     failed = summary["recognised"] < 12 or summary["false_accepts"] > 0
     assert listed.returncode == (1 if failed else 0), listed.returncode
     found = {int(line.split("--only ")[1].split()[0]) for line in listed.stdout.splitlines() if line.startswith("found ")}

@@ -14,26 +14,44 @@ RecognisedTruck answer_to(const DrawnBed& bed) {
   return recognise_truck(sweep_of(bed), drawn_viewpoint, read_truck_ranges(BERM_TRUCK_RANGES));
 }
 
-TEST(TruckRecogniser, FindsTheBed) {
-  const DrawnBed bed;
-  const RecognisedTruck truck = answer_to(bed);
-  ASSERT_TRUE(truck.found) << truck.reason;
-  EXPECT_NEAR(truck.length, bed.length, 0.06);
-  EXPECT_NEAR(truck.width, bed.width, 0.06);
-  EXPECT_NEAR(std::remainder(truck.yaw - bed.yaw, 3.14159265358979), 0.0, 0.01);
-  EXPECT_GT(truck.milliseconds, 0.0);
-}
-
 void expect_refused(const DrawnBed& bed, const std::string& reason) {
   const RecognisedTruck truck = answer_to(bed);
   EXPECT_FALSE(truck.found);
   EXPECT_NE(truck.reason.find(reason), std::string::npos) << truck.reason;
 }
 
+TEST(TruckRecogniser, FindsTheBed) {
+  const DrawnBed bed;
+  const RecognisedTruck truck = answer_to(bed);
+  ASSERT_TRUE(truck.found) << truck.reason;
+  EXPECT_NEAR(truck.length, bed.length, 0.06);
+  EXPECT_NEAR(truck.width, bed.width, 0.06);
+  EXPECT_NEAR(std::remainder(truck.yaw - bed.yaw, 2 * 3.14159265358979), 0.0, 0.01) << "towards the cab";
+  EXPECT_FALSE(truck.open_rear);
+  EXPECT_GT(truck.milliseconds, 0.0);
+}
+
+TEST(TruckRecogniser, FindsABedWithoutATailgate) {
+  DrawnBed bed;
+  bed.yaw = -0.4;
+  bed.rear_wall = false;
+  const RecognisedTruck truck = answer_to(bed);
+  ASSERT_TRUE(truck.found) << truck.reason;
+  EXPECT_NEAR(truck.length, bed.length, 0.2) << "the rear lies between two scanlines";
+  EXPECT_NEAR(std::remainder(truck.yaw - bed.yaw, 2 * 3.14159265358979), 0.0, 0.01);
+  EXPECT_TRUE(truck.open_rear);
+}
+
+TEST(TruckRecogniser, RefusesABedWithoutACab) {
+  DrawnBed bed;
+  bed.cab = false;
+  expect_refused(bed, "where its cab would stand");
+}
+
 TEST(TruckRecogniser, RefusesALid) {
   DrawnBed bed;
   bed.lid = true;
-  expect_refused(bed, "inner faces of its far walls");
+  expect_refused(bed, "closed on top");
 }
 
 TEST(TruckRecogniser, RefusesOtherSizes) {
@@ -41,8 +59,8 @@ TEST(TruckRecogniser, RefusesOtherSizes) {
   wide.width = 3.2;
   small.length = 3.0;
   small.width = 1.7;
-  expect_refused(wide, "inner faces of its far walls");
-  expect_refused(small, "outside every class");
+  expect_refused(wide, "outside every class");
+  expect_refused(small, "and needs 8");
 }
 
 TEST(TruckRecogniser, RefusesBareGroundAndNothing) {

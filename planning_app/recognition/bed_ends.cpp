@@ -1,0 +1,306 @@
+#include "recognition/bed_ends.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "recognition/cab_profile.hpp"
+#include "recognition/evidence_weights.hpp"
+
+namespace berm::app {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kEndStep = 0.1;  // m between ends
+constexpr int kEnds = static_cast<int>(2 * kEndReach / kEndStep) + 1;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kMeanFit = 2.0 / 3.0;  // of fit over its gate
+constexpr double kEndsApart = 0.5;          // m
+
+double place_of(int end) { return -kEndReach + kEndStep * end; }
+// The first end at or beyond u; kEnds when there is none.
+int first_end(double u) {
+  const double k = std::ceil((u + kEndReach) / kEndStep);
+  return k <= 0.0 ? 0 : k >= kEnds ? kEnds : static_cast<int>(k);
+}
+
+// Sums of weights over ends.
+class EndSums {
+ public:
+  // For the ends in [from, to).
+  void add(double from, double to, double weight) {
+    const int a = first_end(from), b = first_end(to);
+    if (b <= a) return;
+    sum_[static_cast<std::size_t>(a)] += static_cast<float>(weight);
+    sum_[static_cast<std::size_t>(b)] -= static_cast<float>(weight);
+  }
+  void finish() {
+    for (std::size_t k = 1; k < sum_.size(); ++k) sum_[k] += sum_[k - 1];
+  }
+  [[nodiscard]] float at(int end) const { return sum_[static_cast<std::size_t>(end)]; }
+
+ private:
+  std::array<float, kEnds + 1> sum_{};
+};
+
+// Sums of weights over pairs of ends (rear, front).
+class PairSums {
+ public:
+  PairSums() : sum_(static_cast<std::size_t>((kEnds + 1) * (kEnds + 1)), 0.0F) {}
+  // For the rear ends in [rear_from, rear_to) with the front ends in [front_from, front_to).
+  void add(double rear_from, double rear_to, double front_from, double front_to, double weight) {
+    const int a = first_end(rear_from), b = first_end(rear_to), c = first_end(front_from), d = first_end(front_to);
+    if (b <= a || d <= c) return;
+    const auto w = static_cast<float>(weight);
+    cell(a, c) += w;
+    cell(b, c) -= w;
+    cell(a, d) -= w;
+    cell(b, d) += w;
+  }
+  void finish() {
+    for (int i = 0; i <= kEnds; ++i) {
+      float row = 0.0F;
+      float* const here = &cell(i, 0);
+      const float* const above = i > 0 ? &cell(i - 1, 0) : nullptr;
+      for (int j = 0; j <= kEnds; ++j) {
+        row += here[j];
+        here[j] = row + (above != nullptr ? above[j] : 0.0F);
+      }
+    }
+  }
+  [[nodiscard]] float at(int rear, int front) const { return sum_[static_cast<std::size_t>(rear * (kEnds + 1) + front)]; }
+
+ private:
+  float& cell(int i, int j) { return sum_[static_cast<std::size_t>(i * (kEnds + 1) + j)]; }
+  std::vector<float> sum_;
+};
+
+// One ray in the strip's frame; t runs from the sensor, 0, to the return, 1.
+struct StripRay {
+  Vector3d a, d;
+  double range = 0.0, gate = 0.0;           // gate: in t
+  double in = 0.0, out = kNever;            // t between the outer faces of the sides
+  double rim = kNever;                      // t on the plane of the tops
+  int near_side = 0;                        // side that the sensor stands beyond
+  [[nodiscard]] Vector3d at(double t) const { return a + t * d; }
+  [[nodiscard]] double u(double t) const { return a.x() + t * d.x(); }
+};
+
+class Weighing {
+ public:
+  Weighing(const BedStrip& strip, const std::vector<Ray>& rays) : inner_(strip.width / 2), outer_(inner_ + strip.thickness), thickness_(strip.thickness), slack_(strip.slack) {
+    BedPose pose;
+    pose.yaw = strip.yaw, pose.pitch = strip.pitch, pose.roll = strip.roll;
+    const Eigen::Matrix3d turn = pose.rotation().transpose();
+    for (const Ray& ray : rays) {
+      StripRay r;
+      r.a = turn * (ray.head - strip.middle);
+      r.d = turn * (ray.at - ray.head);
+      if (std::abs(r.a.y()) < outer_ + kSensorClear) sensor_first_ = std::min(sensor_first_, r.a.x()), sensor_last_ = std::max(sensor_last_, r.a.x());
+      cab.take(r.a, r.d, ray.upright);
+      if (!enter(r)) continue;
+      take(r, ray.upright);
+      if (r.a.z() + r.d.z() > 0.0) over_opening(r, ray.upright);
+    }
+    for (PairSums* s : {&common, &rear_wall, &front_wall}) s->finish();
+    for (EndSums* s : {&rear_face, &front_face}) s->finish();
+    cab.finish();
+  }
+
+  // The sensors' places along the strip, where they are not well beside it.
+  [[nodiscard]] bool clear_of_sensor(double rear, double front) const {
+    return sensor_last_ < rear - kSensorClear || sensor_first_ > front + kSensorClear;
+  }
+
+  PairSums common;                  // whatever the ends are
+  PairSums rear_wall, front_wall;   // inner faces of walls at the ends
+  EndSums rear_face, front_face;    // their outer faces
+  CabProfile cab;
+
+ private:
+  // False when the ray has nothing to say of this strip.
+  bool enter(StripRay& r) const {
+    r.range = r.d.norm();
+    r.gate = kRangeGate / r.range;
+    if (r.a.z() <= 0.1) return false;
+    if (r.a.y() > outer_) r.near_side = 1;
+    if (r.a.y() < -outer_) r.near_side = -1;
+    if (std::abs(r.d.y()) > 1e-9) {
+      const double to = r.d.y() > 0.0 ? 1.0 : -1.0;
+      r.in = std::max(0.0, (-to * outer_ - r.a.y()) / r.d.y());
+      r.out = (to * outer_ - r.a.y()) / r.d.y();
+      if (r.out <= 0.0) return false;
+    } else if (r.near_side != 0) {
+      return false;
+    }
+    if (r.d.z() < 0.0) r.rim = -r.a.z() / r.d.z();
+    return true;
+  }
+
+  // For the pairs that have u between them, by so much at least (less than 0: beyond them).
+  void between(double u, double margin, double weight) { common.add(-kNever, u - margin, u + margin, kNever, weight); }
+
+  void take(const StripRay& r, bool is_upright) {
+    if (r.near_side != 0 && r.rim < r.in) {
+      side_face(r);
+    } else if (r.rim < r.out) {
+      rim(r, is_upright);
+    } else if (r.near_side != 0 && r.at(r.in).z() > 0.1 + slack_ && std::abs(1.0 - r.in) < r.gate) {
+      between(r.u(r.in), -thickness_, -kAbove);
+    }
+  }
+
+  // The return lies over the opening: too steep for a heap, or too high beside a wall?
+  void over_opening(const StripRay& r, bool is_upright) {
+    const Vector3d end = r.a + r.d;
+    const double to_side = inner_ - std::abs(end.y()), margin = heap_margin(end.z());
+    if (to_side < 0.0 || end.z() > kUprightAbove) return;
+    if (is_upright && to_side > kUprightMargin) {
+      between(end.x(), kUprightMargin, -kUpright);
+    } else if (margin > 0.0) {
+      between(end.x(), 0.0, -kUpright);
+      if (to_side >= margin) between(end.x(), margin, kUpright);
+    }
+  }
+
+  // The ray comes to a side from outside, below its top.
+  void side_face(const StripRay& r) {
+    const Vector3d at = r.at(r.in);
+    if (at.z() < -kWallSeen) return;
+    if (std::abs(1.0 - r.in) <= r.gate) between(at.x(), -thickness_, fit((1.0 - r.in) * r.range, kRangeGate));
+    else if (r.in < 1.0 && at.z() < -slack_) between(at.x(), -thickness_, -kThrough);
+    end_face(r, r.in);
+  }
+
+  // From t on the ray is below the tops and between the sides: beyond the bed it meets an end's outer face.
+  void end_face(const StripRay& r, double from) {
+    if (std::abs(r.d.x()) < 1e-9) return;
+    const double until = std::min(r.out, r.d.z() < 0.0 ? (-kWallSeen - r.a.z()) / r.d.z() : kNever);
+    const double sure = r.d.z() < 0.0 ? (-slack_ - r.a.z()) / r.d.z() : kNever;  // from here on below the tops whatever the slack
+    EndSums& face = r.d.x() > 0.0 ? rear_face : front_face;
+    const double wall = r.d.x() > 0.0 ? thickness_ : -thickness_;  // from the outer face to the inner
+    const auto add = [&](double first, double last, double weight) {
+      first = std::max(first, from), last = std::min(last, until);
+      if (last <= first) return;
+      const double a = r.u(first) + wall, b = r.u(last) + wall;
+      face.add(std::min(a, b), std::max(a, b), weight);
+    };
+    add(sure, 1.0 - r.gate, -kThrough);
+    const double half = std::max(r.gate, 0.5 * kEndStep / std::abs(r.d.x()));
+    add(1.0 - half, 1.0 + half, kMeanFit * r.gate / half);
+  }
+
+  // The ray comes down through the plane of the tops between the sides.
+  void rim(const StripRay& r, bool is_upright) {
+    const Vector3d at = r.at(r.rim);
+    end_face(r, r.rim);
+    const double off = (1.0 - r.rim) * r.range;
+    if (std::abs(at.y()) >= inner_) {
+      if (off >= -kTopGate) between(at.x(), -thickness_, off <= kTopGate ? kTop * fit(off, kTopGate) : slack_ > 0.0 ? 0.0 : -0.5 * kThrough);
+      return;
+    }
+    const Vector3d end = r.a + r.d;
+    if (std::abs(end.z()) < kLevelWithin && std::abs(end.y()) < inner_ - kLevelMargin) between(end.x(), kLevelMargin, -kLevel);
+    if (off < -0.1) return;
+    const double low = std::min(at.x(), end.x()), high = std::max(at.x(), end.x());
+    if (std::abs(end.y()) < inner_ && end.z() < -kDeepest) {
+      common.add(-kNever, low, high, kNever, -kThrough);
+      return;
+    }
+    if (is_upright && std::abs(end.y()) < inner_ - kUprightMargin)
+      common.add(-kNever, std::min(at.x(), end.x() - kUprightMargin), std::max(at.x(), end.x() + kUprightMargin), kNever, -kUpright);
+    opening(r, at.x());
+  }
+
+  // The ray enters the opening at rim_u: it ends within, or on the far side, or on the end that it goes to.
+  void opening(const StripRay& r, double rim_u) {
+    const double side = std::abs(r.d.y()) > 1e-9 ? ((r.d.y() > 0.0 ? inner_ : -inner_) - r.a.y()) / r.d.y() : kNever;
+    const bool sure = !std::isinf(side) && r.at(side).z() < -slack_;
+    const double far = side > 1.0 + r.gate ? kInside : side < 1.0 - r.gate ? (sure ? -kThrough : 0.0) : kInside + (1.0 - kInside) * fit((1.0 - side) * r.range, kRangeGate);
+    const bool forward = r.d.x() > 0.0;
+    const double side_u = std::abs(r.d.x()) < 1e-9 ? rim_u : std::isinf(side) ? (forward ? kNever : -kNever) : r.u(side);
+    // The end that the ray goes to lies in [from, to), the other behind where it came in.
+    const auto add = [&](PairSums& sums, double from, double to, double weight) {
+      if (forward) sums.add(-kNever, rim_u, std::max(from, rim_u), to, weight);
+      else sums.add(from, std::min(to, rim_u), rim_u, kNever, weight);
+    };
+    if (forward) add(common, side_u, kNever, far);
+    else add(common, -kNever, side_u, far);
+    if (std::abs(r.d.x()) < 1e-9) return;
+    const double half = std::max(r.gate, 0.5 * kEndStep / std::abs(r.d.x()));
+    const double low_u = r.u((-slack_ - r.a.z()) / r.d.z());  // where the ray is below the tops whatever the slack
+    const double share = (1.0 - kInside) * kMeanFit * r.gate / half;
+    if (forward) {
+      add(common, r.u(1.0), side_u, kInside);
+      add(front_wall, low_u, std::min(side_u, r.u(1.0 - r.gate)), -kThrough);
+      add(front_wall, std::max(rim_u, r.u(1.0 - half)), std::min(side_u, r.u(1.0 + half)), share);
+    } else {
+      add(common, side_u, r.u(1.0), kInside);
+      add(rear_wall, std::max(side_u, r.u(1.0 - r.gate)), low_u, -kThrough);
+      add(rear_wall, std::max(side_u, r.u(1.0 + half)), std::min(rim_u, r.u(1.0 - half)), share);
+    }
+  }
+
+  double inner_, outer_, thickness_, slack_;
+  double sensor_first_ = kNever, sensor_last_ = -kNever;
+};
+
+struct Pair {
+  int rear = 0, front = 0, open_end = 0, cab_end = 0;
+  double score = 0.0, bed = 0.0, cab = 0.0;
+};
+
+Pair pair(int rear, int front, int open_end, int cab_end, double bed, double cab) {
+  return {rear, front, open_end, cab_end, with_cab(bed, cab), bed, cab};
+}
+
+BedPose pose_of(const BedStrip& strip, const Pair& pair) {
+  BedPose p;
+  p.yaw = strip.yaw, p.pitch = strip.pitch, p.roll = strip.roll, p.width = strip.width, p.thickness = strip.thickness, p.open_end = pair.open_end;
+  const double rear = place_of(pair.rear), front = place_of(pair.front);
+  p.length = front - rear;
+  p.middle = strip.middle + p.rotation() * Vector3d(0.5 * (rear + front), 0.0, 0.0);
+  return p;
+}
+
+}  // namespace
+
+std::vector<BedEnds> best_ends(const BedStrip& strip, const std::vector<Ray>& rays, const SizeRange& lengths, double share, std::size_t most) {
+  const Weighing w(strip, rays);
+  const int shortest = static_cast<int>(lengths[0] / kEndStep), longest = static_cast<int>(std::ceil(lengths[1] / kEndStep));
+  const auto open_weight = static_cast<float>(kOpenEnd / share);
+  std::array<float, kEnds> cab_front{}, cab_rear{};
+  for (int k = 0; k < kEnds; ++k) {
+    cab_front[static_cast<std::size_t>(k)] = static_cast<float>(w.cab.beyond(place_of(k) + strip.thickness, 1, share));
+    cab_rear[static_cast<std::size_t>(k)] = static_cast<float>(w.cab.beyond(place_of(k) - strip.thickness, -1, share));
+  }
+  std::vector<Pair> pairs;
+  for (int i = 0; i + shortest < kEnds; ++i)
+    for (int j = i + shortest; j <= std::min(i + longest, kEnds - 1); ++j) {
+      const float common = w.common.at(i, j), rear = w.rear_wall.at(i, j) + w.rear_face.at(i), front = w.front_wall.at(i, j) + w.front_face.at(j);
+      const float cab_at_front = cab_front[static_cast<std::size_t>(j)], cab_at_rear = cab_rear[static_cast<std::size_t>(i)];
+      Pair p = pair(i, j, 0, cab_at_front >= cab_at_rear ? 1 : -1, common + rear + front, std::max(cab_at_front, cab_at_rear));
+      for (const Pair& open : {pair(i, j, -1, 1, common + front - open_weight, cab_at_front), pair(i, j, 1, -1, common + rear - open_weight, cab_at_rear)})
+        if (open.score > p.score) p = open;
+      if (p.score > 0.0 && w.clear_of_sensor(place_of(i), place_of(j))) pairs.push_back(p);
+    }
+  std::vector<BedEnds> out;
+  constexpr int apart = static_cast<int>(kEndsApart / kEndStep);
+  std::vector<Pair> chosen;
+  while (chosen.size() < most) {
+    const Pair* best = nullptr;
+    for (const Pair& p : pairs) {
+      if (best != nullptr && p.score <= best->score) continue;
+      if (std::none_of(chosen.begin(), chosen.end(), [&](const Pair& c) { return std::abs(c.rear - p.rear) < apart && std::abs(c.front - p.front) < apart; }))
+        best = &p;
+    }
+    if (best == nullptr) break;
+    chosen.push_back(*best);
+    out.push_back({pose_of(strip, *best), best->cab_end, share * best->bed, share * best->cab});
+  }
+  return out;
+}
+
+}  // namespace berm::app

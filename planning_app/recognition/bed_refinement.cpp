@@ -1,0 +1,65 @@
+#include "recognition/bed_refinement.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace berm::app {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kEndsMost = 0.2;   // m
+constexpr double kRefinedTiltMost = 0.09;  // rad
+constexpr int kRounds = 4;          // with one step
+constexpr int kMoves = 8;
+constexpr double kHalfLength = 2.5, kHalfWidth = 1.2;  // m: a turn that moves an end, a side, by a step
+
+BedPose moved(const BedPose& from, int which, double by) {
+  BedPose p = from;
+  const Vector2d u(std::cos(p.yaw), std::sin(p.yaw)), v(-u.y(), u.x());
+  switch (which) {
+    case 0: p.middle.z() += by; break;
+    case 1: p.pitch += by / kHalfLength; break;
+    case 2: p.roll += by / kHalfWidth; break;
+    case 3: p.yaw += by / kHalfLength; break;
+    case 4: p.width += by, p.middle.head<2>() += 0.5 * by * v; break;
+    case 5: p.width += by, p.middle.head<2>() -= 0.5 * by * v; break;
+    case 6: p.length += by, p.middle.head<2>() += 0.5 * by * u; break;
+    default: p.length += by, p.middle.head<2>() -= 0.5 * by * u; break;
+  }
+  return p;
+}
+
+std::array<double, 2> ends_along(const BedPose& p, const Vector2d& origin) {
+  const double middle = Vector2d(std::cos(p.yaw), std::sin(p.yaw)).dot(p.middle.head<2>() - origin);
+  return {middle - p.length / 2, middle + p.length / 2};
+}
+
+}  // namespace
+
+BedPose refined(const BedPose& start, const std::vector<Ray>& rays, double first_step, int halvings) {
+  const Vector2d origin = start.middle.head<2>();
+  const std::array<double, 2> ends = ends_along(start, origin);
+  BedPose best = start;
+  double score = weigh(best, rays).score, step = first_step;
+  for (int halving = 0; halving < halvings; ++halving, step /= 2)
+    for (int round = 0; round < kRounds; ++round) {
+      bool better = false;
+      for (int which = 0; which < kMoves; ++which)
+        for (const double sense : {1.0, -1.0}) {
+          const BedPose p = moved(best, which, sense * step);
+          const std::array<double, 2> now = ends_along(p, origin);
+          if (std::max(std::abs(now[0] - ends[0]), std::abs(now[1] - ends[1])) > kEndsMost) continue;
+          if (std::max(std::abs(p.pitch), std::abs(p.roll)) > kRefinedTiltMost) continue;
+          const double here = weigh(p, rays).score;
+          if (here <= score + 1e-9) continue;
+          best = p, score = here;
+          better = true;
+          break;
+        }
+      if (!better) break;
+    }
+  return best;
+}
+
+}  // namespace berm::app

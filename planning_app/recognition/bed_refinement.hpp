@@ -1,0 +1,13 @@
+// A pose moved while its evidence grows: where the fit, which follows slopes, stands in a hollow of its own.
+#pragma once
+
+#include <vector>
+
+#include "recognition/bed_model.hpp"
+
+namespace berm::app {
+
+// Moves walls, height and angles, one at a time, by first_step (m, at the bed's ends) and then halves of it; the ends by no more than 0.2 m.
+BedPose refined(const BedPose& start, const std::vector<Ray>& rays, double first_step, int halvings);
+
+}  // namespace berm::app

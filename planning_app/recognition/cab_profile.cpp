@@ -1,0 +1,75 @@
+#include "recognition/cab_profile.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace berm::app {
+namespace {
+
+constexpr double kCabReach = 11.0, kCabStep = 0.05;   // m
+constexpr int kCabCells = static_cast<int>(2 * kCabReach / kCabStep);
+// Below the tops of the walls every cab is solid between these heights; it is at most as wide as the bed.
+constexpr double kCoreLow = -1.4, kCoreHigh = -0.75, kCoreHalf = 1.0;
+constexpr double kReturnLow = -1.6, kReturnHigh = 0.9, kReturnHalf = 1.4;
+constexpr std::array<double, 3> kGaps{0.15, 0.3, 0.45};
+constexpr double kShortest = 1.2;
+constexpr double kReturnWeight = 0.3, kReturnsMost = 150.0;  // in rays
+constexpr float kFlatWeight = 0.5F;                         // of a return that is none of an upright surface: a roof, a canopy
+constexpr double kFlatLow = -0.5;                           // m: lower it may be soil
+constexpr double kPassWeight = 1.0, kPassesMost = 150.0;
+constexpr double kPassedCab = 0.15;                             // m beyond the core
+
+int cab_cell(double u) { return std::clamp(static_cast<int>(std::floor((u + kCabReach) / kCabStep)), 0, kCabCells); }
+
+}  // namespace
+
+CabProfile::CabProfile() : returns_(kCabCells + 2, 0.0F), within_(kCabCells + 2, 0.0F), begins_(kCabCells + 2, 0.0F), ends_(kCabCells + 2, 0.0F) {}
+
+void CabProfile::take(const Eigen::Vector3d& a, const Eigen::Vector3d& d, bool upright) {
+  const Eigen::Vector3d end = a + d;
+  if (std::abs(end.y()) < kReturnHalf && end.z() > (upright ? kReturnLow : kFlatLow) && end.z() < kReturnHigh && std::abs(end.x()) < kCabReach)
+    returns_[static_cast<std::size_t>(cab_cell(end.x())) + 1] += upright ? 1.0F : kFlatWeight;
+  if (std::abs(end.y()) < kCoreHalf - 0.05 && end.z() > kCoreLow && end.z() < kCoreHigh && std::abs(end.x()) < kCabReach)
+    within_[static_cast<std::size_t>(cab_cell(end.x())) + 1] += 1.0F;
+  // Through the core's slab, and on.
+  double in = 0.0, out = 1e9;
+  for (const auto& [axis, low, high] : {std::tuple{1, -kCoreHalf, kCoreHalf}, std::tuple{2, kCoreLow, kCoreHigh}}) {
+    if (std::abs(d[axis]) < 1e-9) {
+      if (a[axis] < low || a[axis] > high) return;
+      continue;
+    }
+    const double s = (low - a[axis]) / d[axis], t = (high - a[axis]) / d[axis];
+    in = std::max(in, std::min(s, t));
+    out = std::min(out, std::max(s, t));
+  }
+  if (in >= out || out > 1.0 - kPassedCab / d.norm()) return;
+  const double u = a.x() + in * d.x(), v = a.x() + out * d.x();
+  begins_[static_cast<std::size_t>(cab_cell(std::min(u, v))) + 1] += 1.0F;
+  ends_[static_cast<std::size_t>(cab_cell(std::max(u, v))) + 1] += 1.0F;
+}
+
+void CabProfile::finish() {
+  for (std::vector<float>* s : {&returns_, &within_, &begins_, &ends_})
+    for (std::size_t k = 1; k < s->size(); ++k) (*s)[k] += (*s)[k - 1];
+}
+
+double CabProfile::block(double low, double high, double core_low, double core_high, double share) const {
+  const auto until = [](const std::vector<float>& sums, double u) { return static_cast<double>(sums[static_cast<std::size_t>(cab_cell(u))]); };
+  const double hits = until(returns_, high) - until(returns_, low);
+  const double passes = until(begins_, core_high) - until(ends_, core_low) +       // those that reach into the core
+                        until(within_, core_high) - until(within_, core_low);
+  return kReturnWeight * std::min(hits, kReturnsMost / kReturnWeight / share) - kPassWeight * std::min(passes, kPassesMost / share);
+}
+
+double CabProfile::beyond(double u, int side, double share) const {
+  double best = -1e9;
+  for (const double gap : kGaps) {
+    const double begin = u + side * gap, end = begin + side * kShortest;
+    const double low = std::min(begin, end), high = std::max(begin, end);
+    best = std::max(best, block(low, high, side > 0 ? low + 0.3 : low + 0.05, side > 0 ? high - 0.05 : high - 0.3, share));
+  }
+  return best;
+}
+
+}  // namespace berm::app

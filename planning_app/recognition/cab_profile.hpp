@@ -1,0 +1,31 @@
+// The cab as evidence: what rays say of a cab that would begin at a place along a strip. Every truck has one beyond an end of its bed; a bed with none
+// is no truck, and returns that a cab explains are none that a longer bed would have to explain.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <vector>
+
+#include "recognition/evidence_weights.hpp"
+
+namespace berm::app {
+
+// A cab counts for no more than a share of the bed before it.
+inline double with_cab(double bed, double cab) { return bed + std::min(cab, kCabShare * std::max(0.0, bed)); }
+
+class CabProfile {
+ public:
+  CabProfile();
+  // A ray in the frame of the bed: from a by d to its return.
+  void take(const Eigen::Vector3d& a, const Eigen::Vector3d& d, bool upright);
+  void finish();
+  // The evidence, in rays, for a cab beyond the end wall's outer face at u, towards `side`, at the best of the usual gaps. share: rays that each one
+  // taken stands for; the evidence is in those taken.
+  [[nodiscard]] double beyond(double u, int side, double share) const;
+
+ private:
+  [[nodiscard]] double block(double low, double high, double core_low, double core_high, double share) const;
+  std::vector<float> returns_, within_, begins_, ends_;  // running sums along u
+};
+
+}  // namespace berm::app

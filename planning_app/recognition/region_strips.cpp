@@ -1,0 +1,103 @@
+#include "recognition/region_strips.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace berm::app {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kOneTop = 0.12;        // m, of a segment's top from that of its line
+constexpr double kTopOverSegment = 0.03;  // m, of the wall over its highest return
+constexpr std::size_t kTopLines = 2;
+constexpr double kTiltMost = 0.07;      // rad
+constexpr double kHeightSlack = 0.12;   // m; a bed may tilt where a region does not show it
+constexpr double kExtentSlack = 0.25;   // m
+
+// Segments of a region whose tops lie on one line: height = z + slope * x, x along the region.
+struct TopLine {
+  double z = 0.0, slope = 0.0, first = 0.0, last = 0.0;
+  std::size_t count = 0;
+};
+
+struct Top {
+  double along, high;
+};
+
+TopLine line_through(const std::vector<Top>& tops) {
+  TopLine line;
+  double n = 0.0, x = 0.0, z = 0.0, xx = 0.0, xz = 0.0;
+  line.first = 1e9, line.last = -1e9;
+  for (const Top& t : tops) {
+    n += 1.0, x += t.along, z += t.high, xx += t.along * t.along, xz += t.along * t.high;
+    line.first = std::min(line.first, t.along), line.last = std::max(line.last, t.along);
+  }
+  const double spread = xx - x * x / n;
+  if (line.last - line.first > 1.8 && tops.size() >= 6) line.slope = std::clamp((xz - x * z / n) / spread, -kTiltMost, kTiltMost);
+  line.z = (z - line.slope * x) / n;
+  line.count = tops.size();
+  return line;
+}
+
+// A cab beside a bed, or a person before it, has a top of its own: the line that most segments share, then that of the rest.
+std::vector<TopLine> top_lines(const UprightRegion& region, const Vector2d& along, const Vector2d& middle) {
+  std::vector<Top> tops;
+  for (const UprightSegment& s : region.segments) tops.push_back({along.dot(s.at - middle), s.high});
+  std::vector<TopLine> out;
+  while (out.size() < kTopLines && tops.size() >= 4) {
+    std::vector<Top> best;
+    for (const Top& centre : tops)
+      for (const double slope : {-0.04, 0.0, 0.04}) {
+        std::vector<Top> own;
+        std::copy_if(tops.begin(), tops.end(), std::back_inserter(own),
+                     [&](const Top& t) { return std::abs(t.high - centre.high - slope * (t.along - centre.along)) < kOneTop; });
+        if (own.size() > best.size()) best = std::move(own);
+      }
+    if (best.size() < 4 || (!out.empty() && 5 * best.size() < out.front().count)) break;
+    out.push_back(line_through(best));
+    std::erase_if(tops, [&](const Top& t) {
+      return std::any_of(best.begin(), best.end(), [&](const Top& b) { return b.along == t.along && b.high == t.high; });
+    });
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<BedStrip> strips_of(const UprightRegion& region, const TruckRangeSet& ranges) {
+  const SizeRange widths = ranges.hull(&TruckRanges::inside_width), thick = ranges.hull(&TruckRanges::wall_thickness);
+  const Vector2d along(region.normal.y(), -region.normal.x());  // along x normal = up
+  const Vector2d middle = 0.5 * (region.first + region.last);
+  BedStrip strip;
+  strip.width = 0.5 * (widths[0] + widths[1]);
+  strip.thickness = 0.5 * (thick[0] + thick[1]);
+  strip.slack = kHeightSlack;
+  const double outer = strip.width / 2 + strip.thickness;
+  std::vector<BedStrip> out;
+  for (const TopLine& top : top_lines(region, along, middle)) {
+    const auto offer = [&](const Vector2d& axis, double x, double depth) {
+      strip.middle.head<2>() = middle + x * along + depth * region.normal;
+      strip.middle.z() = top.z + top.slope * x + kTopOverSegment;
+      strip.yaw = std::atan2(axis.y(), axis.x());
+      // The line's slope along the bed is its pitch (nose down positive), across it its roll.
+      const double uphill = std::atan(top.slope);
+      strip.pitch = axis == along ? -uphill : 0.0;
+      strip.roll = axis == along ? 0.0 : -uphill;  // v is against `along`
+      out.push_back(strip);
+    };
+    const double centre = 0.5 * (top.first + top.last), extent = top.last - top.first;
+    offer(along, centre, -outer);
+    offer(along, centre, strip.width / 2);
+    if (extent > 2 * outer + kExtentSlack) continue;
+    // As an end: the region shows all of it, or its left or right part.
+    const double slack = outer - 0.5 * extent;
+    offer(region.normal, centre, 0.0);
+    if (slack < 0.25) continue;
+    offer(region.normal, centre - slack, 0.0);
+    offer(region.normal, centre + slack, 0.0);
+  }
+  return out;
+}
+
+}  // namespace berm::app

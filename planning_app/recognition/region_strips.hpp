@@ -1,0 +1,15 @@
+// Strips between the sides of a bed that an upright region may bound: as the outer or inner face of a side or of an end (the first levels of the
+// interpretation tree of stentz-1999, section 4.1; their ends come later).
+#pragma once
+
+#include <vector>
+
+#include "recognition/bed_ends.hpp"
+#include "recognition/truck_ranges.hpp"
+#include "recognition/upright_regions.hpp"
+
+namespace berm::app {
+
+std::vector<BedStrip> strips_of(const UprightRegion& region, const TruckRangeSet& ranges);
+
+}  // namespace berm::app
