@@ -83,7 +83,7 @@ class Collector {
       case Meeting::inside:
       case Meeting::inner_face:
       case Meeting::through_inner:
-        inside_of(ray, m.rim, m.end);
+        if (!m.by_open_end) inside_of(ray, m.rim, m.end);
         if (m.what == Meeting::inner_face && m.end.z() < -0.03 && (m.axis == 0 || m.end.z() > -kUprightSeen)) face_hit(ray, m.axis, m.side, false);
         break;
       case Meeting::over:
@@ -94,6 +94,7 @@ class Collector {
       case Meeting::none: break;
     }
     if (m.what == Meeting::none) beside(ray);
+    if (pose_.open_end != 0) at_open_end(ray);
     if (m.what == Meeting::above_face || m.what == Meeting::before || m.what == Meeting::wall_top) above_tops(ray);
   }
 
@@ -127,6 +128,20 @@ class Collector {
     for (int axis = 0; axis < 2; ++axis)
       for (const int side : {-1, 1})
         if (!(axis == 0 && side == pose_.open_end)) past(ray, rim, {axis, side, false}, 1, at_rim);
+  }
+
+  // Rays that come from within to a side's inner face, near the end where no wall stands: stopped they came before that end, else beyond it.
+  void at_open_end(const Ray& ray) {
+    const Eigen::Vector3d a = rotation_.transpose() * (ray.head - pose_.middle), end = rotation_.transpose() * (ray.at - pose_.middle);
+    for (const int s : {-1, 1}) {
+      const BedPlane side{1, s, false};
+      const double limit = pose_.width / 2;
+      if (s * a.y() > limit || s * end.y() < limit - kRangeGate) continue;
+      const Eigen::Vector3d at = crossing(ray, side);
+      if (at.z() > -0.05 || at.z() < -kWallSeen) continue;
+      const bool stopped = (end - at).norm() <= kRangeGate;
+      if (stopped || s * end.y() > limit + kRangeGate) past(ray, side, {0, pose_.open_end, false}, stopped ? 1 : -1, at);
+    }
   }
 
   void over_wall(const Ray& ray, const RayMeeting& m) {

@@ -104,7 +104,7 @@ class Weighing {
       take(r, ray.upright);
       if (r.a.z() + r.d.z() > 0.0) over_opening(r, ray.upright);
     }
-    for (PairSums* s : {&common, &rear_wall, &front_wall}) s->finish();
+    for (PairSums* s : {&common, &rear_wall, &front_wall, &open_rear, &open_front}) s->finish();
     for (EndSums* s : {&rear_face, &front_face}) s->finish();
     cab.finish();
   }
@@ -116,6 +116,7 @@ class Weighing {
 
   PairSums common;                  // whatever the ends are
   PairSums rear_wall, front_wall;   // inner faces of walls at the ends
+  PairSums open_rear, open_front;   // what enters where the wall is missing, below the tops
   EndSums rear_face, front_face;    // their outer faces
   CabProfile cab;
 
@@ -187,6 +188,7 @@ class Weighing {
       const double a = r.u(first) + wall, b = r.u(last) + wall;
       face.add(std::min(a, b), std::max(a, b), weight);
     };
+    open_end(r, std::max(sure, from), std::min({r.out, until, 1.0 + r.gate}));
     add(sure, 1.0 - r.gate, -kThrough);
     const double half = std::max(r.gate, 0.5 * kEndStep / std::abs(r.d.x()));
     add(1.0 - half, 1.0 + half, kMeanFit * r.gate / half);
@@ -212,6 +214,35 @@ class Weighing {
     if (is_upright && std::abs(end.y()) < inner_ - kUprightMargin)
       common.add(-kNever, std::min(at.x(), end.x() - kUprightMargin), std::max(at.x(), end.x() + kUprightMargin), kNever, -kUpright);
     opening(r, at.x());
+  }
+
+  // Without a wall at the end between t = first and last the ray goes on within, to a side or to the other end.
+  void open_end(const StripRay& r, double first, double last) {
+    const double side = std::abs(r.d.y()) > 1e-9 ? ((r.d.y() > 0.0 ? inner_ : -inner_) - r.a.y()) / r.d.y() : kNever;
+    if (r.near_side != 0) first = std::max(first, (r.near_side * inner_ - r.a.y()) / r.d.y());
+    last = std::min(last, side);
+    if (last <= first) return;
+    const bool forward = r.d.x() > 0.0;
+    const double own_from = std::min(r.u(first), r.u(last)), own_to = std::max(r.u(first), r.u(last));
+    const double side_u = std::isinf(side) ? (forward ? kNever : -kNever) : r.u(side);
+    // The other end in [from, to).
+    const auto add = [&](double from, double to, double weight) {
+      if (forward) open_rear.add(own_from, own_to, from, to, weight);
+      else open_front.add(from, to, own_from, own_to, weight);
+    };
+    const double far = side > 1.0 + r.gate ? kInside : side < 1.0 - r.gate ? -kThrough : kInside + (1.0 - kInside) * fit((1.0 - side) * r.range, kRangeGate);
+    const double half = std::max(r.gate, 0.5 * kEndStep / std::abs(r.d.x())), share = (1.0 - kInside) * kMeanFit * r.gate / half;
+    if (forward) {
+      add(side_u, kNever, far);
+      add(r.u(1.0), side_u, kInside);
+      add(-kNever, std::min(side_u, r.u(1.0 - r.gate)), -kThrough);
+      add(r.u(1.0 - half), std::min(side_u, r.u(1.0 + half)), share);
+    } else {
+      add(-kNever, side_u, far);
+      add(side_u, r.u(1.0), kInside);
+      add(std::max(side_u, r.u(1.0 - r.gate)), kNever, -kThrough);
+      add(std::max(side_u, r.u(1.0 + half)), r.u(1.0 - half), share);
+    }
   }
 
   // The ray enters the opening at rim_u: it ends within, or on the far side, or on the end that it goes to.
@@ -282,7 +313,7 @@ std::vector<BedEnds> best_ends(const BedStrip& strip, const std::vector<Ray>& ra
       const float common = w.common.at(i, j), rear = w.rear_wall.at(i, j) + w.rear_face.at(i), front = w.front_wall.at(i, j) + w.front_face.at(j);
       const float cab_at_front = cab_front[static_cast<std::size_t>(j)], cab_at_rear = cab_rear[static_cast<std::size_t>(i)];
       Pair p = pair(i, j, 0, cab_at_front >= cab_at_rear ? 1 : -1, common + rear + front, std::max(cab_at_front, cab_at_rear));
-      for (const Pair& open : {pair(i, j, -1, 1, common + front - open_weight, cab_at_front), pair(i, j, 1, -1, common + rear - open_weight, cab_at_rear)})
+      for (const Pair& open : {pair(i, j, -1, 1, common + front + w.open_rear.at(i, j) - open_weight, cab_at_front), pair(i, j, 1, -1, common + rear + w.open_front.at(i, j) - open_weight, cab_at_rear)})
         if (open.score > p.score) p = open;
       if (p.score > 0.0 && w.clear_of_sensor(place_of(i), place_of(j))) pairs.push_back(p);
     }

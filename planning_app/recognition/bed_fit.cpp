@@ -1,163 +1,109 @@
 #include "recognition/bed_fit.hpp"
 
-#include <ceres/ceres.h>
+#include <ceres/tiny_solver.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "recognition/bed_constraints.hpp"
+#include "recognition/bed_residuals.hpp"
 
 namespace berm::app {
 namespace {
 
-enum Parameter { kX, kY, kZ, kYaw, kPitch, kRoll, kLength, kWidth, kThickness, kParameters };
 constexpr double kRobust = 2.0;               // of the Cauchy loss, in standard deviations
-constexpr double kThicknessSpread = 0.025;    // m, of the classes' walls
-constexpr double kWidthUsual = 2.38, kWidthSpread = 0.15;  // m, of beds that drive on roads
-constexpr double kTiltSpread = 0.03;          // rad
-
+constexpr int kIterations = 12;
+constexpr double kCostStep = 1e-3;            // in squared standard deviations: the fit ends
+constexpr int kResidualsLeast = 20;
+constexpr double kThinnest = 0.03, kThickest = 0.2;  // m, of walls
 constexpr double kShared = 3.0;               // rays that count as one
 // Of middle x y z (m), yaw, pitch, roll (rad), length and width (m) by the body alone; calibrated on drawn scenes.
 constexpr std::array<double, 8> kBodyDeviation{0.008, 0.008, 0.004, 0.001, 0.002, 0.003, 0.012, 0.010};
 
-using Normal = Eigen::Matrix<double, kParameters, kParameters>;
+// What is known beforehand: walls of the classes, beds that drive on roads, ground that is nearly level.
+struct Known {
+  BedValue which;
+  double mean, deviation;
+};
+constexpr std::array<Known, 4> kKnown{{{kBedThickness, 0.095, 0.025}, {kBedWidth, 2.38, 0.15}, {kBedPitch, 0.0, 0.03}, {kBedRoll, 0.0, 0.03}}};
 
-// One statement of a ray, with its derivatives after all nine parameters.
-class RayCost : public ceres::SizedCostFunction<1, kParameters> {
+using Normal = Eigen::Matrix<double, kBedValues, kBedValues>;
+
+// All statements and what is known, for Ceres' small solver. A statement's residual t is that whose square is the Cauchy loss of the residual r.
+class Statements {
  public:
-  RayCost(const BedConstraint& constraint, int open_end) : c_(constraint), open_end_(open_end) {}
+  using Scalar = double;
+  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = kBedValues };
 
-  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    using Jet = ceres::Jet<double, kParameters>;
-    if (jacobians == nullptr || jacobians[0] == nullptr) {
-      residuals[0] = value<double>(parameters[0]);
-      return true;
+  Statements(const std::vector<BedConstraint>& all, int open_end) : all_(all), open_end_(open_end) {}
+  [[nodiscard]] int NumResiduals() const { return static_cast<int>(all_.size() + kKnown.size()); }
+
+  bool operator()(const double* parameters, double* residuals, double* jacobian) const {
+    const BedVector values = Eigen::Map<const BedVector>(parameters);
+    const BedAxes axes(values);
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, kBedValues>> slopes(jacobian, jacobian != nullptr ? NumResiduals() : 0, kBedValues);
+    BedVector slope;
+    Eigen::Index row = 0;
+    for (const BedConstraint& c : all_) {
+      const double r = residual(c, axes, values, open_end_, jacobian != nullptr ? &slope : nullptr);
+      const double s = r * r / (kRobust * kRobust), t = std::copysign(kRobust * std::sqrt(std::log1p(s)), r);
+      residuals[row] = t;
+      if (jacobian != nullptr) slopes.row(row) = (std::abs(t) > 1e-9 ? r / (t * (1.0 + s)) : 1.0) * slope.transpose();
+      ++row;
     }
-    std::array<Jet, kParameters> p;
-    for (int i = 0; i < kParameters; ++i) p[static_cast<std::size_t>(i)] = Jet(parameters[0][i], i);
-    const Jet r = value<Jet>(p.data());
-    residuals[0] = r.a;
-    for (int i = 0; i < kParameters; ++i) jacobians[0][i] = r.v[i];
+    for (const Known& k : kKnown) {
+      residuals[row] = (parameters[k.which] - k.mean) / k.deviation;
+      if (jacobian != nullptr) {
+        slopes.row(row).setZero();
+        slopes(row, k.which) = 1.0 / k.deviation;
+      }
+      ++row;
+    }
     return true;
   }
 
- private:
-  template <typename T>
-  T face(const T* p, const BedPlane& plane) const {
-    if (plane.axis == 2) return T(0.0);
-    const T inner = (plane.axis == 0 ? p[kLength] : p[kWidth]) * 0.5;
-    return plane.outer && !(plane.axis == 0 && plane.side == open_end_) ? inner + p[kThickness] : inner;
-  }
-  template <typename T>
-  T value(const T* p) const {
-    using std::cos;
-    using std::exp;
-    using std::log;
-    using std::sin;
-    using std::sqrt;
-    const T cy = cos(p[kYaw]), sy = sin(p[kYaw]), cp = cos(p[kPitch]), sp = sin(p[kPitch]), cr = cos(p[kRoll]), sr = sin(p[kRoll]);
-    const T columns[3][3] = {{cy * cp, sy * cp, -sp},
-                             {cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr},
-                             {cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr}};
-    const auto in_bed = [&](const Eigen::Vector3d& q, int axis) {
-      return columns[axis][0] * (q.x() - p[kX]) + columns[axis][1] * (q.y() - p[kY]) + columns[axis][2] * (q.z() - p[kZ]);
-    };
-    const double side = c_.plane.side;
-    const T end = in_bed(c_.at, c_.plane.axis) * side, limit = face(p, c_.plane);
-    if (!c_.edge) return (end - limit - c_.offset) / c_.deviation;
-    const T begin = in_bed(c_.head, c_.plane.axis) * side, share = (limit - begin) / (end - begin);
-    const T first = in_bed(c_.head, c_.bound.axis), at = first + share * (in_bed(c_.at, c_.bound.axis) - first);
-    const T y = (at * static_cast<double>(c_.bound.side) - face(p, c_.bound)) * (c_.sense / c_.deviation);
-    // sqrt(2 log(1 + e^y)): half its square is the logistic function's negative logarithm.
-    if (y > T(30.0)) return sqrt(y * 2.0);
-    if (y < T(-30.0)) return T(0.0);
-    return sqrt(log(exp(y) + 1.0) * 2.0);
+  // Of the residuals, each weighted as the loss weights it.
+  [[nodiscard]] Normal information(const BedVector& values) const {
+    Normal sum = Normal::Identity() * 1e-6;
+    for (const Known& k : kKnown) sum(k.which, k.which) += 1.0 / (k.deviation * k.deviation);
+    const BedAxes axes(values);
+    BedVector slope;
+    for (const BedConstraint& c : all_) {
+      const double r = residual(c, axes, values, open_end_, &slope);
+      sum += slope * slope.transpose() / (1.0 + r * r / (kRobust * kRobust));
+    }
+    return sum;
   }
 
-  BedConstraint c_;
+ private:
+  const std::vector<BedConstraint>& all_;
   int open_end_;
 };
-
-// A value known beforehand.
-class KnownCost : public ceres::SizedCostFunction<1, kParameters> {
- public:
-  KnownCost(int which, double mean, double deviation) : which_(which), mean_(mean), deviation_(deviation) {}
-  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    residuals[0] = (parameters[0][which_] - mean_) / deviation_;
-    if (jacobians != nullptr && jacobians[0] != nullptr) {
-      for (int i = 0; i < kParameters; ++i) jacobians[0][i] = 0.0;
-      jacobians[0][which_] = 1.0 / deviation_;
-    }
-    return true;
-  }
-
- private:
-  int which_;
-  double mean_, deviation_;
-};
-
-// The information of the residuals, each weighted as the loss weights it.
-Normal information(const std::vector<std::unique_ptr<ceres::CostFunction>>& costs, const ceres::LossFunction& loss, const double* values,
-                   std::size_t rays) {
-  Normal sum = Normal::Zero();
-  for (std::size_t i = 0; i < costs.size(); ++i) {
-    double residual = 0.0;
-    Eigen::Matrix<double, 1, kParameters> slope;
-    double* slopes = slope.data();
-    costs[i]->Evaluate(&values, &residual, &slopes);
-    double rho[3] = {0.0, 1.0, 0.0};
-    if (i < rays) loss.Evaluate(residual * residual, rho);
-    sum += rho[1] * slope.transpose() * slope;
-  }
-  return sum;
-}
 
 }  // namespace
 
 FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds) {
   FittedBed fit;
   fit.pose = start;
-  ceres::CauchyLoss loss(kRobust);
+  ceres::TinySolver<Statements> solver;
+  solver.options.max_num_iterations = kIterations;
+  solver.options.function_tolerance = kCostStep;
   for (int round = 0; round < rounds; ++round) {
     const std::vector<BedConstraint> statements = constraints(fit.pose, rays);
     fit.residuals = static_cast<int>(statements.size());
-    if (fit.residuals < 20) return fit;
-    BedPose& p = fit.pose;
-    double values[kParameters] = {p.middle.x(), p.middle.y(), p.middle.z(), p.yaw, p.pitch, p.roll, p.length, p.width, p.thickness};
-    std::vector<std::unique_ptr<ceres::CostFunction>> costs;
-    costs.reserve(statements.size() + 4);
-    for (const BedConstraint& c : statements) costs.push_back(std::make_unique<RayCost>(c, p.open_end));
-    const std::size_t of_rays = costs.size();
-    costs.push_back(std::make_unique<KnownCost>(kThickness, 0.095, kThicknessSpread));
-    costs.push_back(std::make_unique<KnownCost>(kWidth, kWidthUsual, kWidthSpread));
-    costs.push_back(std::make_unique<KnownCost>(kPitch, 0.0, kTiltSpread));
-    costs.push_back(std::make_unique<KnownCost>(kRoll, 0.0, kTiltSpread));
-    ceres::Problem::Options own;
-    own.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    own.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    own.disable_all_safety_checks = true;
-    ceres::Problem problem(own);
-    for (std::size_t i = 0; i < costs.size(); ++i) problem.AddResidualBlock(costs[i].get(), i < of_rays ? &loss : nullptr, values);
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-    options.max_num_iterations = 12;
-    options.function_tolerance = 1e-5;
-    options.logging_type = ceres::SILENT;
-    options.num_threads = 1;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
-    if (!summary.IsSolutionUsable()) return fit;
-    p.middle = {values[kX], values[kY], values[kZ]};
-    p.yaw = std::remainder(values[kYaw], 2 * 3.14159265358979323846);
-    p.pitch = values[kPitch];
-    p.roll = values[kRoll];
-    p.length = values[kLength];
-    p.width = values[kWidth];
-    p.thickness = std::min(0.2, std::max(0.03, values[kThickness]));
+    if (fit.residuals < kResidualsLeast) return fit;
+    const Statements problem(statements, start.open_end);
+    BedVector values = values_of(fit.pose);
+    solver.Solve(problem, &values);
+    if (!values.allFinite()) return fit;
+    set_values(fit.pose, values);
+    fit.pose.yaw = std::remainder(fit.pose.yaw, 2 * std::numbers::pi);
+    fit.pose.thickness = std::clamp(fit.pose.thickness, kThinnest, kThickest);
     if (round + 1 < rounds) continue;
     fit.converged = true;
-    const Eigen::LDLT<Normal> solved(information(costs, loss, values, of_rays) + Normal::Identity() * 1e-6);
-    const Normal inverse = solved.solve(Normal::Identity());
+    const Normal inverse = Eigen::LDLT<Normal>(problem.information(values)).solve(Normal::Identity());
     // Rays that share a wall share its mud, its bends and what was wrongly decided of an edge, so they tell less than as many that do not.
     fit.covariance = kShared * inverse.topLeftCorner<8, 8>();
     for (int i = 0; i < 8; ++i) fit.covariance(i, i) += kBodyDeviation[static_cast<std::size_t>(i)] * kBodyDeviation[static_cast<std::size_t>(i)];

@@ -52,13 +52,29 @@ RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray&
   m.entry = a + outer.in * d;
   m.axis = outer.in_axis;
   m.side = outer.in_side;
+  const auto leave = [&](const Crossing& c) { m.axis = c.out_axis, m.side = c.out_side; };
+  // From within: stopped by load or floor, by the face that it comes to, or not at all.
+  const auto stopped_within = [&]() {
+    const Crossing inner = cross(pose, a, d, false);
+    leave(inner);
+    m.off = (1.0 - inner.out) * range;
+    const bool out_of_end = m.axis == 0 && m.side == pose.open_end;
+    if (m.off < -kRangeGate || (out_of_end && m.off <= kRangeGate)) m.what = Meeting::inside;
+    else if (out_of_end) m.what = Meeting::over;
+    else m.what = m.off <= kRangeGate ? Meeting::inner_face : Meeting::through_inner;
+  };
   const bool open = m.axis == 0 && m.side == pose.open_end;
   if (m.entry.z() < 0.0) {
     if (m.entry.z() < -kWallSeen) return m;
     m.off = (1.0 - outer.in) * range;
-    if (m.off < -kRangeGate) m.what = Meeting::before;
-    else if (open) m.what = Meeting::none;
-    else m.what = m.off <= kRangeGate ? Meeting::outer_face : Meeting::through_face;
+    if (m.off < -kRangeGate) {
+      m.what = Meeting::before;
+    } else if (!open) {
+      m.what = m.off <= kRangeGate ? Meeting::outer_face : Meeting::through_face;
+    } else if (std::abs(m.entry.y()) < pose.width / 2) {
+      m.by_open_end = true;
+      stopped_within();
+    }
     return m;
   }
   if (m.entry.z() > 0.1 && std::abs(1.0 - outer.in) * range < kRangeGate) {
@@ -75,7 +91,6 @@ RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray&
   }
   const double to_rim = -a.z() / d.z();
   m.rim = a + to_rim * d;
-  const auto leave = [&](const Crossing& c) { m.axis = c.out_axis, m.side = c.out_side; };
   if (to_rim >= outer.out) {
     leave(outer);
     m.what = outer.out > 1.0 ? Meeting::before : Meeting::over;
@@ -90,17 +105,8 @@ RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray&
         if (m.rim[axis] * side >= pose.face(axis, side, false)) m.axis = axis, m.side = side;
     return m;
   }
-  const Crossing inner = cross(pose, a, d, false);
-  leave(inner);
-  if (m.off < -0.1) {
-    m.what = Meeting::before;
-    return m;
-  }
-  m.off = (1.0 - inner.out) * range;
-  const bool out_of_end = m.axis == 0 && m.side == pose.open_end;
-  if (m.off < -kRangeGate || (out_of_end && m.off <= kRangeGate)) m.what = Meeting::inside;
-  else if (out_of_end) m.what = Meeting::over;
-  else m.what = m.off <= kRangeGate ? Meeting::inner_face : Meeting::through_inner;
+  if (m.off < -0.1) m.what = Meeting::before;
+  else stopped_within();
   return m;
 }
 

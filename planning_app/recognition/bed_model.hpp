@@ -45,6 +45,7 @@ struct RayMeeting {
   Meeting what = Meeting::none;
   int axis = -1, side = 0;          // of the face that is entered (outer), or met last inside
   double off = 0.0;                 // m: measured less predicted range, where a surface is predicted
+  bool by_open_end = false;         // entered below the tops where no wall stands; rim says nothing then
   Eigen::Vector3d entry, rim, end;  // in the bed frame: on the entered face's plane, on the plane of the tops, the return
 };
 

@@ -1,0 +1,98 @@
+#include "recognition/bed_residuals.hpp"
+
+#include <cmath>
+
+namespace berm::app {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kCertain = 30.0;  // of a logistic function's argument
+
+double in_bed(const BedAxes& a, int axis, const Vector3d& at) { return a.axis[static_cast<std::size_t>(axis)].dot(at - a.middle); }
+
+// Adds factor times the derivative of in_bed at a place that stays where it is.
+void add_in_bed(const BedAxes& a, int axis, const Vector3d& at, double factor, BedVector& slope) {
+  const auto k = static_cast<std::size_t>(axis);
+  slope.head<3>() -= factor * a.axis[k];
+  const Vector3d from = at - a.middle;
+  for (std::size_t angle = 0; angle < 3; ++angle) slope[static_cast<Eigen::Index>(kBedYaw + angle)] += factor * a.turn[angle][k].dot(from);
+}
+
+bool has_thickness(const BedPlane& plane, int open_end) { return plane.outer && !(plane.axis == 0 && plane.side == open_end); }
+
+double face(const BedPlane& plane, const BedVector& values, int open_end) {
+  if (plane.axis == 2) return 0.0;
+  const double inner = 0.5 * values[plane.axis == 0 ? kBedLength : kBedWidth];
+  return has_thickness(plane, open_end) ? inner + values[kBedThickness] : inner;
+}
+
+void add_face(const BedPlane& plane, int open_end, double factor, BedVector& slope) {
+  if (plane.axis == 2) return;
+  slope[plane.axis == 0 ? kBedLength : kBedWidth] += 0.5 * factor;
+  if (has_thickness(plane, open_end)) slope[kBedThickness] += factor;
+}
+
+double of_return(const BedConstraint& c, const BedAxes& a, const BedVector& values, int open_end, BedVector* slope) {
+  const double side = c.plane.side, one = 1.0 / c.deviation;
+  if (slope != nullptr) {
+    slope->setZero();
+    add_in_bed(a, c.plane.axis, c.at, side * one, *slope);
+    add_face(c.plane, open_end, -one, *slope);
+  }
+  return (side * in_bed(a, c.plane.axis, c.at) - face(c.plane, values, open_end) - c.offset) * one;
+}
+
+double of_edge(const BedConstraint& c, const BedAxes& a, const BedVector& values, int open_end, BedVector* slope) {
+  const double side = c.plane.side, bound_side = c.bound.side, scale = c.sense / c.deviation;
+  const double begin = in_bed(a, c.plane.axis, c.head) * side, end = in_bed(a, c.plane.axis, c.at) * side, across = end - begin;
+  const double share = (face(c.plane, values, open_end) - begin) / across;
+  const double first = in_bed(a, c.bound.axis, c.head), way = in_bed(a, c.bound.axis, c.at) - first;
+  const double y = (bound_side * (first + share * way) - face(c.bound, values, open_end)) * scale;
+  if (y < -kCertain) {
+    if (slope != nullptr) slope->setZero();
+    return 0.0;
+  }
+  const double e = std::exp(std::min(y, kCertain)), r = std::sqrt(2.0 * (y > kCertain ? y : std::log1p(e)));
+  if (slope == nullptr) return r;
+  // The crossing moves along the ray as the plane moves against it, and in the bed's frame as the bed does.
+  const Vector3d at = c.head + share * (c.at - c.head);
+  const double factor = scale * (y > kCertain ? 1.0 : e / (1.0 + e)) / r, along = factor * bound_side * way / across;
+  slope->setZero();
+  add_in_bed(a, c.bound.axis, at, factor * bound_side, *slope);
+  add_face(c.bound, open_end, -factor, *slope);
+  add_in_bed(a, c.plane.axis, at, -along * side, *slope);
+  add_face(c.plane, open_end, along, *slope);
+  return r;
+}
+
+}  // namespace
+
+BedVector values_of(const BedPose& p) {
+  BedVector v;
+  v << p.middle, p.yaw, p.pitch, p.roll, p.length, p.width, p.thickness;
+  return v;
+}
+
+void set_values(BedPose& p, const BedVector& v) {
+  p.middle = v.head<3>();
+  p.yaw = v[kBedYaw], p.pitch = v[kBedPitch], p.roll = v[kBedRoll];
+  p.length = v[kBedLength], p.width = v[kBedWidth], p.thickness = v[kBedThickness];
+}
+
+BedAxes::BedAxes(const BedVector& v) : middle(v.head<3>()) {
+  const double cy = std::cos(v[kBedYaw]), sy = std::sin(v[kBedYaw]), cp = std::cos(v[kBedPitch]), sp = std::sin(v[kBedPitch]);
+  const double cr = std::cos(v[kBedRoll]), sr = std::sin(v[kBedRoll]);
+  axis[0] = {cy * cp, sy * cp, -sp};
+  axis[1] = {cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr};
+  axis[2] = {cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr};
+  for (std::size_t k = 0; k < 3; ++k) turn[0][k] = {-axis[k].y(), axis[k].x(), 0.0};
+  turn[1] = {Vector3d{-cy * sp, -sy * sp, -cp}, Vector3d{cy * cp * sr, sy * cp * sr, -sp * sr}, Vector3d{cy * cp * cr, sy * cp * cr, -sp * cr}};
+  turn[2] = {Vector3d::Zero(), axis[2], -axis[1]};
+}
+
+double residual(const BedConstraint& c, const BedAxes& axes, const BedVector& values, int open_end, BedVector* slope) {
+  return c.edge ? of_edge(c, axes, values, open_end, slope) : of_return(c, axes, values, open_end, slope);
+}
+
+}  // namespace berm::app

@@ -1,0 +1,84 @@
+// The closed derivatives of a fit's residuals, against differences of the residuals themselves, for drawn statements.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "recognition/bed_residuals.hpp"
+
+namespace berm::app {
+namespace {
+
+constexpr unsigned kSeed = 20261123;
+constexpr double kStep = 1e-6;
+
+class DrawnStatements {
+ public:
+  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  int side() { return between(0.0, 1.0) < 0.5 ? -1 : 1; }
+
+  BedVector values() {
+    BedVector v;
+    v << between(-2, 2), between(5, 8), between(0, 2), between(-3, 3), between(-0.1, 0.1), between(-0.1, 0.1), between(4, 6), between(2, 3), between(0.05, 0.15);
+    return v;
+  }
+  BedPlane plane(int axis) { return {axis, side(), axis < 2 && side() > 0}; }
+  BedConstraint statement(const BedVector& values) {
+    BedConstraint c;
+    c.head = {between(-1, 1), between(-1, 1), between(3, 4)};
+    c.at = values.head<3>() + Eigen::Vector3d(between(-3, 3), between(-3, 3), between(-1.5, 0.5));
+    c.edge = side() > 0;
+    const int axis = static_cast<int>(between(0.0, 2.999));
+    c.plane = plane(axis);
+    c.bound = plane((axis + (side() > 0 ? 1 : 2)) % 3);
+    c.sense = side();
+    c.offset = between(-0.01, 0.01);
+    c.deviation = c.edge ? between(0.3, 1.0) : between(0.01, 0.05);  // so wide that drawn rays are near an edge
+    return c;
+  }
+
+ private:
+  std::mt19937 random_{kSeed};
+};
+
+TEST(BedResiduals, SlopesAreThoseOfTheResiduals) {
+  DrawnStatements draw;
+  int edges = 0, sloped = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const BedVector values = draw.values();
+    const BedConstraint c = draw.statement(values);
+    const int open_end = k % 3 - 1;
+    BedVector slope;
+    const double at = residual(c, BedAxes(values), values, open_end, &slope);
+    ASSERT_DOUBLE_EQ(at, residual(c, BedAxes(values), values, open_end, nullptr));
+    if (c.edge && slope.norm() > 1e3) continue;  // the ray nearly lies in the plane that it crosses: differences tell nothing
+    edges += c.edge ? 1 : 0, sloped += slope.norm() > 1e-3 ? 1 : 0;
+    for (int i = 0; i < kBedValues; ++i) {
+      BedVector more = values, less = values;
+      more[i] += kStep, less[i] -= kStep;
+      const double by_differences = (residual(c, BedAxes(more), more, open_end, nullptr) - residual(c, BedAxes(less), less, open_end, nullptr)) / (2 * kStep);
+      ASSERT_NEAR(slope[i], by_differences, 1e-3 * std::max(1.0, slope.norm())) << "statement " << k << " of seed " << kSeed << ", value " << i;
+    }
+  }
+  EXPECT_GT(edges, 1500);
+  EXPECT_GT(sloped, 3000);
+}
+
+// Half an edge's squared residual is the negative logarithm of the logistic function, far on either side too.
+TEST(BedResiduals, EdgesAreLogistic) {
+  BedVector values;
+  values << 0, 0, 0, 0, 0, 0, 5, 2.4, 0.1;
+  // Straight down through the plane of the tops, inside the inner edge at y = 1.2.
+  const auto passing = [&](double y) {
+    BedConstraint c;
+    c.head = {0.0, y, 2.0}, c.at = {0.0, y, -1.0};
+    c.edge = true, c.plane = {2, 1, false}, c.bound = {1, 1, false}, c.sense = 1, c.deviation = 0.01;
+    return residual(c, BedAxes(values), values, 0, nullptr);
+  };
+  EXPECT_NEAR(0.5 * std::pow(passing(1.2), 2), std::log(2.0), 1e-9);
+  EXPECT_NEAR(0.5 * std::pow(passing(1.25), 2), 5.0 + std::log1p(std::exp(-5.0)), 1e-9);
+  EXPECT_NEAR(0.5 * std::pow(passing(1.6), 2), 40.0, 1e-9);
+  EXPECT_EQ(passing(0.8), 0.0);
+}
+
+}  // namespace
+}  // namespace berm::app
