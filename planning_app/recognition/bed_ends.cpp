@@ -17,7 +17,7 @@ constexpr double kEndStep = 0.1;  // m between ends
 constexpr int kEnds = static_cast<int>(2 * kEndReach / kEndStep) + 1;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kMeanFit = 2.0 / 3.0;  // of fit over its gate
-constexpr double kEndsApart = 0.5;          // m
+constexpr double kEndsApart = 0.3;          // m
 
 double place_of(int end) { return -kEndReach + kEndStep * end; }
 // The first end at or beyond u; kEnds when there is none.

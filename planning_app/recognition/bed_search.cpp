@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 
 constexpr std::size_t kRegionsMost = 10;
 constexpr std::size_t kCoarseRays = 900;                                // that first decide between interpretations
-constexpr std::size_t kEndsOfStrip = 3, kOfRegion = 5, kFitted = 10;    // most candidates
+constexpr std::size_t kEndsOfStrip = 4, kOfRegion = 5, kFitted = 10, kFittedEnds = 12;  // most candidates
 constexpr double kLengthSlack = 0.25;                                   // m, of what is fitted later
 constexpr double kRefineStep = 0.12;                                     // m
 constexpr int kRefineHalvings = 3;
@@ -103,15 +103,17 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
   std::vector<BedEnds> found;
   for (std::size_t k = 0; k < std::min(regions.size(), kRegionsMost); ++k)
     for (BedEnds& e : interpret_region(sweep, regions[k], ranges, lengths)) found.push_back(std::move(e));
-  std::vector<BedInterpretation> out;
+  std::vector<BedEnds> ends;
   for (const BedEnds& rough : distinct(std::move(found), kFitted)) {
     const BedPose p = fitted(sweep, rough.pose);
-    for (const BedEnds& ends : best_ends(strip_of(p), rays_around(sweep, p.middle), lengths, 1.0, kEndsOfStrip)) {
-      BedInterpretation i;
-      i.pose = fitted(sweep, ends.pose);
-      weigh_whole(sweep, i);
-      out.push_back(std::move(i));
-    }
+    for (BedEnds& e : best_ends(strip_of(p), rays_around(sweep, p.middle), lengths, 1.0, kEndsOfStrip)) ends.push_back(std::move(e));
+  }
+  std::vector<BedInterpretation> out;
+  for (const BedEnds& e : distinct(std::move(ends), kFittedEnds)) {
+    BedInterpretation i;
+    i.pose = fitted(sweep, e.pose);
+    weigh_whole(sweep, i);
+    out.push_back(std::move(i));
   }
   out = distinct(std::move(out), kInterpretations);
   for (BedInterpretation& i : out) {
