@@ -106,6 +106,7 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
   std::vector<BedEnds> ends;
   for (const BedEnds& rough : distinct(std::move(found), kFitted)) {
     const BedPose p = fitted(sweep, rough.pose);
+    ends.push_back({p, rough.cab_end, weigh(p, rays_near(sweep, p)).score, rough.cab});
     for (BedEnds& e : best_ends(strip_of(p), rays_around(sweep, p.middle), lengths, 1.0, kEndsOfStrip)) ends.push_back(std::move(e));
   }
   std::vector<BedInterpretation> out;

@@ -13,6 +13,7 @@ constexpr double kScoreLeast = 62.0;  // evidence of a bed
 constexpr double kCabSeen = 30.0;      // evidence of a cab that leaves little doubt
 constexpr double kCabFaint = 2.0;      // evidence of anything at all where the cab would stand
 constexpr double kCabLeast = -30.0;   // evidence of its cab
+constexpr int kInnerBeforeCab = 50, kInnerAlone = 150;  // returns on inner faces of a bed that shows no outer one, with its cab and without
 constexpr double kGroundSlack = 0.15;   // m: ruts
 constexpr double kGroundLeast = 0.02;   // share of returns
 constexpr double kMuchBetter = 1.1;
@@ -98,8 +99,8 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
     return fmt::format("what is most like a bed is too little like one: its evidence weighs {:.0f} of the {:.0f} needed", e.score, kScoreLeast);
   if (i.cab < kCabLeast) return fmt::format("rays pass where its cab would stand, at either end: evidence of {:.0f}", i.cab);
   if (!fit.converged) return "the fit of the bed did not converge";
-  // From behind an open rear the walls show their inner faces alone.
-  if (e.outer_face < 12 && (p.open_end == 0 || e.inner_face < 50 || i.cab < kCabFaint))
+  // From behind an open rear the walls show their inner faces alone, and often hide the cab.
+  if (e.outer_face < 12 && (p.open_end == 0 || e.inner_face < (i.cab < kCabFaint ? kInnerAlone : kInnerBeforeCab)))
     return fmt::format("the bed has {} returns on outer faces of its walls, and needs 12", e.outer_face);
   // A closed box, a lorry's board or a trench box matches as well from outside: the far walls' inside tells a bed.
   const bool has_cab = i.cab > kCabSeen;
