@@ -17,7 +17,7 @@ constexpr double kEndStep = 0.1;  // m between ends
 constexpr int kEnds = static_cast<int>(2 * kEndReach / kEndStep) + 1;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kMeanFit = 2.0 / 3.0;  // of fit over its gate
-constexpr double kEndsApart = 0.3;          // m
+constexpr int kEndsApart = 2;  // steps
 
 double place_of(int end) { return -kEndReach + kEndStep * end; }
 // The first end at or beyond u; kEnds when there is none.
@@ -318,13 +318,12 @@ std::vector<BedEnds> best_ends(const BedStrip& strip, const std::vector<Ray>& ra
       if (p.score > 0.0 && w.clear_of_sensor(place_of(i), place_of(j))) pairs.push_back(p);
     }
   std::vector<BedEnds> out;
-  constexpr int apart = static_cast<int>(kEndsApart / kEndStep);
   std::vector<Pair> chosen;
   while (chosen.size() < most) {
     const Pair* best = nullptr;
     for (const Pair& p : pairs) {
       if (best != nullptr && p.score <= best->score) continue;
-      if (std::none_of(chosen.begin(), chosen.end(), [&](const Pair& c) { return std::abs(c.rear - p.rear) < apart && std::abs(c.front - p.front) < apart; }))
+      if (std::none_of(chosen.begin(), chosen.end(), [&](const Pair& c) { return std::abs(c.rear - p.rear) < kEndsApart && std::abs(c.front - p.front) < kEndsApart; }))
         best = &p;
     }
     if (best == nullptr) break;

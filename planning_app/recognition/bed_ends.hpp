@@ -26,7 +26,7 @@ struct BedEnds {
   double bed = 0.0, cab = 0.0;  // evidence, in rays
 };
 
-// The best pairs of ends, the best first, at most `most`, each apart from the others by 0.5 m at an end or more. lengths: of the bed, inside, m.
+// The best pairs of ends, the best first, at most `most`, each apart from the others by 0.2 m at an end or more. lengths: of the bed, inside, m.
 // share: rays that each given ray stands for.
 std::vector<BedEnds> best_ends(const BedStrip& strip, const std::vector<Ray>& rays, const SizeRange& lengths, double share, std::size_t most);
 

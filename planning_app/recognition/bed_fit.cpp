@@ -29,6 +29,9 @@ struct Known {
 };
 constexpr std::array<Known, 4> kKnown{{{kBedThickness, 0.095, 0.025}, {kBedWidth, 2.38, 0.15}, {kBedPitch, 0.0, 0.03}, {kBedRoll, 0.0, 0.03}}};
 
+// Of a length whose end no ray shows the classes tell so much; where one is seen it must not pull.
+constexpr double kLengthSpread = 0.7;  // m
+
 using Normal = Eigen::Matrix<double, kBedValues, kBedValues>;
 
 // All statements and what is known, for Ceres' small solver. A statement's residual t is that whose square is the Cauchy loss of the residual r.
@@ -67,6 +70,7 @@ class Statements {
   // Of the residuals, each weighted as the loss weights it.
   [[nodiscard]] Normal information(const BedVector& values) const {
     Normal sum = Normal::Identity() * 1e-6;
+    sum(kBedLength, kBedLength) += 1.0 / (kLengthSpread * kLengthSpread);
     for (const Known& k : kKnown) sum(k.which, k.which) += 1.0 / (k.deviation * k.deviation);
     const BedAxes axes(values);
     BedVector slope;

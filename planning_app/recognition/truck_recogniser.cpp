@@ -14,6 +14,7 @@ constexpr double kCabSeen = 30.0;      // evidence of a cab that leaves little d
 constexpr double kCabFaint = 2.0;      // evidence of anything at all where the cab would stand
 constexpr double kCabLeast = -30.0;   // evidence of its cab
 constexpr int kInnerBeforeCab = 50, kInnerAlone = 150;  // returns on inner faces of a bed that shows no outer one, with its cab and without
+constexpr double kLengthUnsure = 0.5;  // m, standard deviation
 constexpr double kGroundSlack = 0.15;   // m: ruts
 constexpr double kGroundLeast = 0.02;   // share of returns
 constexpr double kMuchBetter = 1.1;
@@ -115,6 +116,8 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
   if (ground < kGroundLeast)
     return fmt::format("{:.1f} % of the returns beside it lie {:.2f} to {:.2f} m below the walls' tops, where the ground would be", 100 * ground, over_ground[0], over_ground[1]);
   if (!has_cab) {
+    const double unsure = std::sqrt(fit.covariance(6, 6));
+    if (unsure > kLengthUnsure) return fmt::format("it has no cab, and its length is known to {:.2f} m only: an end of it is not seen", unsure);
     // Without a cab, what goes on beyond the lengths of trucks' beds is a container.
     const double further = longer_length(sweep, p, ranges);
     if (further > 0.0) return fmt::format("it has no cab and goes on for {:.2f} m, longer than every class of trucks", further);
