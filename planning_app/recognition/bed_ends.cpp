@@ -18,6 +18,7 @@ constexpr int kEnds = static_cast<int>(2 * kEndReach / kEndStep) + 1;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kMeanFit = 2.0 / 3.0;  // of fit over its gate
 constexpr int kEndsApart = 2;  // steps
+constexpr double kAsGood = 2.0;  // rays
 
 double place_of(int end) { return -kEndReach + kEndStep * end; }
 // The first end at or beyond u; kEnds when there is none.
@@ -287,6 +288,12 @@ Pair pair(int rear, int front, int open_end, int cab_end, double bed, double cab
   return {rear, front, open_end, cab_end, with_cab(bed, cab), bed, cab};
 }
 
+// Near to each other at both ends, or at one and as good: what lies at the other is not seen.
+bool same(const Pair& a, const Pair& b, double as_good) {
+  const bool rear = std::abs(a.rear - b.rear) < kEndsApart, front = std::abs(a.front - b.front) < kEndsApart;
+  return (rear && front) || ((rear || front) && std::abs(a.score - b.score) <= as_good);
+}
+
 BedPose pose_of(const BedStrip& strip, const Pair& pair) {
   BedPose p;
   p.yaw = strip.yaw, p.pitch = strip.pitch, p.roll = strip.roll, p.width = strip.width, p.thickness = strip.thickness, p.open_end = pair.open_end;
@@ -317,16 +324,20 @@ std::vector<BedEnds> best_ends(const BedStrip& strip, const std::vector<Ray>& ra
         if (open.score > p.score) p = open;
       if (p.score > 0.0 && w.clear_of_sensor(place_of(i), place_of(j))) pairs.push_back(p);
     }
+  const double as_good = kAsGood / share, usual = 0.5 * (shortest + longest);
+  const auto unusual = [usual](const Pair& p) { return std::abs(p.front - p.rear - usual); };
   std::vector<BedEnds> out;
   std::vector<Pair> chosen;
   while (chosen.size() < most) {
+    const auto is_new = [&](const Pair& p) { return std::none_of(chosen.begin(), chosen.end(), [&](const Pair& c) { return same(c, p, as_good); }); };
     const Pair* best = nullptr;
-    for (const Pair& p : pairs) {
-      if (best != nullptr && p.score <= best->score) continue;
-      if (std::none_of(chosen.begin(), chosen.end(), [&](const Pair& c) { return std::abs(c.rear - p.rear) < kEndsApart && std::abs(c.front - p.front) < kEndsApart; }))
-        best = &p;
-    }
+    for (const Pair& p : pairs)
+      if ((best == nullptr || p.score > best->score) && is_new(p)) best = &p;
     if (best == nullptr) break;
+    // Of an end that no ray shows: where it makes a bed of a usual length.
+    const Pair most_likely = *best;
+    for (const Pair& p : pairs)
+      if ((p.rear == most_likely.rear || p.front == most_likely.front) && p.score >= most_likely.score - as_good && unusual(p) < unusual(*best) && is_new(p)) best = &p;
     chosen.push_back(*best);
     out.push_back({pose_of(strip, *best), best->cab_end, share * best->bed, share * best->cab});
   }

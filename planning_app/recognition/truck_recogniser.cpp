@@ -117,7 +117,7 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
     return fmt::format("{:.1f} % of the returns beside it lie {:.2f} to {:.2f} m below the walls' tops, where the ground would be", 100 * ground, over_ground[0], over_ground[1]);
   if (!has_cab) {
     const double unsure = std::sqrt(fit.covariance(6, 6));
-    if (unsure > kLengthUnsure) return fmt::format("it has no cab, and its length is known to {:.2f} m only: an end of it is not seen", unsure);
+    if (i.cab < kCabFaint && unsure > kLengthUnsure) return fmt::format("it has no cab, and its length is known to {:.2f} m only: an end of it is not seen", unsure);
     // Without a cab, what goes on beyond the lengths of trucks' beds is a container.
     const double further = longer_length(sweep, p, ranges);
     if (further > 0.0) return fmt::format("it has no cab and goes on for {:.2f} m, longer than every class of trucks", further);
