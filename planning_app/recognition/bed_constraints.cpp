@@ -9,6 +9,7 @@ constexpr double kRangeDeviation = 0.03;  // m
 constexpr double kFaceDeviation = 0.010;  // m, of a wall's face: mud
 constexpr double kMud = 0.006;            // m, its mean on the part of the faces that is seen
 constexpr double kEdgeDeviation = 0.010;  // m, scale of the logistic function
+constexpr double kOpenEndDeviation = 0.03;  // m, the same where a side ends without a wall across: between two scanlines
 constexpr double kUprightSeen = 0.4;      // m below the top down to which a side is upright: below it may be a pipe
 constexpr double kTopHigher = 0.35;       // m
 constexpr double kEdgeReach = 0.45;       // m: rays that pass an edge farther away say nothing of it
@@ -29,7 +30,8 @@ class Collector {
   void past(const Ray& ray, BedPlane plane, BedPlane bound, int sense, const Eigen::Vector3d& crossing) {
     const double limit = bound.axis == 2 ? 0.0 : pose_.face(bound.axis, bound.side, bound.outer);
     if (std::abs(bound.side * crossing[bound.axis] - limit) > kEdgeReach) return;
-    out.push_back({ray.head, ray.at, true, plane, bound, sense, 0.0, kEdgeDeviation});
+    const bool of_open_end = bound.axis == 0 && bound.side == pose_.open_end;
+    out.push_back({ray.head, ray.at, true, plane, bound, sense, 0.0, of_open_end ? kOpenEndDeviation : kEdgeDeviation});
   }
   [[nodiscard]] double across(const Ray& ray, int axis) const {
     const Eigen::Vector3d d = (ray.at - ray.head).normalized();
@@ -130,17 +132,18 @@ class Collector {
         if (!(axis == 0 && side == pose_.open_end)) past(ray, rim, {axis, side, false}, 1, at_rim);
   }
 
-  // Rays that come from within to a side's inner face, near the end where no wall stands: stopped they came before that end, else beyond it.
+  // Rays that go from within or from behind towards a side near the end where no wall stands: what its inner face stops, or its thickness at that end,
+  // would have met its outer face before the end; what passes, beyond it.
   void at_open_end(const Ray& ray) {
     const Eigen::Vector3d a = rotation_.transpose() * (ray.head - pose_.middle), end = rotation_.transpose() * (ray.at - pose_.middle);
     for (const int s : {-1, 1}) {
-      const BedPlane side{1, s, false};
+      const BedPlane inner{1, s, false}, outer{1, s, true};
       const double limit = pose_.width / 2;
       if (s * a.y() > limit || s * end.y() < limit - kRangeGate) continue;
-      const Eigen::Vector3d at = crossing(ray, side);
+      const Eigen::Vector3d at = crossing(ray, inner);
       if (at.z() > -0.05 || at.z() < -kWallSeen) continue;
       const bool stopped = (end - at).norm() <= kRangeGate;
-      if (stopped || s * end.y() > limit + kRangeGate) past(ray, side, {0, pose_.open_end, false}, stopped ? 1 : -1, at);
+      if (stopped || s * end.y() > limit + pose_.thickness + kRangeGate) past(ray, outer, {0, pose_.open_end, false}, stopped ? 1 : -1, crossing(ray, outer));
     }
   }
 

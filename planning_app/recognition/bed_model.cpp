@@ -69,11 +69,11 @@ RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray&
     m.off = (1.0 - outer.in) * range;
     if (m.off < -kRangeGate) {
       m.what = Meeting::before;
-    } else if (!open) {
-      m.what = m.off <= kRangeGate ? Meeting::outer_face : Meeting::through_face;
-    } else if (std::abs(m.entry.y()) < pose.width / 2) {
+    } else if (open && std::abs(m.entry.y()) < pose.width / 2) {
       m.by_open_end = true;
       stopped_within();
+    } else {
+      m.what = m.off <= kRangeGate ? Meeting::outer_face : Meeting::through_face;
     }
     return m;
   }
