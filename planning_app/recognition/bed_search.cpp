@@ -118,7 +118,7 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
   }
   out = distinct(std::move(out), kInterpretations);
   for (BedInterpretation& i : out) {
-    i.pose = refined(i.pose, i.rays, kRefineStep, kRefineHalvings);
+    i.pose = refined(i.pose, every(i.rays, 2), kRefineStep, kRefineHalvings);
     i.pose = fitted(sweep, i.pose);
     weigh_whole(sweep, i);
   }
