@@ -42,9 +42,12 @@ double BedPose::face(int axis, int side, bool outer) const {
   return outer && !(axis == 0 && side == open_end) ? inner + thickness : inner;
 }
 
-RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray& ray) {
+namespace {
+
+// a: the sensor, end: the return, in the bed frame.
+RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& end) {
   RayMeeting m;
-  const Eigen::Vector3d a = rotation.transpose() * (ray.head - pose.middle), end = rotation.transpose() * (ray.at - pose.middle), d = end - a;
+  const Eigen::Vector3d d = end - a;
   m.end = end;
   const Crossing outer = cross(pose, a, d, true);
   if (outer.in >= outer.out || outer.out <= 0.0 || outer.in <= 0.0) return m;
@@ -110,12 +113,20 @@ RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray&
   return m;
 }
 
+}  // namespace
+
+RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray& ray) {
+  return meet_in_bed(pose, rotation.transpose() * (ray.head - pose.middle), rotation.transpose() * (ray.at - pose.middle));
+}
+
 BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays) {
   BedEvidence e;
   double face[2] = {0.0, 0.0};  // on outer faces of ends and of sides
-  const Eigen::Matrix3d rotation = pose.rotation();
+  const Eigen::Matrix3d turn = pose.rotation().transpose();
+  Eigen::Vector3d head(0.0, 0.0, 0.0), a = -(turn * pose.middle);
   for (const Ray& ray : rays) {
-    const RayMeeting m = meet(pose, rotation, ray);
+    if (ray.head != head) head = ray.head, a = turn * (head - pose.middle);  // that of a whole fan
+    const RayMeeting m = meet_in_bed(pose, a, turn * (ray.at - pose.middle));
     switch (m.what) {
       case Meeting::none: break;
       case Meeting::before: ++e.before; break;
