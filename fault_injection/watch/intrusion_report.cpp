@@ -157,8 +157,7 @@ ordered_json slowest_of(const Campaign& campaign, Some some) {
 }  // namespace
 
 std::string command_of(const Campaign& campaign, const IntrusionResult& r) {
-  const std::string machine = campaign.machine == "zx200" ? "" : fmt::format(" --machine {}", campaign.machine);
-  return fmt::format("./berm watch --intrusions 1 --seed {} --only {}{}{}", r.intrusion.seed, r.intrusion.run, machine,
+  return fmt::format("./berm watch --intrusions 1 --seed {} --only {} --machine {}{}", r.intrusion.seed, r.intrusion.run, campaign.machine,
                      campaign.histogram ? " --histogram" : "");
 }
 

@@ -6,6 +6,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "config/machine_file.hpp"
 #include "config/whole_file.hpp"
 #include "run/parameter_file.hpp"
 #include "watch/intrusion_campaign.hpp"
@@ -25,11 +26,11 @@ bool can_be_written_again(const std::string& path) {
 
 int watch_intrusions(const Options& options) {
   Campaign campaign;
-  campaign.machine = options.machine.empty() ? "zx200" : options.machine;
-  campaign.histogram = options.histogram;
+  campaign.machine = options.machine.empty() ? drawn_machine : options.machine;
   campaign.seed = options.seed;
   campaign.asked = options.only >= 0 ? 1 : options.intrusions;
-  const Bench bench = make_bench(campaign.machine, campaign.histogram, BERM_PLANT_PROFILES);
+  const Bench bench = make_bench(campaign.machine, options.histogram, BERM_PLANT_PROFILES);
+  campaign.histogram = bench.machine.workspace.histogram;
   const auto draw = [&](int run) { return draw_intrusion(options.seed, run, bench.intrusion_site); };
   if (options.only >= 0) {
     campaign.results.push_back(run_intrusion(bench, draw(options.only), options.trace));
@@ -67,7 +68,9 @@ int watch_quietly(const Options& o) {
   const auto so_far = [&](const QuietResult& result) {
     if (can_be_written_again(o.json)) config::write_whole_file(o.json, flat_json(result).dump(1) + "\n");
   };
-  const QuietResult result = watch_quiet_hours({o.quiet_hours, o.seed, o.machine, o.histogram, BERM_PLANT_PROFILES, o.jobs}, so_far);
+  const std::string machine = o.machine.empty() ? drawn_machine : o.machine;
+  const bool histogram = o.histogram || config::load_machine_file(run::find_machine(machine)).workspace.histogram;
+  const QuietResult result = watch_quiet_hours({o.quiet_hours, o.seed, machine, histogram, BERM_PLANT_PROFILES, o.jobs}, so_far);
   fmt::print("{}", summary_text(result));
   if (!o.json.empty()) config::write_whole_file(o.json, flat_json(result).dump(1) + "\n");
   return result.false_alarms() == 0 && result.contacts() == 0 ? 0 : 1;

@@ -38,7 +38,7 @@ std::optional<int> read_options(int argc, char** argv, Options& o) {
       ->check(CLI::Range(1.0, 36000.0));
   app.add_option("--seed", o.seed, "seed of every draw")->capture_default_str();
   app.add_option("--only", o.only, "with --intrusions: this one trial, in detail")->check(CLI::Range(0, 10000000));
-  app.add_option("--machine", o.machine, "machine, name or file; its workspace is watched whatever it says (the scenario's, or zx200)");
+  app.add_option("--machine", o.machine, "machine, name or file; its workspace is watched whatever it says (without: the scenario's, or zx200_ring)");
   app.add_flag("--histogram", o.histogram, "the kernel compares with histograms of heights (workspace.histogram), whatever the machine says");
   app.add_option("--jobs", o.jobs, "trials or runs at a time (0: one a core)")->check(CLI::Range(0, 256))->capture_default_str();
   app.add_option("--json", o.json, "result for scripts");

@@ -7,6 +7,9 @@
 
 namespace berm::watch {
 
+// What trials and quiet hours are of when no machine is named: the one whose file says that its workspace is watched.
+inline constexpr const char* drawn_machine = "zx200_ring";
+
 struct Options {
   std::string scenario;            // one of these three
   int intrusions = 0;
@@ -16,7 +19,7 @@ struct Options {
   int jobs = 0;
   int trucks = 1;                  // of the scenario
   std::optional<double> max_time_s;
-  std::string machine;             // empty: zx200, or the scenario's
+  std::string machine;             // empty: the scenario's, or `drawn_machine`
   bool histogram = false;          // whatever the machine says
   std::string json, picture, out, trace;
 };

@@ -75,7 +75,7 @@ def who_comes_from_behind_is_seen_by_the_lidars():
     text = (SCENARIOS / "person_ring.toml").read_text()
     assert "max_time_s = 1800.0" in text
     path = scratch / "person_ring.toml"
-    path.write_text(text.replace("max_time_s = 1800.0", "max_time_s = 36.0", 1))
+    path.write_text(text.replace("max_time_s = 1800.0", "max_time_s = 66.0", 1))
     _, result, out, text = load("--scenario", path, "--seed", 1)
     assert result is not None, text[-800:]
     assert result["contacts"] == 0, result["contacts"]

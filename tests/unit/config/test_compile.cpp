@@ -254,7 +254,9 @@ TEST(Compile, TheMachinesWithLidarsAreTheSameButForThemAndWhatTheyWatch) {
   EXPECT_EQ(ring.workspace_watched, 1);
   EXPECT_EQ(ring.workspace_radius_mm, 15000);
   EXPECT_EQ(ring.workspace_learn_us, 45000000) << "a truck's rim is met by every other sweep of the panning scanners";
+  EXPECT_EQ(ring.workspace_histogram, 1);
   ring.workspace_watched = plain.workspace_watched;
+  ring.workspace_histogram = plain.workspace_histogram;
   ring.workspace_learn_us = plain.workspace_learn_us;
   ring.workspace_radius_mm = plain.workspace_radius_mm;
   for (berm_parameters* with : {&rear, &ring}) {
