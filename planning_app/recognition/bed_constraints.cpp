@@ -12,7 +12,8 @@ constexpr double kEdgeDeviation = 0.010;  // m, scale of the logistic function
 constexpr double kOpenEndDeviation = 0.03;  // m, the same where a side ends without a wall across: between two scanlines
 constexpr double kUprightSeen = 0.4;      // m below the top down to which a side is upright: below it may be a pipe
 constexpr double kTopHigher = 0.35;       // m
-constexpr double kEdgeReach = 0.45;       // m: rays that pass an edge farther away say nothing of it
+constexpr double kEdgeReach = 0.45;       // m: rays that pass an edge on its wrong side farther away say nothing of it
+constexpr double kEdgeKept = 0.2;         // m: nor do those on its right side, before a fit would come to them
 
 class Collector {
  public:
@@ -29,7 +30,8 @@ class Collector {
   // crossing: of ray and plane in the bed frame.
   void past(const Ray& ray, BedPlane plane, BedPlane bound, int sense, const Eigen::Vector3d& crossing) {
     const double limit = bound.axis == 2 ? 0.0 : pose_.face(bound.axis, bound.side, bound.outer);
-    if (std::abs(bound.side * crossing[bound.axis] - limit) > kEdgeReach) return;
+    const double beyond = sense * (bound.side * crossing[bound.axis] - limit);
+    if (beyond > kEdgeReach || beyond < -kEdgeKept) return;
     const bool of_open_end = bound.axis == 0 && bound.side == pose_.open_end;
     out.push_back({ray.head, ray.at, true, plane, bound, sense, 0.0, of_open_end ? kOpenEndDeviation : kEdgeDeviation});
   }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kRobust = 2.0;               // of the Cauchy loss, in standard deviations
 constexpr int kIterations = 12;
-constexpr double kCostStep = 1e-3;            // in squared standard deviations: the fit ends
+constexpr double kCostStep = 1e-2;            // in squared standard deviations: the fit ends
 constexpr int kResidualsLeast = 20;
 constexpr double kThinnest = 0.03, kThickest = 0.2;  // m, of walls
 constexpr double kShared = 3.0;               // rays that count as one

@@ -46,5 +46,21 @@ TEST(BedModel, OpenEndStopsNothing) {
   EXPECT_DOUBLE_EQ(pose.face(0, 1, true), 2.6);
 }
 
+// From behind, where no wall stands at -u: below the tops a ray goes on within, and the sides' ends are faces.
+TEST(BedModel, OpenEndLetsIn) {
+  BedPose pose = bed();
+  pose.open_end = -1;
+  const auto from_behind = [&](const Eigen::Vector3d& at) { return meet(pose, pose.rotation(), {{-7.0, 0.0, 1.2}, at}); };
+  const RayMeeting within = from_behind({-1.0, 0.2, -0.9});
+  EXPECT_EQ(within.what, Meeting::inside);
+  EXPECT_TRUE(within.by_open_end);
+  EXPECT_EQ(from_behind({-1.0, 1.2, -0.5}).what, Meeting::inner_face);
+  EXPECT_EQ(from_behind({0.5, 1.5, -0.7}).what, Meeting::through_inner);
+  EXPECT_EQ(from_behind({-2.5, 1.25, -0.3}).what, Meeting::outer_face) << "the thickness of the side, at its end";
+  EXPECT_EQ(from_behind({-2.5, 1.2, -0.9}).what, Meeting::none) << "below what every class has walls of";
+  pose.open_end = 0;
+  EXPECT_EQ(from_behind({-1.0, 0.2, -0.9}).what, Meeting::through_face);
+}
+
 }  // namespace
 }  // namespace berm::app

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "drawn_bed.hpp"
@@ -40,6 +41,32 @@ TEST(TruckRecogniser, FindsABedWithoutATailgate) {
   EXPECT_NEAR(truck.length, bed.length, 0.2) << "the rear lies between two scanlines";
   EXPECT_NEAR(std::remainder(truck.yaw - bed.yaw, 2 * 3.14159265358979), 0.0, 0.01);
   EXPECT_TRUE(truck.open_rear);
+}
+
+TEST(TruckRecogniser, FindsABedThatIsSeenFromItsOpenRear) {
+  for (const double aside : {-0.25, 0.0, 0.2}) {
+    DrawnBed bed;
+    bed.yaw = std::numbers::pi / 2 + aside;
+    bed.rear_wall = false;
+    const RecognisedTruck truck = answer_to(bed);
+    ASSERT_TRUE(truck.found) << truck.reason;
+    EXPECT_NEAR(truck.length, bed.length, 0.1);
+    EXPECT_NEAR(truck.width, bed.width, 0.06);
+    EXPECT_NEAR(std::remainder(truck.yaw - bed.yaw, 2 * std::numbers::pi), 0.0, 0.01);
+    EXPECT_TRUE(truck.open_rear);
+  }
+}
+
+// Wherever its end is thought to be.
+TEST(TruckRecogniser, RefusesWhatEndsOutOfSightAndHasNoCab) {
+  for (const double length : {9.0, 12.0, 16.0}) {
+    DrawnBed container;
+    container.cab = false;
+    container.length = length;
+    container.x = length / 2 - 2.5;
+    container.yaw = 0.0;
+    EXPECT_FALSE(answer_to(container).found) << length;
+  }
 }
 
 TEST(TruckRecogniser, RefusesABedWithoutACab) {
