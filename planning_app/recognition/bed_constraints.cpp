@@ -12,6 +12,7 @@ constexpr double kEdgeDeviation = 0.010;  // m, scale of the logistic function
 constexpr double kOpenEndDeviation = 0.03;  // m, the same where a side ends without a wall across: between two scanlines
 constexpr double kUprightSeen = 0.4;      // m below the top down to which a side is upright: below it may be a pipe
 constexpr double kTopHigher = 0.35;       // m
+constexpr double kNoTop = 0.08;           // m above the tops: a return there is none of them
 constexpr double kEdgeReach = 0.45;       // m: rays that pass an edge on its wrong side farther away say nothing of it
 constexpr double kEdgeKept = 0.2;         // m: nor do those on its right side, before a fit would come to them
 
@@ -99,7 +100,8 @@ class Collector {
     }
     if (m.what == Meeting::none) beside(ray);
     if (pose_.open_end != 0) at_open_end(ray);
-    if (m.what == Meeting::above_face || m.what == Meeting::before || m.what == Meeting::wall_top) above_tops(ray);
+    const bool no_top = m.what == Meeting::wall_top && m.end.z() > kNoTop;
+    if (m.what == Meeting::above_face || m.what == Meeting::before || no_top) above_tops(ray);
   }
 
   // Returns in the plane of a wall that is seen, a little above where its top is thought to be: the top is higher.

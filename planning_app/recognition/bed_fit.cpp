@@ -14,6 +14,7 @@ namespace berm::app {
 namespace {
 
 constexpr double kRobust = 2.0;               // of the Cauchy loss, in standard deviations
+constexpr double kBlur = 3.0;                 // of edges, from round to round
 constexpr int kIterations = 12;
 constexpr double kCostStep = 1e-2;            // in squared standard deviations: the fit ends
 constexpr int kResidualsLeast = 20;
@@ -95,7 +96,9 @@ FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds
   solver.options.max_num_iterations = kIterations;
   solver.options.function_tolerance = kCostStep;
   for (int round = 0; round < rounds; ++round) {
-    const std::vector<BedConstraint> statements = constraints(fit.pose, rays);
+    std::vector<BedConstraint> statements = constraints(fit.pose, rays);
+    for (BedConstraint& c : statements)
+      if (c.edge && c.bound.axis != 0) c.deviation *= std::pow(kBlur, std::max(0, rounds - 2 - round));
     fit.residuals = static_cast<int>(statements.size());
     if (fit.residuals < kResidualsLeast) return fit;
     const Statements problem(statements, start.open_end);

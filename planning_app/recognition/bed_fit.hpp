@@ -23,7 +23,8 @@ struct FittedBed {
 // Two kinds of residuals. Returns on a face or on the walls' tops: their distance from that plane. Rays past an edge: each must pass on its side, by
 // the negative logarithm of a logistic function of the distance; so an edge is bracketed between the rays that pass it on either side, however far
 // apart two rays of one scanline are. What a ray passed is decided by the pose, which must be near already (0.2 m, 3 degrees), and decided again in
-// every round.
+// every round. In all rounds but the last two edges are blurred, so that a wall some centimetres too high or low comes to where it is; not those of
+// the bed's ends, which would wander off where no ray shows them.
 FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds);
 
 // Of the opening on the inner top edge: (+u, +v), (-u, +v), (-u, -v), (+u, -v).

@@ -67,7 +67,7 @@ std::vector<BedEnds> interpret_region(const FanSweep& sweep, const UprightRegion
 // The pose after a fit, where that agrees better with the rays.
 BedPose fitted(const FanSweep& sweep, const BedPose& start) {
   const std::vector<Ray> rays = rays_near(sweep, start);
-  const FittedBed fit = fit_bed(start, rays, 2);
+  const FittedBed fit = fit_bed(start, rays, 3);
   return fit.converged && weigh(fit.pose, rays).score > weigh(start, rays).score ? fit.pose : start;
 }
 

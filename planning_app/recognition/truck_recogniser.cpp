@@ -9,7 +9,8 @@
 namespace berm::app {
 namespace {
 
-constexpr double kScoreLeast = 62.0;  // evidence of a bed
+constexpr double kScoreLeast = 100.0;  // evidence of a bed
+constexpr int kInnerLeast = 12;         // returns on inner faces of its far walls
 constexpr double kCabSeen = 30.0;      // evidence of a cab that leaves little doubt
 constexpr double kCabFaint = 2.0;      // evidence of anything at all where the cab would stand
 constexpr double kCabLeast = -30.0;   // evidence of its cab
@@ -103,14 +104,14 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
   // From behind an open rear the walls show their inner faces alone, and often hide the cab.
   if (e.outer_face < 12 && (p.open_end == 0 || e.inner_face < (i.cab < kCabFaint ? kInnerAlone : kInnerBeforeCab)))
     return fmt::format("the bed has {} returns on outer faces of its walls, and needs 12", e.outer_face);
-  // A closed box, a lorry's board or a trench box matches as well from outside: the far walls' inside tells a bed.
-  const bool has_cab = i.cab > kCabSeen;
-  if (e.inner_face < (has_cab ? 4 : 8)) return fmt::format("the bed has {} returns on inner faces of its far walls, and needs 8", e.inner_face);
-  const int explained = e.outer_face + e.inner_face + e.wall_top + e.inside;
-  if (e.through > 0.1 * explained) return fmt::format("{} rays pass through its walls, {} agree with them", e.through, explained);
   const int over_opening = e.level_inside + e.below_inside + e.above_inside;
   if (e.level_inside > 0.75 * over_opening && over_opening >= 10)
     return fmt::format("it is closed on top: {} of {} returns over its opening lie in the plane of the walls' tops", e.level_inside, over_opening);
+  // A closed box, a lorry's board or a trench box matches as well from outside: the far walls' inside tells a bed.
+  const bool has_cab = i.cab > kCabSeen;
+  if (e.inner_face < kInnerLeast) return fmt::format("the bed has {} returns on inner faces of its far walls, and needs {}", e.inner_face, kInnerLeast);
+  const int explained = e.outer_face + e.inner_face + e.wall_top + e.inside;
+  if (e.through > 0.1 * explained) return fmt::format("{} rays pass through its walls, {} agree with them", e.through, explained);
   const SizeRange over_ground = ranges.hull(&TruckRanges::top_over_ground);
   const double ground = share_of_ground(sweep, p, over_ground);
   if (ground < kGroundLeast)
@@ -179,7 +180,7 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
   std::vector<Verified> verified;
   for (BedInterpretation& i : interpretations) {
     Verified v;
-    v.fit = fit_bed(i.pose, i.rays, 3);
+    v.fit = fit_bed(i.pose, i.rays, 4);
     i.pose = v.fit.pose;
     weigh_whole(sweep, i);
     v.refusal = refusal(sweep, i, v.fit, ranges);

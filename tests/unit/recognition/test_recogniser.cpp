@@ -87,7 +87,7 @@ TEST(TruckRecogniser, RefusesOtherSizes) {
   small.length = 3.0;
   small.width = 1.7;
   expect_refused(wide, "outside every class");
-  expect_refused(small, "and needs 8");
+  expect_refused(small, "too little like one");
 }
 
 TEST(TruckRecogniser, RefusesBareGroundAndNothing) {
