@@ -100,9 +100,8 @@ QuietRun one_run(const QuietOptions& options, std::uint64_t seed, double max_tim
 }
 
 std::string command_of(const QuietResult& result, const QuietAlarm& alarm) {
-  const std::string machine = result.options.machine.empty() ? "" : fmt::format(" --machine {}", result.options.machine);
   const std::string histogram = result.options.histogram ? " --histogram" : "";
-  return fmt::format("./berm watch --scenario {} --trucks {} --seed {}{}{} --max-time {:.0f}", scenario_name, trucks, alarm.seed, machine, histogram,
+  return fmt::format("./berm watch --scenario {} --trucks {} --seed {} --machine {}{} --max-time {:.0f}", scenario_name, trucks, alarm.seed, result.options.machine, histogram,
                      std::ceil(alarm.time_s + beyond_alarm_s));
 }
 

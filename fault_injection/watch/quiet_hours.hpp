@@ -12,7 +12,7 @@ namespace berm::watch {
 struct QuietOptions {
   double hours = 1.0;
   std::uint64_t seed = 1;      // of the first run; the next has the next
-  std::string machine;         // empty: the scenario's
+  std::string machine;         // name or file
   bool histogram = false;
   std::string profiles;
   int jobs = 0;                // runs at a time; 0: one a core. The result does not depend on it

@@ -14,44 +14,49 @@ constexpr double kUprightSeen = 0.4;      // m below the top down to which a sid
 constexpr double kTopHigher = 0.35;       // m
 constexpr double kNoTop = 0.08;           // m above the tops: a return there is none of them
 constexpr double kEdgeReach = 0.45;       // m: rays that pass an edge on its wrong side farther away say nothing of it
+constexpr double kCorner = 0.15;          // m
 constexpr double kEdgeKept = 0.2;         // m: nor do those on its right side, before a fit would come to them
 
 class Collector {
  public:
-  Collector(const BedPose& pose, const std::vector<Ray>& rays) : pose_(pose), rotation_(pose.rotation()) {
-    for (const Ray& ray : rays) take(ray);
+  Collector(const BedPose& pose, const std::vector<Ray>& rays) : pose_(pose) {
+    const Eigen::Matrix3d turn = pose.rotation().transpose();
+    for (const Ray& ray : rays) take({ray.head, ray.at, turn * (ray.head - pose_.middle), turn * (ray.at - pose_.middle)});
   }
   std::vector<BedConstraint> out;
 
  private:
-  void on_plane(const Ray& ray, BedPlane plane, double offset, double deviation) {
+  struct LocalRay {
+    Eigen::Vector3d head, at;  // in the base frame
+    Eigen::Vector3d a, end;    // the same in the bed frame
+  };
+  void on_plane(const LocalRay& ray, BedPlane plane, double offset, double deviation) {
     BedConstraint c{ray.head, ray.at, false, plane, {}, 1, offset, deviation};
     out.push_back(c);
   }
   // crossing: of ray and plane in the bed frame.
-  void past(const Ray& ray, BedPlane plane, BedPlane bound, int sense, const Eigen::Vector3d& crossing) {
+  void past(const LocalRay& ray, BedPlane plane, BedPlane bound, int sense, const Eigen::Vector3d& crossing) {
     const double limit = bound.axis == 2 ? 0.0 : pose_.face(bound.axis, bound.side, bound.outer);
     const double beyond = sense * (bound.side * crossing[bound.axis] - limit);
     if (beyond > kEdgeReach || beyond < -kEdgeKept) return;
     const bool of_open_end = bound.axis == 0 && bound.side == pose_.open_end;
     out.push_back({ray.head, ray.at, true, plane, bound, sense, 0.0, of_open_end ? kOpenEndDeviation : kEdgeDeviation});
   }
-  [[nodiscard]] double across(const Ray& ray, int axis) const {
-    const Eigen::Vector3d d = (ray.at - ray.head).normalized();
-    return std::abs(rotation_.col(axis).dot(d));
-  }
-  void face_hit(const Ray& ray, int axis, int side, bool outer) {
+  [[nodiscard]] static double across(const LocalRay& ray, int axis) { return std::abs((ray.end - ray.a).normalized()[axis]); }
+  void face_hit(const LocalRay& ray, int axis, int side, bool outer) {
     const double share = across(ray, axis), noise = kRangeDeviation * share;
     on_plane(ray, {axis, side, outer}, outer ? kMud : -kMud, std::hypot(noise, kFaceDeviation));
+    const double across_it = ray.end[1 - axis];
+    out.back().in_corner = !outer && std::abs(across_it) > pose_.face(1 - axis, across_it > 0.0 ? 1 : -1, false) - kCorner;
   }
-  [[nodiscard]] Eigen::Vector3d crossing(const Ray& ray, const BedPlane& plane) const {
-    const Eigen::Vector3d a = rotation_.transpose() * (ray.head - pose_.middle), d = rotation_.transpose() * (ray.at - ray.head);
+  [[nodiscard]] Eigen::Vector3d crossing(const LocalRay& ray, const BedPlane& plane) const {
+    const Eigen::Vector3d d = ray.end - ray.a;
     const double limit = plane.axis == 2 ? 0.0 : plane.side * pose_.face(plane.axis, plane.side, plane.outer);
-    return a + (limit - a[plane.axis]) / d[plane.axis] * d;
+    return ray.a + (limit - ray.a[plane.axis]) / d[plane.axis] * d;
   }
 
-  void take(const Ray& ray) {
-    const RayMeeting m = meet(pose_, rotation_, ray);
+  void take(const LocalRay& ray) {
+    const RayMeeting m = meet_in_bed(pose_, ray.a, ray.end);
     const BedPlane rim{2, 1, false};
     switch (m.what) {
       case Meeting::outer_face: {
@@ -83,12 +88,12 @@ class Collector {
         break;
       }
       case Meeting::through_top:
-        inside_of(ray, m.rim, m.end);
+        inside_of(ray, m.rim);
         break;
       case Meeting::inside:
       case Meeting::inner_face:
       case Meeting::through_inner:
-        if (!m.by_open_end) inside_of(ray, m.rim, m.end);
+        if (!m.by_open_end) inside_of(ray, m.rim);
         if (m.what == Meeting::inner_face && m.end.z() < -0.03 && (m.axis == 0 || m.end.z() > -kUprightSeen)) face_hit(ray, m.axis, m.side, false);
         break;
       case Meeting::over:
@@ -105,13 +110,13 @@ class Collector {
   }
 
   // Returns in the plane of a wall that is seen, a little above where its top is thought to be: the top is higher.
-  void above_tops(const Ray& ray) {
-    const Eigen::Vector3d a = rotation_.transpose() * (ray.head - pose_.middle);
+  void above_tops(const LocalRay& ray) {
+    const Eigen::Vector3d &a = ray.a, &end = ray.end;
     for (int axis = 0; axis < 2; ++axis)
       for (const int side : {-1, 1}) {
         if (axis == 0 && side == pose_.open_end) continue;
         const BedPlane plane{axis, side, side * a[axis] > pose_.face(axis, side, true)};
-        const Eigen::Vector3d at = crossing(ray, plane), end = rotation_.transpose() * (ray.at - pose_.middle);
+        const Eigen::Vector3d at = crossing(ray, plane);
         if (at.z() < 0.0 || at.z() > kTopHigher || (at - end).norm() > kRangeGate) continue;
         if (at[1 - axis] > pose_.face(1 - axis, 1, true) || at[1 - axis] < -pose_.face(1 - axis, -1, true)) continue;
         past(ray, plane, {2, 1, false}, 1, at);
@@ -119,7 +124,8 @@ class Collector {
   }
 
   // The return lies below the plane of the tops: the ray passed within the inner edges. Above it, it is a top that the pose does not have there yet.
-  void inside_of(const Ray& ray, const Eigen::Vector3d& at_rim, const Eigen::Vector3d& end) {
+  void inside_of(const LocalRay& ray, const Eigen::Vector3d& at_rim) {
+    const Eigen::Vector3d& end = ray.end;
     const BedPlane rim{2, 1, false};
     const double noise = kRangeDeviation * across(ray, 2);
     if (end.z() > -std::max(0.035, 2.5 * noise)) {
@@ -138,8 +144,8 @@ class Collector {
 
   // Rays that go from within or from behind towards a side near the end where no wall stands: what its inner face stops, or its thickness at that end,
   // would have met its outer face before the end; what passes, beyond it.
-  void at_open_end(const Ray& ray) {
-    const Eigen::Vector3d a = rotation_.transpose() * (ray.head - pose_.middle), end = rotation_.transpose() * (ray.at - pose_.middle);
+  void at_open_end(const LocalRay& ray) {
+    const Eigen::Vector3d &a = ray.a, &end = ray.end;
     for (const int s : {-1, 1}) {
       const BedPlane inner{1, s, false}, outer{1, s, true};
       const double limit = pose_.width / 2;
@@ -151,15 +157,15 @@ class Collector {
     }
   }
 
-  void over_wall(const Ray& ray, const RayMeeting& m) {
+  void over_wall(const LocalRay& ray, const RayMeeting& m) {
     if (m.axis < 0 || (m.axis == 0 && m.side == pose_.open_end)) return;
     const Eigen::Vector3d at_rim = crossing(ray, {2, 1, false});
     if (m.side * m.end[m.axis] > pose_.face(m.axis, m.side, true) + 0.15) past(ray, {2, 1, false}, {m.axis, m.side, true}, -1, at_rim);
   }
 
   // Rays that pass a wall's end.
-  void beside(const Ray& ray) {
-    const Eigen::Vector3d a = rotation_.transpose() * (ray.head - pose_.middle), end = rotation_.transpose() * (ray.at - pose_.middle);
+  void beside(const LocalRay& ray) {
+    const Eigen::Vector3d &a = ray.a, &end = ray.end;
     for (int axis = 0; axis < 2; ++axis) {
       const int side = a[axis] > 0.0 ? 1 : -1;
       if (axis == 0 && side == pose_.open_end) continue;
@@ -173,7 +179,6 @@ class Collector {
   }
 
   const BedPose& pose_;
-  Eigen::Matrix3d rotation_;
 };
 
 }  // namespace

@@ -21,6 +21,7 @@ struct BedConstraint {
   int sense = 1;
   double offset = 0.0;       // m: return on a face, its mean distance outwards
   double deviation = 0.03;   // m
+  bool in_corner = false;    // return on a face, and as near to the wall beside it: of that wall perhaps
 };
 
 // pose: near enough to tell which face each ray meets.

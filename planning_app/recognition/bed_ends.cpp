@@ -217,62 +217,47 @@ class Weighing {
     opening(r, at.x());
   }
 
-  // Without a wall at the end between t = first and last the ray goes on within, to a side or to the other end.
-  void open_end(const StripRay& r, double first, double last) {
-    const double side = std::abs(r.d.y()) > 1e-9 ? ((r.d.y() > 0.0 ? inner_ : -inner_) - r.a.y()) / r.d.y() : kNever;
-    if (r.near_side != 0) first = std::max(first, (r.near_side * inner_ - r.a.y()) / r.d.y());
-    last = std::min(last, side);
-    if (last <= first) return;
-    const bool forward = r.d.x() > 0.0;
-    const double own_from = std::min(r.u(first), r.u(last)), own_to = std::max(r.u(first), r.u(last));
-    const double side_u = std::isinf(side) ? (forward ? kNever : -kNever) : r.u(side);
-    // The other end in [from, to).
-    const auto add = [&](double from, double to, double weight) {
-      if (forward) open_rear.add(own_from, own_to, from, to, weight);
-      else open_front.add(from, to, own_from, own_to, weight);
-    };
-    const double far = side > 1.0 + r.gate ? kInside : side < 1.0 - r.gate ? -kThrough : kInside + (1.0 - kInside) * fit((1.0 - side) * r.range, kRangeGate);
-    const double half = std::max(r.gate, 0.5 * kEndStep / std::abs(r.d.x())), share = (1.0 - kInside) * kMeanFit * r.gate / half;
-    if (forward) {
-      add(side_u, kNever, far);
-      add(r.u(1.0), side_u, kInside);
-      add(-kNever, std::min(side_u, r.u(1.0 - r.gate)), -kThrough);
-      add(r.u(1.0 - half), std::min(side_u, r.u(1.0 + half)), share);
-    } else {
-      add(-kNever, side_u, far);
-      add(side_u, r.u(1.0), kInside);
-      add(std::max(side_u, r.u(1.0 - r.gate)), kNever, -kThrough);
-      add(std::max(side_u, r.u(1.0 + half)), r.u(1.0 - half), share);
-    }
+  // t where the ray would come to the inner face of the side that it goes to.
+  [[nodiscard]] double far_side(const StripRay& r) const {
+    return std::abs(r.d.y()) > 1e-9 ? ((r.d.y() > 0.0 ? inner_ : -inner_) - r.a.y()) / r.d.y() : kNever;
   }
 
-  // The ray enters the opening at rim_u: it ends within, or on the far side, or on the end that it goes to.
+  // Without a wall at the end between t = first and last the ray goes on within.
+  void open_end(const StripRay& r, double first, double last) {
+    if (r.near_side != 0) first = std::max(first, (r.near_side * inner_ - r.a.y()) / r.d.y());
+    last = std::min(last, far_side(r));
+    if (last <= first) return;
+    PairSums& open = r.d.x() > 0.0 ? open_rear : open_front;
+    within(r, {r.u(first), r.u(last)}, r.u(first), -kNever, open, open);
+  }
+
+  // The ray enters the opening at rim_u: the end that it comes from lies behind.
   void opening(const StripRay& r, double rim_u) {
-    const double side = std::abs(r.d.y()) > 1e-9 ? ((r.d.y() > 0.0 ? inner_ : -inner_) - r.a.y()) / r.d.y() : kNever;
+    const bool forward = r.d.x() > 0.0;
+    within(r, {forward ? -kNever : kNever, rim_u}, rim_u, (-slack_ - r.a.z()) / r.d.z(), common, forward ? front_wall : rear_wall);
+  }
+
+  // From came_in on the ray is in the bed: it ends within, or on the far side, or on the end that it goes to, which lies beyond came_in. The end that it comes from
+  // lies in own, in the ray's sense. Sums of what is so whether the other end has a wall or not, and of what only such a wall says; low: t from which the
+  // ray is below its top.
+  void within(const StripRay& r, std::array<double, 2> own, double came_in, double low, PairSums& anyhow, PairSums& wall) {
+    const bool forward = r.d.x() > 0.0, straight_across = std::abs(r.d.x()) < 1e-9;
+    const double side = far_side(r), onwards = forward ? kNever : -kNever;
     const bool sure = !std::isinf(side) && r.at(side).z() < -slack_;
     const double far = side > 1.0 + r.gate ? kInside : side < 1.0 - r.gate ? (sure ? -kThrough : 0.0) : kInside + (1.0 - kInside) * fit((1.0 - side) * r.range, kRangeGate);
-    const bool forward = r.d.x() > 0.0;
-    const double side_u = std::abs(r.d.x()) < 1e-9 ? rim_u : std::isinf(side) ? (forward ? kNever : -kNever) : r.u(side);
-    // The end that the ray goes to lies in [from, to), the other behind where it came in.
+    const double side_u = straight_across ? came_in : std::isinf(side) ? onwards : r.u(side);
+    // The end that the ray goes to lies between from and to, in the ray's sense.
     const auto add = [&](PairSums& sums, double from, double to, double weight) {
-      if (forward) sums.add(-kNever, rim_u, std::max(from, rim_u), to, weight);
-      else sums.add(from, std::min(to, rim_u), rim_u, kNever, weight);
+      if (forward) sums.add(own[0], own[1], std::max(from, came_in), to, weight);
+      else sums.add(to, std::min(from, came_in), own[1], own[0], weight);
     };
-    if (forward) add(common, side_u, kNever, far);
-    else add(common, -kNever, side_u, far);
-    if (std::abs(r.d.x()) < 1e-9) return;
+    const auto before_side = [&](double u) { return forward ? std::min(side_u, u) : std::max(side_u, u); };
+    add(anyhow, side_u, onwards, far);
+    if (straight_across) return;
     const double half = std::max(r.gate, 0.5 * kEndStep / std::abs(r.d.x()));
-    const double low_u = r.u((-slack_ - r.a.z()) / r.d.z());  // where the ray is below the tops whatever the slack
-    const double share = (1.0 - kInside) * kMeanFit * r.gate / half;
-    if (forward) {
-      add(common, r.u(1.0), side_u, kInside);
-      add(front_wall, low_u, std::min(side_u, r.u(1.0 - r.gate)), -kThrough);
-      add(front_wall, std::max(rim_u, r.u(1.0 - half)), std::min(side_u, r.u(1.0 + half)), share);
-    } else {
-      add(common, side_u, r.u(1.0), kInside);
-      add(rear_wall, std::max(side_u, r.u(1.0 - r.gate)), low_u, -kThrough);
-      add(rear_wall, std::max(side_u, r.u(1.0 + half)), std::min(rim_u, r.u(1.0 - half)), share);
-    }
+    add(anyhow, r.u(1.0), side_u, kInside);
+    add(wall, r.u(low), before_side(r.u(1.0 - r.gate)), -kThrough);
+    add(wall, r.u(1.0 - half), before_side(r.u(1.0 + half)), (1.0 - kInside) * kMeanFit * r.gate / half);
   }
 
   double inner_, outer_, thickness_, slack_;

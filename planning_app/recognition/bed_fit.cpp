@@ -68,17 +68,20 @@ class Statements {
     return true;
   }
 
-  // Of the residuals, each weighted as the loss weights it.
+  // Of the residuals, each weighted as the loss weights it, and of what is known. Rays that share a wall share its mud, its bends and what was wrongly
+  // decided of an edge, so they tell less than as many that do not; returns in a corner may be of either wall, and tell nothing of one.
   [[nodiscard]] Normal information(const BedVector& values) const {
-    Normal sum = Normal::Identity() * 1e-6;
-    sum(kBedLength, kBedLength) += 1.0 / (kLengthSpread * kLengthSpread);
-    for (const Known& k : kKnown) sum(k.which, k.which) += 1.0 / (k.deviation * k.deviation);
+    Normal sum = Normal::Zero();
     const BedAxes axes(values);
     BedVector slope;
     for (const BedConstraint& c : all_) {
+      if (c.in_corner) continue;
       const double r = residual(c, axes, values, open_end_, &slope);
       sum += slope * slope.transpose() / (1.0 + r * r / (kRobust * kRobust));
     }
+    sum = sum / kShared + Normal::Identity() * 1e-6;
+    for (const Known& k : kKnown) sum(k.which, k.which) += 1.0 / (k.deviation * k.deviation);
+    sum(kBedLength, kBedLength) += 1.0 / (kLengthSpread * kLengthSpread);
     return sum;
   }
 
@@ -111,8 +114,7 @@ FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds
     if (round + 1 < rounds) continue;
     fit.converged = true;
     const Normal inverse = Eigen::LDLT<Normal>(problem.information(values)).solve(Normal::Identity());
-    // Rays that share a wall share its mud, its bends and what was wrongly decided of an edge, so they tell less than as many that do not.
-    fit.covariance = kShared * inverse.topLeftCorner<8, 8>();
+    fit.covariance = inverse.topLeftCorner<8, 8>();
     for (int i = 0; i < 8; ++i) fit.covariance(i, i) += kBodyDeviation[static_cast<std::size_t>(i)] * kBodyDeviation[static_cast<std::size_t>(i)];
   }
   return fit;

@@ -42,9 +42,6 @@ double BedPose::face(int axis, int side, bool outer) const {
   return outer && !(axis == 0 && side == open_end) ? inner + thickness : inner;
 }
 
-namespace {
-
-// a: the sensor, end: the return, in the bed frame.
 RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& end) {
   RayMeeting m;
   const Eigen::Vector3d d = end - a;
@@ -112,8 +109,6 @@ RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eige
   else stopped_within();
   return m;
 }
-
-}  // namespace
 
 RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray& ray) {
   return meet_in_bed(pose, rotation.transpose() * (ray.head - pose.middle), rotation.transpose() * (ray.at - pose.middle));

@@ -49,6 +49,8 @@ struct RayMeeting {
   Eigen::Vector3d entry, rim, end;  // in the bed frame: on the entered face's plane, on the plane of the tops, the return
 };
 
+// a: the sensor, end: the return, in the bed frame.
+RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& end);
 RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray& ray);
 
 struct BedEvidence {

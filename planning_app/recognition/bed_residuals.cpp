@@ -1,5 +1,6 @@
 #include "recognition/bed_residuals.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace berm::app {
@@ -81,14 +82,15 @@ void set_values(BedPose& p, const BedVector& v) {
 }
 
 BedAxes::BedAxes(const BedVector& v) : middle(v.head<3>()) {
-  const double cy = std::cos(v[kBedYaw]), sy = std::sin(v[kBedYaw]), cp = std::cos(v[kBedPitch]), sp = std::sin(v[kBedPitch]);
-  const double cr = std::cos(v[kBedRoll]), sr = std::sin(v[kBedRoll]);
-  axis[0] = {cy * cp, sy * cp, -sp};
-  axis[1] = {cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr};
-  axis[2] = {cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr};
-  for (std::size_t k = 0; k < 3; ++k) turn[0][k] = {-axis[k].y(), axis[k].x(), 0.0};
-  turn[1] = {Vector3d{-cy * sp, -sy * sp, -cp}, Vector3d{cy * cp * sr, sy * cp * sr, -sp * sr}, Vector3d{cy * cp * cr, sy * cp * cr, -sp * cr}};
-  turn[2] = {Vector3d::Zero(), axis[2], -axis[1]};
+  BedPose pose;
+  set_values(pose, v);
+  const Eigen::Matrix3d rotation = pose.rotation();
+  // What turns a bed: yaw about the upright, pitch about the level line across it, roll about its own length.
+  const std::array<Vector3d, 3> about{Vector3d::UnitZ(), Vector3d(-std::sin(pose.yaw), std::cos(pose.yaw), 0.0), rotation.col(0)};
+  for (std::size_t k = 0; k < 3; ++k) {
+    axis[k] = rotation.col(static_cast<Eigen::Index>(k));
+    for (std::size_t angle = 0; angle < 3; ++angle) turn[angle][k] = about[angle].cross(axis[k]);
+  }
 }
 
 double residual(const BedConstraint& c, const BedAxes& axes, const BedVector& values, int open_end, BedVector* slope) {

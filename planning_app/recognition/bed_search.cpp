@@ -21,6 +21,8 @@ constexpr std::size_t kEndsOfStrip = 4, kOfRegion = 5, kFitted = 10, kFittedEnds
 constexpr double kLengthSlack = 0.25;                                   // m, of what is fitted later
 constexpr double kRefineStep = 0.12;                                     // m
 constexpr int kRefineHalvings = 3;
+constexpr std::size_t kRefineStride = 2;                                // of rays, while walls are moved
+constexpr int kFitRounds = 3;                                           // of a fit
 constexpr double kLongest = 2.5;                                        // m, by which something longer is looked for
 constexpr double kLongerBy = 1.04;                                      // its evidence, to be taken for it
 
@@ -64,11 +66,17 @@ std::vector<BedEnds> interpret_region(const FanSweep& sweep, const UprightRegion
   return distinct(std::move(found), kOfRegion);
 }
 
+struct Weighed {
+  BedPose pose;
+  double score = 0.0;
+};
+
 // The pose after a fit, where that agrees better with the rays.
-BedPose fitted(const FanSweep& sweep, const BedPose& start) {
+Weighed fitted(const FanSweep& sweep, const BedPose& start) {
   const std::vector<Ray> rays = rays_near(sweep, start);
-  const FittedBed fit = fit_bed(start, rays, 3);
-  return fit.converged && weigh(fit.pose, rays).score > weigh(start, rays).score ? fit.pose : start;
+  const FittedBed fit = fit_bed(start, rays, kFitRounds);
+  const double before = weigh(start, rays).score, after = fit.converged ? weigh(fit.pose, rays).score : before;
+  return after > before ? Weighed{fit.pose, after} : Weighed{start, before};
 }
 
 }  // namespace
@@ -105,21 +113,21 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
     for (BedEnds& e : interpret_region(sweep, regions[k], ranges, lengths)) found.push_back(std::move(e));
   std::vector<BedEnds> ends;
   for (const BedEnds& rough : distinct(std::move(found), kFitted)) {
-    const BedPose p = fitted(sweep, rough.pose);
-    ends.push_back({p, rough.cab_end, weigh(p, rays_near(sweep, p)).score, rough.cab});
+    const auto [p, score] = fitted(sweep, rough.pose);
+    ends.push_back({p, rough.cab_end, score, rough.cab});
     for (BedEnds& e : best_ends(strip_of(p), rays_around(sweep, p.middle), lengths, 1.0, kEndsOfStrip)) ends.push_back(std::move(e));
   }
   std::vector<BedInterpretation> out;
   for (const BedEnds& e : distinct(std::move(ends), kFittedEnds)) {
     BedInterpretation i;
-    i.pose = fitted(sweep, e.pose);
+    i.pose = fitted(sweep, e.pose).pose;
     weigh_whole(sweep, i);
     out.push_back(std::move(i));
   }
   out = distinct(std::move(out), kInterpretations);
   for (BedInterpretation& i : out) {
-    i.pose = refined(i.pose, every(i.rays, 2), kRefineStep, kRefineHalvings);
-    i.pose = fitted(sweep, i.pose);
+    i.pose = refined(i.pose, every(i.rays, kRefineStride), kRefineStep, kRefineHalvings);
+    i.pose = fitted(sweep, i.pose).pose;
     weigh_whole(sweep, i);
   }
   return distinct(std::move(out), kInterpretations);

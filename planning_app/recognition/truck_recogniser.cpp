@@ -10,11 +10,12 @@ namespace berm::app {
 namespace {
 
 constexpr double kScoreLeast = 100.0;  // evidence of a bed
-constexpr int kInnerLeast = 12;         // returns on inner faces of its far walls
+constexpr int kOuterLeast = 12, kInnerLeast = 12;  // returns on outer faces of its walls, on inner faces of its far ones
 constexpr double kCabSeen = 30.0;      // evidence of a cab that leaves little doubt
 constexpr double kCabFaint = 2.0;      // evidence of anything at all where the cab would stand
 constexpr double kCabLeast = -30.0;   // evidence of its cab
 constexpr int kInnerBeforeCab = 50, kInnerAlone = 150;  // returns on inner faces of a bed that shows no outer one, with its cab and without
+constexpr int kLastRounds = 4;           // of the last fit
 constexpr double kLengthUnsure = 0.5;  // m, standard deviation
 constexpr double kGroundSlack = 0.15;   // m: ruts
 constexpr double kGroundLeast = 0.02;   // share of returns
@@ -102,8 +103,8 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
   if (i.cab < kCabLeast) return fmt::format("rays pass where its cab would stand, at either end: evidence of {:.0f}", i.cab);
   if (!fit.converged) return "the fit of the bed did not converge";
   // From behind an open rear the walls show their inner faces alone, and often hide the cab.
-  if (e.outer_face < 12 && (p.open_end == 0 || e.inner_face < (i.cab < kCabFaint ? kInnerAlone : kInnerBeforeCab)))
-    return fmt::format("the bed has {} returns on outer faces of its walls, and needs 12", e.outer_face);
+  if (e.outer_face < kOuterLeast && (p.open_end == 0 || e.inner_face < (i.cab < kCabFaint ? kInnerAlone : kInnerBeforeCab)))
+    return fmt::format("the bed has {} returns on outer faces of its walls, and needs {}", e.outer_face, kOuterLeast);
   const int over_opening = e.level_inside + e.below_inside + e.above_inside;
   if (e.level_inside > 0.75 * over_opening && over_opening >= 10)
     return fmt::format("it is closed on top: {} of {} returns over its opening lie in the plane of the walls' tops", e.level_inside, over_opening);
@@ -180,7 +181,7 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
   std::vector<Verified> verified;
   for (BedInterpretation& i : interpretations) {
     Verified v;
-    v.fit = fit_bed(i.pose, i.rays, 4);
+    v.fit = fit_bed(i.pose, i.rays, kLastRounds);
     i.pose = v.fit.pose;
     weigh_whole(sweep, i);
     v.refusal = refusal(sweep, i, v.fit, ranges);

@@ -30,6 +30,7 @@ def intrusions(name, *more):
 def trials_are_judged_the_same_again():
     result = intrusions("first")
     assert result["runs"] == TRIALS and result["seed"] == SEED
+    assert result["machine"] == "zx200_ring" and result["histogram"], "the trials are not of the machine that watches its workspace, as shipped"
     kinds = ("detected", "stopped_otherwise", "brief", "undetected", "false_alarm_runs", "not_judged")
     assert sum(result[kind] for kind in kinds) == TRIALS, [result[kind] for kind in kinds]
     assert result["contacts"] == 0, "somebody was touched"
@@ -88,6 +89,7 @@ def quiet_hours_count_what_they_simulate():
     done = run("berm_watch", "--quiet-hours", 0.015, "--seed", 3, "--json", out, timeout=300)
     print(done.stdout[-2000:], done.stderr)
     result = json.loads(out.read_text())
+    assert result["machine"] == "zx200_ring" and result["histogram"], "nor are the quiet hours"
     assert result["hours"] >= 0.015 and len(result["runs"]) >= 1
     assert result["false_alarms"] == len(result["alarms"]) == sum(one["false_alarms"] for one in result["runs"])
     assert done.returncode == (0 if result["false_alarms"] == 0 and result["contacts"] == 0 else 1)

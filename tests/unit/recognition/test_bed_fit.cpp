@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "drawn_bed.hpp"
 #include "recognition/bed_fit.hpp"
@@ -32,6 +35,24 @@ TEST(BedFit, ComesToTheBedFromNearby) {
   EXPECT_LT(fit.covariance(6, 6), 0.05 * 0.05);
   const Eigen::SelfAdjointEigenSolver<Matrix12d> corners(corner_covariance(fit));
   EXPECT_GT(corners.eigenvalues().minCoeff(), -1e-9);
+}
+
+// The rear half of a bed is cut off the sweep: of its length only what the classes tell is known.
+TEST(BedFit, OfAnEndThatNoRayShowsTheLengthIsUnsure) {
+  DrawnBed drawn;
+  drawn.yaw = 0.0;
+  BedPose start;
+  start.middle = {drawn.x, drawn.y, drawn.top};
+  start.length = drawn.length, start.width = drawn.width, start.thickness = drawn.thickness;
+  const std::vector<Ray> all = rays_near(make_fans(sweep_of(drawn), drawn_viewpoint), start);
+  std::vector<Ray> seen;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(seen), [&](const Ray& ray) { return ray.at.x() > drawn.x - 0.5; });
+  const FittedBed whole = fit_bed(start, all, 3), half = fit_bed(start, seen, 3);
+  ASSERT_TRUE(whole.converged && half.converged);
+  EXPECT_LT(std::sqrt(whole.covariance(6, 6)), 0.05);
+  EXPECT_GT(std::sqrt(half.covariance(6, 6)), 0.6);
+  EXPECT_LT(std::sqrt(half.covariance(6, 6)), 0.75);
+  EXPECT_LT(std::sqrt(half.covariance(7, 7)), 0.1) << "its width is seen";
 }
 
 TEST(BedFit, SaysWhenTooFewRaysSpeakOfTheBed) { EXPECT_FALSE(fit_bed({}, {}, 3).converged); }

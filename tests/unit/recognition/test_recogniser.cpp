@@ -69,6 +69,19 @@ TEST(TruckRecogniser, RefusesWhatEndsOutOfSightAndHasNoCab) {
   }
 }
 
+// The sweep's sector cuts it off: the last scanline meets the corner's far side alone.
+TEST(TruckRecogniser, RefusesWhatHasNoCabAndOneEndToSee) {
+  for (const double x : {7.0, 7.5, 8.0, 8.5, 9.0}) {
+    DrawnBed container;
+    container.cab = false;
+    container.length = 6.0;
+    container.x = x;
+    container.yaw = 0.0;
+    SCOPED_TRACE(x);
+    expect_refused(container, "an end of it is not seen");
+  }
+}
+
 TEST(TruckRecogniser, RefusesABedWithoutACab) {
   DrawnBed bed;
   bed.cab = false;
