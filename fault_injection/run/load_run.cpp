@@ -20,6 +20,7 @@
 #include "run/contract_text.hpp"
 #include "run/kernel_session.hpp"
 #include "run/parameter_file.hpp"
+#include "run/recognised_truck.hpp"
 #include "run/recorder.hpp"
 #include "run/scenario_names.hpp"
 #include "run/site_picture.hpp"
@@ -124,10 +125,12 @@ class LoadRun {
     // The app runs as a stranger to this folder: it reads copies.
     std::filesystem::copy_file(machine_, folder_.file("machine.toml"));
     std::filesystem::copy_file(site_, folder_.file("site.toml"));
+    std::filesystem::copy_file(truck_classes_file(), folder_.file("truck_classes.toml"));
     ChildOptions app;
     app.program = program_folder() + "/berm_app";
-    app.arguments = {"--machine", folder_.file("machine.toml"), "--site", folder_.file("site.toml"), "--socket", folder_.file("kernel.sock"),
-                     "--trucks",  std::to_string(options_.trucks), "--tick-fd", std::to_string(kTickDescriptor)};
+    app.arguments = {"--machine", folder_.file("machine.toml"), "--site", folder_.file("site.toml"), "--truck-classes", folder_.file("truck_classes.toml"),
+                     "--socket", folder_.file("kernel.sock"), "--trucks", std::to_string(options_.trucks), "--tick-fd", std::to_string(kTickDescriptor)};
+    if (!options_.realtime) app.arguments.push_back("--lockstep");
     app.descriptors = {{ticks.second(), kTickDescriptor}};
     if (uids_.separate) app.uid = uids_.app;
     app_.start(app);
@@ -256,6 +259,12 @@ class LoadRun {
       if (name == "pass") {
         say(fmt::format("{:7.1f} s  truck {} pass {:2}: {:.2f} t in {:.1f} s", recorder_.time_s(), event.value("truck", 1), event.value("pass", 0),
                         event.value("payload_kg", 0.0) / 1000, event.value("seconds", 0.0)));
+      } else if (name == "recognised") {
+        say(fmt::format("{:7.1f} s  truck {} recognised: {}, {:.2f} x {:.2f} m, walls {:.2f} m high, at ({:.2f}, {:.2f}), {:.1f} deg", recorder_.time_s(), event.value("truck", 1),
+                        event.value("class", "?"), event.value("length_m", 0.0), event.value("width_m", 0.0), event.value("height_m", 0.0), event.value("x_m", 0.0),
+                        event.value("y_m", 0.0), event.value("yaw_deg", 0.0)));
+      } else if (name == "no_truck") {
+        say(fmt::format("{:7.1f} s  no truck recognised: {}", recorder_.time_s(), event.value("reason", "?")));
       } else if (name == "truck_full") {
         say(fmt::format("{:7.1f} s  truck {} is full", recorder_.time_s(), event.value("truck", 1)));
       } else if (name == "stopped") {
@@ -324,10 +333,14 @@ class LoadRun {
     picture.path = recorder_.path();
     picture.stops = recorder_.stop_events();
     describe_site(machine_, site_, picture);
+    picture.truck_bed = recognised_bed(result_.app_events);
     picture.movers = mover_paths(out_ + "/trace.csv");
     write_site_picture(out_ + "/site.svg", picture);
     config::write_whole_file(out_ + "/result.json", flat_json(result_).dump(2) + "\n");
-    result_.notes.push_back(fmt::format("trace.csv, truth.json, journal.mcap, site.svg and result.json are in {}", out_));
+    std::string events;
+    for (const json& event : result_.app_events) events += event.dump() + "\n";
+    config::write_whole_file(out_ + "/app.jsonl", events);
+    result_.notes.push_back(fmt::format("trace.csv, truth.json, journal.mcap, app.jsonl, site.svg and result.json are in {}", out_));
   }
 
   void say(const std::string& words) const {

@@ -33,6 +33,7 @@ std::string find_file(const std::string& kind, const std::string& folder, const 
 
 std::string find_machine(const std::string& name) { return find_file("machine", "interface_spec/config/machines", name); }
 std::string find_site(const std::string& name) { return find_file("site", "interface_spec/config/sites", name); }
+std::string truck_classes_file() { return find_file("truck classes", "interface_spec/config", "truck_classes"); }
 std::string find_scenario(const std::string& name) { return find_file("scenario", "fault_injection/scenarios", name); }
 
 void compile_parameter_file(const std::string& machine, const std::string& site, const std::string& path) {

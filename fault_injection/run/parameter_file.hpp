@@ -10,6 +10,8 @@ namespace berm::run {
 std::string find_machine(const std::string& name);
 std::string find_site(const std::string& name);
 std::string find_scenario(const std::string& name);
+// The classes of trucks that the app recognises.
+std::string truck_classes_file();
 
 // A child process has told on standard error what is wrong; nothing more is to be said.
 class ToldAlready : public std::exception {

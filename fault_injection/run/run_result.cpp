@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "run/recognised_truck.hpp"
+
 namespace berm::run {
 
 namespace {
@@ -140,6 +142,7 @@ json flat_json(const RunResult& r) {
   out["spill_fraction"] = r.truth.value("spill_fraction", 0.0);
   out["load_centre_offset_m"] = r.truth.value("load_centre_offset_m", 0.0);
   out["load_height_stddev_m"] = r.truth.value("load_height_stddev_m", 0.0);
+  out["recognition_error_m"] = recognition_errors(r.app_events, r.truth);
   out["contacts"] = r.contacts;
   out["closest_approach_m"] = r.truth.contains("closest_approach_m") ? r.truth["closest_approach_m"] : json(nullptr);
   out["kernel_stops"] = r.stops;
@@ -197,6 +200,8 @@ std::string summary_text(const RunResult& r) {
     row("seconds per pass", fmt::format("median {:.1f}, {:.1f} to {:.1f}", sorted[sorted.size() / 2], sorted.front(), sorted.back()));
   row("spill", fmt::format("{:.2f} % of what was dug", 100 * j["spill_fraction"].get<double>()));
   row("load", fmt::format("centre {:.2f} m off the bed's, height standard deviation {:.2f} m", j["load_centre_offset_m"].get<double>(), j["load_height_stddev_m"].get<double>()));
+  if (const auto errors = recognition_errors(r.app_events, r.truth); !errors.empty())
+    row("trucks recognised", fmt::format("{}, the worst corner {:.1f} cm off", errors.size(), 100 * *std::max_element(errors.begin(), errors.end())));
   row("contacts (oracle)", fmt::format("{}", r.contacts));
   if (r.truth.contains("contact_list"))
     for (const auto& contact : r.truth["contact_list"]) row("", contact.is_string() ? contact.get<std::string>() : contact.dump());

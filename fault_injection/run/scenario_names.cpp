@@ -62,10 +62,7 @@ void describe_site(const std::string& machine, const std::string& site, SitePict
   }
   const auto truck = toml::find(s, "truck");
   const auto& centre = toml::find(truck, "centre").as_array();
-  const double cx = number(centre[0]), cy = number(centre[1]), yaw = number(truck, "yaw_deg") * std::numbers::pi / 180;
-  for (const auto& [x, y] : rectangle(-number(truck, "length") / 2, -number(truck, "width") / 2, number(truck, "length") / 2, number(truck, "width") / 2))
-    picture.truck_bed.emplace_back(cx + x * std::cos(yaw) - y * std::sin(yaw), cy + x * std::sin(yaw) + y * std::cos(yaw));
-  picture.truck_bearing_rad = std::atan2(cy, cx);
+  picture.truck_bearing_rad = std::atan2(number(centre[1]), number(centre[0]));
   picture.dig_bearing_rad = 0.0;
 }
 

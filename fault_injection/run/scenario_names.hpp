@@ -16,7 +16,7 @@ struct ScenarioNames { std::string machine, site; };
 ScenarioNames scenario_names(const std::string& path);
 // How many lidars on the upper body a machine file has: [[lidar]].
 std::size_t lidar_count(const std::string& machine);
-// Fills the arm, dig zones, truck bed and bearings.
+// Fills the arm, dig zones and bearings.
 void describe_site(const std::string& machine, const std::string& site, SitePictureInput& picture);
 // From the columns NAME_x_m and NAME_y_m of trace.csv; only what moved.
 std::vector<MoverPath> mover_paths(const std::string& trace);

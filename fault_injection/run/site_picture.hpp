@@ -20,7 +20,7 @@ struct SitePictureInput {
   std::vector<StopEvent> stops;
   std::vector<MoverPath> movers;              // from the ground truth, for the reader only
   std::vector<std::vector<Point2>> dig_zones; // outlines, base frame
-  std::vector<Point2> truck_bed;              // outline
+  std::vector<Point2> truck_bed;              // outline, as the app recognised the last one
   double dig_bearing_rad = 0.0, truck_bearing_rad = 0.0;  // the two profiles of the side view
   struct { double boom_pin_x, boom_pin_z, boom, stick, bucket; } arm{};
 };

@@ -128,7 +128,7 @@ std::string legend(std::span<const Colour> from, bool histograms, double at_x, d
   row("<circle cx=\"8\" cy=\"7\" r=\"6\" fill=\"none\" stroke=\"#111\" stroke-width=\"2.5\"/>", "cell of an alarm, with its time");
   row("<circle cx=\"8\" cy=\"7\" r=\"6\" fill=\"none\" stroke=\"#7c3aed\" stroke-width=\"3\"/>", "cell of a false alarm: nobody within 1 m");
   row("<path d=\"M0 7 H16\" stroke=\"#b45309\" stroke-width=\"2\" stroke-dasharray=\"6 4\"/>", "dig zone");
-  row("<path d=\"M0 7 H16\" stroke=\"#111\" stroke-width=\"1.5\" stroke-dasharray=\"2 2\"/>", "place of the truck's bed");
+  row("<path d=\"M0 7 H16\" stroke=\"#111\" stroke-width=\"1.5\" stroke-dasharray=\"2 2\"/>", "truck's bed, as it was recognised");
   return text;
 }
 

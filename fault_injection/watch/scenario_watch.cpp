@@ -11,6 +11,7 @@
 #include "run/contract_text.hpp"
 #include "run/kernel_session.hpp"
 #include "run/load_run.hpp"
+#include "run/recognised_truck.hpp"
 #include "run/scenario_names.hpp"
 #include "watch/journal_walk.hpp"
 #include "watch/monitor_picture.hpp"
@@ -123,6 +124,7 @@ ScenarioResult watch_scenario(const ScenarioOptions& options) {
   result.false_alarms = follower.watch().false_alarms();
   if (picture) {
     run::describe_site(files.machine, files.site, picture->site);
+    picture->site.truck_bed = run::recognised_bed(done.app_events);
     picture->paths = run::mover_paths(load.out + "/trace.csv");
     std::erase_if(picture->paths, [](const run::MoverPath& path) { return path.name.starts_with("truck"); });
     picture->alarms = result.alarms;

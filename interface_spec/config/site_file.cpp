@@ -69,10 +69,6 @@ TruckPlaceFile read_truck(StrictTable table) {
   TruckPlaceFile truck{};
   truck.centre = table.array<2>("centre", -15.0, 15.0);
   truck.yaw = table.degrees("yaw_deg", -180.0, 180.0);
-  truck.length = table.number("length", 1.0, 12.0);
-  truck.width = table.number("width", 1.0, 6.0);
-  truck.height = table.number("height", 0.2, 4.0);
-  truck.wall_top = table.number("wall_top", -10.0, 6.0);
   truck.target_kg = table.number("target_kg", 100.0, 200000.0);
   table.finish();
   return truck;

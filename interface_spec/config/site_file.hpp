@@ -12,11 +12,9 @@ struct GroundZoneFile { double x_low, x_high, y_low, y_high, pass_over; };  // l
 struct TruckZoneFile { double x_low, x_high, y_low, y_high, ceiling; };
 struct LaneFile { double x_low, x_high, y_low, y_high; };
 
-struct TruckPlaceFile {            // the inside of the bed of a parked truck
-  std::array<double, 2> centre;
-  double yaw;                      // of the bed's long axis, from base x
-  double length, width, height;    // height: floor to wall top
-  double wall_top;                 // z of the wall tops
+struct TruckPlaceFile {            // where trucks park
+  std::array<double, 2> centre;    // about the middle of the bed
+  double yaw;                      // of the bed's long axis, either way round, from base x
   double target_kg;
 };
 

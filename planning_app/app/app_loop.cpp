@@ -36,7 +36,7 @@ LoopEnd run_loop(const MachineModel& machine, KernelLink& link, Sequencer& seque
     }
     handled = state.cycle;
     any = true;
-    intake.take(link.segment(), sequencer.terrain(), sequencer.bed());
+    intake.take(link.segment(), sequencer.terrain(), sequencer.bed(), sequencer.sweep());
     if (state.cycle % map_every == 0) sequencer.kernel_map().take(link.segment());
     const Answer answer = sequencer.step(observe(state));
     link.write(make_request(machine, answer, ++sequence, state.time_us));

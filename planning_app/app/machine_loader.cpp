@@ -35,33 +35,12 @@ MachineModel machine_model(const config::MachineFile& file) {
   return m;
 }
 
-namespace {
-
-// How far from the bed's centre, to this side along it, the truck zones hold its centre line: to the centimetre, no farther than a truck is long.
-double zone_reach(const config::SiteFile& file, double side) {
-  constexpr double step = 0.01, longest = 15.0;
-  const config::TruckPlaceFile& t = file.truck;
-  const auto held = [&](double u) {
-    const double x = t.centre[0] + u * std::cos(t.yaw), y = t.centre[1] + u * std::sin(t.yaw);
-    return std::any_of(file.truck_zone.begin(), file.truck_zone.end(),
-                       [&](const config::TruckZoneFile& z) { return x >= z.x_low && x <= z.x_high && y >= z.y_low && y <= z.y_high; });
-  };
-  double reach = 0.0;
-  while (reach < longest && held(side * (reach + step))) reach += step;
-  return reach;
-}
-
-}  // namespace
-
 SiteModel site_model(const config::SiteFile& file) {
   SiteModel s;
   for (const config::DigZoneFile& z : file.dig_zone) s.dig_zones.push_back({z.x_low, z.y_low, z.x_high, z.y_high, z.floor, z.ceiling});
   const config::TruckPlaceFile& t = file.truck;
-  s.truck = {t.centre[0], t.centre[1], t.yaw, t.length, t.width, t.height, t.wall_top, t.target_kg};
-  if (!file.truck_zone.empty()) {
-    s.truck.zone_low = -zone_reach(file, -1.0);
-    s.truck.zone_high = zone_reach(file, 1.0);
-  }
+  s.place = {t.centre[0], t.centre[1], t.yaw, t.target_kg};
+  for (const config::TruckZoneFile& z : file.truck_zone) s.truck_zones.push_back({z.x_low, z.y_low, z.x_high, z.y_high});
   s.dig_swing_left = std::max(file.dig.swing[0], file.dig.swing[1]);
   s.dig_swing_right = std::min(file.dig.swing[0], file.dig.swing[1]);
   s.dig_radius_start = std::max(file.dig.radius[0], file.dig.radius[1]);

@@ -1,4 +1,5 @@
 // berm_app: the planning app. Trusted with nothing: it sees the kernel's state segment and writes motion requests.
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
@@ -10,6 +11,7 @@
 
 #include "app/app_loop.hpp"
 #include "app/machine_loader.hpp"
+#include "app/recognition_thread.hpp"
 #include "app/sandbox.hpp"
 #include "config/command_line.hpp"
 
@@ -20,9 +22,10 @@ volatile std::sig_atomic_t stop_requested = 0;  // set by a signal handler, whic
 void on_signal(int) { stop_requested = 1; }
 
 struct Options {
-  std::string machine, site, socket;
+  std::string machine, site, truck_classes, socket;
   int trucks = 1;
   int tick_fd = -1;
+  bool lockstep = false;
 };
 
 int run(const Options& options) {
@@ -33,7 +36,10 @@ int run(const Options& options) {
   const MachineModel machine = machine_model(berm::config::load_machine_file(options.machine));
   const SiteModel site = site_model(berm::config::load_site_file(options.site));
   const ProgressLog log(1);
-  Sequencer sequencer(machine, site, options.trucks, log);
+  constexpr double lockstep_answer_s = 0.2;  // from a sweep to its truck; twice what it takes
+  const auto lockstep_cycles = static_cast<std::uint64_t>(options.lockstep ? std::ceil(lockstep_answer_s / machine.cycle) : 0.0);
+  RecognitionThread finder(read_truck_ranges(options.truck_classes), lockstep_cycles);
+  Sequencer sequencer(machine, site, options.trucks, finder, log);
   KernelLink link(options.socket);
   keep.push_back(link.socket_fd());
   close_all_but(keep);
@@ -53,9 +59,11 @@ int main(int argc, char** argv) {
   Options options;
   cli.add_option("--machine", options.machine, "machine file (TOML)")->required()->check(CLI::ExistingFile);
   cli.add_option("--site", options.site, "site file (TOML)")->required()->check(CLI::ExistingFile);
+  cli.add_option("--truck-classes", options.truck_classes, "file of truck classes that are recognised (TOML)")->required()->check(CLI::ExistingFile);
   cli.add_option("--socket", options.socket, "the kernel's Unix socket")->required();
   cli.add_option("--trucks", options.trucks, "trucks to load")->check(CLI::Range(1, 1000));
   cli.add_option("--tick-fd", options.tick_fd, "inherited SOCK_SEQPACKET descriptor for the simulation's tick")->check(CLI::Range(3, 1 << 20));
+  cli.add_flag("--lockstep", options.lockstep, "in simulation: time waits for the app");
   if (const auto status = berm::config::parse_options(cli, argc, argv)) return *status;
   struct sigaction action {};
   action.sa_handler = on_signal;  // no SA_RESTART: waiting calls return

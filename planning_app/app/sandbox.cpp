@@ -27,7 +27,11 @@ public:
   void allow(int call) { check(seccomp_rule_add_array(context_.get(), SCMP_ACT_ALLOW, call, 0, nullptr)); }
   void allow(int call, const scmp_arg_cmp& condition) { check(seccomp_rule_add_array(context_.get(), SCMP_ACT_ALLOW, call, 1, &condition)); }
   void kill(int call) { check(seccomp_rule_add_array(context_.get(), SCMP_ACT_KILL_PROCESS, call, 0, nullptr)); }
-  void load() { check(seccomp_load(context_.get())); }
+  // Of every thread, those that run already as well.
+  void load() {
+    check(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_TSYNC, 1));
+    check(seccomp_load(context_.get()));
+  }
 
 private:
   static void check(int result) {

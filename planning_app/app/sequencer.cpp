@@ -24,9 +24,9 @@ const char* phase_name(std::uint16_t phase) {
 
 }  // namespace
 
-Sequencer::Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, const ProgressLog& log)
-    : machine_(machine), site_(site), log_(log), trucks_(trucks), bed_(site.truck), arm_(machine_), scanners_(machine_), recovery_(machine_),
-      fill_(site.truck.target_kg) {
+Sequencer::Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, TruckFinder& finder, const ProgressLog& log)
+    : machine_(machine), site_(site), log_(log), trucks_(trucks), arm_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_),
+      fill_(site.place.target_kg) {
   scanners_.begin_full_sweep();
   dig_.bearing = site.dig_swing_right - radians(60.0);  // no dig before the first: nothing to stay away from
 }
@@ -51,7 +51,9 @@ void Sequencer::look(const Observation& o) {
 void Sequencer::begin_approach(const Observation& o, bool lower) {
   goal_kg_ = fill_.next_goal_kg(full_bucket_kg);
   plan_next_dig();
-  const auto script = approach_script(machine_, site_, {o.angle, dig_.bearing, {dig_.drag.front().r, dig_.drag.front().z}, lower});
+  std::optional<PlanePoint> entry;
+  if (lower) entry = PlanePoint{dig_.drag.front().r, dig_.drag.front().z};
+  const auto script = approach_script(machine_, {o.angle, dig_.bearing, site_.bed->wall_top, entry});
   if (!script) {
     log_.event("unreachable", {{"time_s", o.time_s}, {"what", "start of the dig"}});
     return;
@@ -61,6 +63,56 @@ void Sequencer::begin_approach(const Observation& o, bool lower) {
   script_s_ = -1.0;
   task_.next_bearing = dig_.bearing;
   enter(Stage::approach, o);
+}
+
+// Raised, to where the scanner on the truck's side sees the whole place.
+void Sequencer::begin_look(const Observation& o) {
+  constexpr double over_heaps = 0.4;  // z, on the ground that it stands on
+  const auto script = approach_script(machine_, {o.angle, look_.bearing(), over_heaps, std::nullopt});
+  if (!script) {
+    log_.event("unreachable", {{"time_s", o.time_s}, {"what", "where the truck is looked for"}});
+    return;
+  }
+  script_ = *script;
+  script_.start();
+  script_s_ = -1.0;
+  enter(Stage::go_look, o);
+}
+
+Joints Sequencer::go_look(const Observation& o) {
+  enter_phase(BERM_PHASE_WAIT, o);
+  if (!o.truck_parked) {
+    enter(Stage::wait_truck, o);
+    return {};
+  }
+  const Joints command = run_script(o, event_none);
+  if (script_.at_last() && std::fabs(script_.goals()[swing] - o.angle[swing]) < arrived && std::fabs(o.velocity[swing]) < still) {
+    look_.begin(o, scanners_);
+    enter(Stage::look, o);
+  }
+  return command;
+}
+
+Joints Sequencer::look_for_truck(const Observation& o) {
+  if (!o.truck_parked) {
+    look_.stop(scanners_);
+    enter(Stage::wait_truck, o);
+    return {};
+  }
+  if (const auto bed = look_.step(o, scanners_, truck_, log_)) begin_truck(o, *bed);
+  return {};
+}
+
+void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
+  site_.bed = bed;
+  bed_.emplace(bed);
+  for (const ScanPoint& p : look_.sweep().points()) bed_->insert(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), p.time_s);
+  skyline_.reset();
+  look(o);
+  fill_ = TruckFill(site_.place.target_kg);
+  pass_ = 0;
+  pass_began_s_ = truck_began_s_ = o.time_s;
+  begin_approach(o, true);
 }
 
 void Sequencer::hear(const Observation& o) {
@@ -142,7 +194,7 @@ void Sequencer::end_pass(const Observation& o) {
   const double payload = fill_.loaded_kg() - had;
   if (weighed) learn_yield(before);
   poor_passes_ = payload < poor_share * goal_kg_ ? poor_passes_ + 1 : 0;
-  bed_.note_dump(dump_.u, payload);
+  bed_->note_dump(dump_.u, payload);
   ++pass_;
   log_.event("pass", {{"pass", pass_}, {"truck", truck_}, {"seconds", o.time_s - pass_began_s_}, {"payload_kg", payload}, {"loaded_kg", fill_.loaded_kg()},
                       {"dump_u_m", dump_.u}, {"dig_bearing_deg", degrees(task_.lifted_from[swing])}, {"time_s", o.time_s}});
@@ -158,7 +210,7 @@ void Sequencer::end_pass(const Observation& o) {
     else begin_approach(o, true);  // it weighed less than expected
     return;
   }
-  log_.event("truck_full", {{"truck", truck_}, {"payload_kg", fill_.loaded_kg()}, {"target_kg", site_.truck.target_kg}, {"passes", fill_.passes()},
+  log_.event("truck_full", {{"truck", truck_}, {"payload_kg", fill_.loaded_kg()}, {"target_kg", site_.place.target_kg}, {"passes", fill_.passes()},
                             {"seconds", o.time_s - truck_began_s_}});
   enter_phase(BERM_PHASE_WAIT, o);
   enter(Stage::horn, o);
@@ -172,13 +224,11 @@ Joints Sequencer::plan(const Observation& o) {
     case Stage::wait_truck:
       if (o.truck_parked) {
         log_.event("truck", {{"truck", truck_}, {"time_s", o.time_s}});
-        fill_ = TruckFill(site_.truck.target_kg);
-        bed_.clear();
-        pass_ = 0;
-        pass_began_s_ = truck_began_s_ = o.time_s;
-        begin_approach(o, true);
+        begin_look(o);
       }
       return {};
+    case Stage::go_look: return go_look(o);
+    case Stage::look: return look_for_truck(o);
     case Stage::approach: return approach(o);
     case Stage::settle: return settle(o);
     case Stage::dig: return dig(o);
@@ -196,6 +246,8 @@ Joints Sequencer::plan(const Observation& o) {
       return {};
     case Stage::wait_leave:
       if (!o.truck_parked) {
+        site_.bed.reset();
+        bed_.reset();
         ++truck_;
         enter(Stage::wait_truck, o);
       }
@@ -244,8 +296,10 @@ Answer Sequencer::step(const Observation& o) {
   const Recovery::Advice advice = recovery_.step(o, log_);
   if (advice.rescan) scanners_.begin_full_sweep();
   if (advice.resumed && advice.moved && (stage_ == Stage::dig || stage_ == Stage::settle || stage_ == Stage::approach)) begin_approach(o, true);
+  if (advice.resumed && (stage_ == Stage::go_look || stage_ == Stage::look)) begin_look(o);
   if (advice.in_charge) {
     answer.velocity = advice.velocity;
+    if (stage_ == Stage::look) look_.stop(scanners_);
     if (stage_ == Stage::survey && scanners_.full_sweep_done()) enter(Stage::wait_truck, o);
   } else {
     const Joints wanted = plan(o);
@@ -255,7 +309,7 @@ Answer Sequencer::step(const Observation& o) {
   if (o.running())
     for (std::size_t j = 0; j < joints; ++j) answer.velocity[j] = std::clamp(answer.velocity[j], o.permitted_low[j], o.permitted_high[j]);
   arm_.asked(answer.velocity);
-  const double truck_bearing = std::atan2(site_.truck.centre_y, site_.truck.centre_x);
+  const double truck_bearing = site_.bed ? std::atan2(site_.bed->centre_y, site_.bed->centre_x) : std::atan2(site_.place.y, site_.place.x);
   const bool lifts_soon = stage_ == Stage::curl || (stage_ == Stage::dig && follower_.progress() > 0.6);
   answer.pan = scanners_.step(lifts_soon ? std::uint16_t{BERM_PHASE_LIFT} : phase_, task_.next_bearing, truck_bearing, o.angle[swing], o.velocity[swing], o.pan);
   answer.phase = phase_;

@@ -1,4 +1,4 @@
-// The cycle sequencer: survey, wait for a truck, then dig, lift, swing, dump, swing back, until the truck is full; next truck, until all are.
+// The cycle sequencer: survey, wait for a truck, look where it stands and how large it is, then dig, lift, swing, dump, swing back, until the truck is full; next truck, until all are.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,7 @@
 #include "app/progress_log.hpp"
 #include "app/recovery.hpp"
 #include "app/slow_down.hpp"
+#include "app/truck_look.hpp"
 #include "app/weighing.hpp"
 #include "motion/dig_path.hpp"
 #include "perception/kernel_map.hpp"
@@ -21,7 +22,8 @@ namespace berm::app {
 
 class Sequencer {
 public:
-  Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, const ProgressLog& log);
+  // finder must outlive it.
+  Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, TruckFinder& finder, const ProgressLog& log);
 
   Sequencer(const Sequencer&) = delete;  // parts of it point into it
   Sequencer& operator=(const Sequencer&) = delete;
@@ -33,12 +35,13 @@ public:
   const SlowDown& slow_down() const { return slow_down_; }
   KernelMap& kernel_map() { return kernel_map_; }
   TerrainMap& terrain() { return terrain_; }
-  BedMap& bed() { return bed_; }
+  BedMap* bed() { return bed_ ? &*bed_ : nullptr; }  // of the truck that was recognised
+  TruckSweep& sweep() { return look_.sweep(); }
 
 private:
   static constexpr double full_bucket_kg = 1560.0;  // what a pass is planned to bring at most
 
-  enum class Stage { survey, wait_truck, approach, settle, dig, curl, pass, horn, wait_leave, exhausted, finished };
+  enum class Stage { survey, wait_truck, go_look, look, approach, settle, dig, curl, pass, horn, wait_leave, exhausted, finished };
 
   void enter(Stage stage, const Observation& o);
   void enter_phase(std::uint16_t phase, const Observation& o);
@@ -57,6 +60,10 @@ private:
   void note_cut(const Observation& o);
   void learn_yield(double weighed_kg);
   void begin_approach(const Observation& o, bool lower);
+  void begin_look(const Observation& o);
+  Joints go_look(const Observation& o);
+  Joints look_for_truck(const Observation& o);
+  void begin_truck(const Observation& o, const TruckBed& bed);
   void begin_dig(const Observation& o);
   void begin_curl(const Observation& o);
   void begin_pass_search(const Observation& o, const Joints& lifted_from);
@@ -73,11 +80,12 @@ private:
 
   KernelMap kernel_map_;
   TerrainMap terrain_;
-  BedMap bed_;
+  std::optional<BedMap> bed_;
   std::optional<Skyline> skyline_;
   double skyline_s_ = 0.0;
   ArmController arm_;
   ScanScheduler scanners_;
+  TruckLook look_;
   Recovery recovery_;
   SlowDown slow_down_;
   std::uint64_t heard_cycle_ = 0;

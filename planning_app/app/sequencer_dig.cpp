@@ -114,17 +114,17 @@ void Sequencer::begin_curl(const Observation& o) {
 }
 
 void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_from) {
-  dump_ = choose_dump_point(bed_, 0.5 * bucket_width(machine_), o.time_s - bed_points_age);
+  dump_ = choose_dump_point(*bed_, 0.5 * bucket_width(machine_), o.time_s - bed_points_age);
   const double expected = fill_.loaded_kg() + goal_kg_;
-  const bool more = expected < TruckFill::full_share * site_.truck.target_kg;
+  const bool more = expected < TruckFill::full_share * site_.place.target_kg;
   const double here = o.angle[swing];
   dig_.bearing = here;
   plan_next_dig();
-  task_ = PassTask{lifted_from, dump_.bearing, dump_.radius, dig_.bearing, {dig_.drag.front().r, dig_.drag.front().z}, site_.truck.wall_top, more};
+  task_ = PassTask{lifted_from, dump_.bearing, dump_.radius, dig_.bearing, {dig_.drag.front().r, dig_.drag.front().z}, site_.bed->wall_top, site_.bed->wall_top, more};
   task_.lifted_from[swing] = here;
   const Skyline skyline(machine_, site_, kernel_map_.ground(KernelMap::Unseen::level));
   task_.truck_top = skyline.highest(dump_.bearing - near_truck, dump_.bearing + near_truck, 4.2, 8.6);
-  const auto poses = pass_poses(machine_, site_, task_);
+  const auto poses = pass_poses(machine_, task_);
   if (!poses) {
     log_.event("unreachable", {{"time_s", o.time_s}, {"what", "dump point"}, {"bearing_deg", degrees(dump_.bearing)}, {"radius_m", dump_.radius}});
     search_.reset();
@@ -139,7 +139,7 @@ Joints Sequencer::curl(const Observation& o) {
   if (cut_) cut_->reach(o.angle);
   if (trimming_) return trim(o);
   const bool done = !follower_.active() || follower_.finished() || o.time_s - stage_s_ > 5.0 || forward(machine_, o.angle).bucket_attitude < curled + radians(6.0);
-  if (done && !trimmed_ && recent_.kg() > TruckFill::trim_share * site_.truck.target_kg - fill_.loaded_kg()) {
+  if (done && !trimmed_ && recent_.kg() > TruckFill::trim_share * site_.place.target_kg - fill_.loaded_kg()) {
     log_.event("trim", {{"time_s", o.time_s}, {"payload_kg", recent_.kg()}, {"loaded_kg", fill_.loaded_kg()}});
     trimming_ = trimmed_ = true;
     trim_since_s_ = o.time_s;
@@ -166,7 +166,7 @@ Joints Sequencer::curl(const Observation& o) {
 // The last bucket would overload the truck: over the dig, lets go of what is too much, tilt by tilt, then curls again.
 Joints Sequencer::trim(const Observation& o) {
   constexpr double tilt_rate = radians(12.0), longest_s = 12.0, steepest = radians(-75.0);
-  const double goal = site_.truck.target_kg - fill_.loaded_kg();
+  const double goal = site_.place.target_kg - fill_.loaded_kg();
   const double attitude = forward(machine_, o.angle).bucket_attitude;
   if (recent_.kg() <= goal || o.time_s - trim_since_s_ > longest_s || attitude > steepest) {
     trimming_ = false;

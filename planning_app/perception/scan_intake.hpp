@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "contract/berm_contract.h"
+#include "perception/truck_sweep.hpp"
 #include "planning/bed_map.hpp"
 #include "planning/terrain_map.hpp"
 
@@ -11,8 +12,8 @@ namespace berm::app {
 
 class ScanIntake {
 public:
-  // Points that the kernel took into its map go into terrain and bed. Returns the number of points.
-  int take(const berm_state_segment& segment, TerrainMap& terrain, BedMap& bed);
+  // Points that the kernel took into its map go into terrain and bed (null: none is known), whole blocks into the sweep. Returns the number of points.
+  int take(const berm_state_segment& segment, TerrainMap& terrain, BedMap* bed, TruckSweep& sweep);
   std::uint64_t blocks_missed() const { return missed_; }
 
 private:

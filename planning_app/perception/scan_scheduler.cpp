@@ -73,6 +73,27 @@ PanSector ScanScheduler::sector(std::size_t scanner, std::uint16_t phase, double
   return s;
 }
 
+void ScanScheduler::begin_look(std::size_t scanner, const PanSector& bearings) {
+  looker_ = scanner;
+  look_bearings_ = bearings;
+  look_ = Look::goes;
+}
+
+PanRequest ScanScheduler::look(double swing_angle, double pan) {
+  constexpr double there = radians(0.5);
+  const ScannerMount& mount = machine_.scanner[looker_];
+  const auto to_pan = [&](double bearing) { return std::clamp(bearing - swing_angle, mount.pan_low, mount.pan_high); };
+  const double low = to_pan(look_bearings_.low), high = to_pan(look_bearings_.high);
+  if (look_ == Look::goes) {
+    look_up_ = pan < 0.5 * (low + high);
+    if (std::fabs(pan - (look_up_ ? low : high)) < there) look_ = Look::sweeps;
+  }
+  if (look_ == Look::goes) return {look_up_ ? low : high, std::min(azimuth_rate, mount.pan_rate_max)};
+  const double end = look_up_ ? high : low;
+  if (std::fabs(pan - end) < there) look_ = Look::done;
+  return {end, std::min(look_rate, mount.pan_rate_max)};
+}
+
 std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, double truck, double swing_angle, double swing_speed, const std::array<double, 2>& pan) {
   std::array<PanRequest, 2> request;
   const std::size_t ahead = truck >= dig ? left : right;
@@ -81,6 +102,10 @@ std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, d
   for (std::size_t i = 0; i < head_.size(); ++i) {
     const ScannerMount& mount = machine_.scanner[i];
     Head& head = head_[i];
+    if (look_ != Look::none && i == looker_) {
+      request[i] = look(swing_angle, pan[i]);
+      continue;
+    }
     if (pan[i] < mount.pan_low + 2.0 * at_end) head.low_seen = true;
     if (pan[i] > mount.pan_high - 2.0 * at_end) head.high_seen = true;
     const bool whole = !(head.low_seen && head.high_seen);

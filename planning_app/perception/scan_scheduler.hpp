@@ -17,6 +17,7 @@ struct PanSector { double low = 0.0, high = 0.0; };          // rad, relative to
 class ScanScheduler {
 public:
   static constexpr double azimuth_rate = radians(38.0);
+  static constexpr double look_rate = radians(30.0);
 
   explicit ScanScheduler(const MachineModel& machine);
 
@@ -24,6 +25,13 @@ public:
   void begin_full_sweep();
   // Both have seen their whole range since begin_full_sweep.
   bool full_sweep_done() const;
+
+  // Sweeps one scanner over these bearings (base frame) once, from the end that is nearer, slowly enough for the truck recogniser (a scanline a degree);
+  // the other goes on. Until end_look the scanner then stays where it came to.
+  void begin_look(std::size_t scanner, const PanSector& bearings);
+  void end_look() { look_ = Look::none; }
+  bool look_sweeps() const { return look_ == Look::sweeps; }
+  bool look_done() const { return look_ == Look::done; }
 
   // phase: BERM_PHASE_*, the one the motion is about to enter where that is known (LIFT before a dig ends); bearings of dig and truck; measured pans, swing angle and speed.
   std::array<PanRequest, 2> step(std::uint16_t phase, double dig_bearing, double truck_bearing, double swing_angle, double swing_speed,
@@ -34,8 +42,14 @@ public:
 private:
   struct Head { bool up = true; bool low_seen = false, high_seen = false; };
 
+  PanRequest look(double swing_angle, double pan);
+
   MachineModel machine_;
   std::array<Head, 2> head_;
+  enum class Look { none, goes, sweeps, done } look_ = Look::none;
+  std::size_t looker_ = 0;
+  PanSector look_bearings_;
+  bool look_up_ = true;
   bool far_seen_ = false;  // during this swing to the truck the leading scanner has seen the ground beyond the truck
 };
 

@@ -28,7 +28,7 @@ DumpPoint choose_dump_point(const BedMap& bed, double bucket_half_width, double 
   }
   DumpPoint point;
   point.observed = observed;
-  const double farthest = 0.5 * length - bucket_half_width - wall_guard;
+  const double farthest = std::fmax(0.0, 0.5 * length - bucket_half_width - wall_guard - 2.0 * bed.bed().end_deviation);
   const double wanted = -0.5 * length + (best + 0.5) * length / thirds;
   const double lowest = std::fmin(0.0, std::fmax(-farthest, bed.bed().zone_low + zone_guard));
   const double highest = std::fmax(0.0, std::fmin(farthest, bed.bed().zone_high - zone_guard));

@@ -46,8 +46,8 @@ Condition when(Joint joint, Relation relation, double threshold, double toleranc
 
 }  // namespace
 
-std::optional<PassPoses> pass_poses(const MachineModel& machine, const SiteModel& site, const PassTask& task) {
-  const double pin_z = std::clamp(task.truck_top, site.truck.wall_top, std::max(site.truck.wall_top, highest_top)) + pin_over_top;
+std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask& task) {
+  const double pin_z = std::clamp(task.truck_top, task.wall_top, std::max(task.wall_top, highest_top)) + pin_over_top;
   const auto carry = pose_near(machine, {carry_radius, pin_z}, attitude_carry);
   const auto spill = pose_near(machine, {task.dump_radius + spill_ahead, pin_z}, attitude_carry);
   const auto dump = pose_near(machine, {task.dump_radius - dump_behind, pin_z}, attitude_open);
@@ -99,11 +99,11 @@ Script pass_script(const MachineModel& machine, const PassTask& task, const Pass
   });
 }
 
-std::optional<Script> approach_script(const MachineModel& machine, const SiteModel& site, const ApproachTask& task) {
-  const auto back = pose_near(machine, {back_radius, site.truck.wall_top + pin_over_top}, attitude_back);
-  const auto dig = tip_pose_near(machine, {task.entry.r, task.entry.z + dig_above}, attitude_dig);
+std::optional<Script> approach_script(const MachineModel& machine, const ApproachTask& task) {
+  const auto back = pose_near(machine, {back_radius, task.top + pin_over_top}, attitude_back);
+  const auto dig = task.entry ? tip_pose_near(machine, {task.entry->r, task.entry->z + dig_above}, attitude_dig) : back;
   if (!back || !dig) return std::nullopt;
-  const Joints& end = task.lower ? *dig : *back;
+  const Joints& end = *dig;
   const Condition high = when(boom, Relation::above, (*back)[boom] - radians(2.0));
   const Condition over = when(swing, Relation::near, task.bearing, arrived);
   const Condition folded = when(stick, Relation::near, (*back)[stick], radians(8.0));

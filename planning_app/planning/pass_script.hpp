@@ -17,7 +17,8 @@ struct PassTask {
   double dump_radius = 0.0;    // of the dump point from the swing axis
   double next_bearing = 0.0;   // swing angle of the next dig
   PlanePoint next_entry{};     // where the next drag begins (tip)
-  double truck_top = 0.0;      // z of the highest thing under the swing near the truck; never taken as lower than its walls
+  double truck_top = 0.0;      // z of the highest thing under the swing near the truck; never taken as lower than its walls,
+  double wall_top = 0.0;       // which end here
   bool lower_at_end = true;    // false: stay high after the pass, the truck is full
 };
 
@@ -36,20 +37,20 @@ struct PassThresholds {
 };
 
 // Nothing when the dump point is out of reach.
-std::optional<PassPoses> pass_poses(const MachineModel& machine, const SiteModel& site, const PassTask& task);
+std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask& task);
 
 // The bucket's rule that opens it over the bed.
 inline constexpr int opening_rule = 3;
 Script pass_script(const MachineModel& machine, const PassTask& task, const PassPoses& poses, const PassThresholds& thresholds);
 
-// From wherever the implements are to the start of a dig: raise and half curl, swing when high, lower when over the dig.
+// From wherever the implements are to a bearing: raise and half curl, swing when high; and to the start of a dig: lower when over it.
 struct ApproachTask {
   Joints from{};
-  double bearing = 0.0;      // swing angle of the dig
-  PlanePoint entry{};        // where the drag begins
-  bool lower = true;         // false: stay high
+  double bearing = 0.0;             // swing angle
+  double top = 0.0;                 // z of what is passed over
+  std::optional<PlanePoint> entry;  // where the drag begins; without: stay high
 };
-std::optional<Script> approach_script(const MachineModel& machine, const SiteModel& site, const ApproachTask& task);
+std::optional<Script> approach_script(const MachineModel& machine, const ApproachTask& task);
 
 // Finds the thresholds: starts from the soonest and simulates script, controllers and joint models against the skyline until the motion
 // stays clear. One candidate a step, so that a cycle is never late.

@@ -2,25 +2,36 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace berm::app {
 
 struct DigZone { double x_low = 0.0, y_low = 0.0, x_high = 0.0, y_high = 0.0, floor = 0.0, ceiling = 0.0; };
 
-struct TruckBed {                 // inside of the bed
+struct TruckPlace {               // where trucks park
+  double x = 0.0, y = 0.0;        // about the middle of the bed
+  double yaw = 0.0;               // of the bed's long axis, either way round, from base x
+  double target_kg = 0.0;
+};
+
+struct TruckZone { double x_low = 0.0, y_low = 0.0, x_high = 0.0, y_high = 0.0; };
+
+struct TruckBed {                 // inside of a recognised bed
   double centre_x = 0.0, centre_y = 0.0;
   double yaw = 0.0;               // of the long axis, from base x
   double length = 0.0, width = 0.0, height = 0.0;
   double wall_top = 0.0;          // z
-  double target_kg = 0.0;
+  double end_deviation = 0.0;     // standard deviation of either end along the bed, as the recogniser says
   // Along the bed from its centre: how far the site's truck zone holds it. The kernel lets nothing pass over what is beyond, the cab above all.
   double zone_low = -std::numeric_limits<double>::infinity(), zone_high = std::numeric_limits<double>::infinity();
 };
 
 struct SiteModel {
   std::vector<DigZone> dig_zones;
-  TruckBed truck;
+  TruckPlace place;
+  std::vector<TruckZone> truck_zones;
+  std::optional<TruckBed> bed;    // of the truck that was recognised, while it is there
   double dig_swing_left = 0.0, dig_swing_right = 0.0;  // bearings between which the app digs; left > right
   double dig_radius_start = 0.0, dig_radius_end = 0.0; // of the tip, start > end
 };

@@ -64,9 +64,10 @@ Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Groun
   double half_width = 0.0;
   for (const Prism& part : machine.parts) half_width = std::max(half_width, part.half_width);
   half_width += 0.3;  // a cell of the kernel's map
-  const TruckBed& bed = site.truck;
   const auto top = [&](double x, double y) {
     double z = ground(x, y);
+    if (!site.bed) return z;
+    const TruckBed& bed = *site.bed;
     const BedPoint p = to_bed(bed, x, y);
     if (std::fabs(p.u) < 0.5 * bed.length + wall_thickness && std::fabs(p.v) < 0.5 * bed.width + wall_thickness) z = std::max(z, bed.wall_top);
     return z;

@@ -16,6 +16,8 @@ constexpr double kCabFaint = 2.0;      // evidence of anything at all where the 
 constexpr double kCabLeast = -30.0;   // evidence of its cab
 constexpr int kInnerBeforeCab = 50, kInnerAlone = 150;  // returns on inner faces of a bed that shows no outer one, with its cab and without
 constexpr int kLastRounds = 4;           // of the last fit
+constexpr double kBelowFloor = 0.1;       // m
+constexpr int kFootLeast = 12;            // returns
 constexpr double kLengthUnsure = 0.5;  // m, standard deviation
 constexpr double kGroundSlack = 0.15;   // m: ruts
 constexpr double kGroundLeast = 0.02;   // share of returns
@@ -53,14 +55,17 @@ FaceDepths face_depths(const BedPose& pose, const std::vector<Ray>& rays, int ax
 }
 
 // The depth at which hits on an outer face give way to rays that pass below the wall, by the fewest contradictions; at least that of the load's or
-// floor's deeper returns. An end wall reaches down to the floor in every class, the side of a half pipe does not.
+// floor's deeper returns. An end wall reaches down to the floor in every class, the side of a half pipe does not. A face that goes on below every
+// class's floor is of what carries the bed as well, and has no foot to tell; then the floor is where the deeper returns of its inside are.
 double wall_height(const BedPose& pose, const std::vector<Ray>& rays, const TruckRangeSet& ranges) {
   const SizeRange heights = ranges.hull(&TruckRanges::wall_height);
   FaceDepths depths = face_depths(pose, rays, 0);
   if (depths.hits.size() < 12 || depths.passes.size() < 6) depths = face_depths(pose, rays, 1);
-  double best = 0.5 * (heights[0] + heights[1]);
+  const auto below = std::count_if(depths.hits.begin(), depths.hits.end(), [&](double depth) { return depth > heights[1] + kBelowFloor; });
+  const bool no_foot = below >= kFootLeast;
+  double best = no_foot ? heights[0] : 0.5 * (heights[0] + heights[1]);
   long least = 1L << 30;
-  for (double h = heights[0]; h <= heights[1]; h += 0.02) {
+  for (double h = heights[0]; !no_foot && h <= heights[1]; h += 0.02) {
     const long wrong = std::count_if(depths.hits.begin(), depths.hits.end(), [h](double x) { return x > h; }) +
                        std::count_if(depths.passes.begin(), depths.passes.end(), [h](double x) { return x < h; });
     if (wrong < least) least = wrong, best = h;

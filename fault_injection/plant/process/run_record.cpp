@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <numbers>
 
 #include "plant/process/output_file.hpp"
 
@@ -55,6 +56,11 @@ void RunRecord::write(const std::string& path, const End& end) const {
   for (const Contact& c : contacts_) list.push_back({{"time_s", rounded(c.time_s)}, {"what", c.what}});
   Json loads = Json::array();
   for (const double kg : end.truth.truck_load_kg) loads.push_back(rounded(kg));
+  Json beds = Json::array();
+  for (const BedTruth& b : end.truth.truck_bed) {
+    beds.push_back({{"x_m", rounded(b.x)}, {"y_m", rounded(b.y)}, {"yaw_deg", rounded(b.yaw * 180.0 / std::numbers::pi)}, {"length_m", rounded(b.length)},
+                    {"width_m", rounded(b.width)}, {"wall_top_m", rounded(b.wall_top)}});
+  }
   Json trucks = Json::array();
   for (const Departure& d : departures_) {
     trucks.push_back({{"left_s", rounded(d.time_s)}, {"load_kg", rounded(d.load_kg)}, {"load_centre_offset_m", rounded(d.centre_offset_m)},
@@ -74,6 +80,7 @@ void RunRecord::write(const std::string& path, const End& end) const {
   truth["least_ground_gap_m"] = maybe(ground_gap_m_);
   truth["target_kg"] = rounded(end.target_kg);
   truth["truck_load_kg"] = loads;
+  truth["truck_bed"] = beds;
   truth["trucks_left"] = trucks;
   truth["dug_kg"] = rounded(end.truth.dug_kg);
   truth["spill_kg"] = rounded(end.truth.spilled_kg);

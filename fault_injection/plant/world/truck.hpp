@@ -33,6 +33,9 @@ class Truck {
   // Bed's frame in the base frame.
   [[nodiscard]] const PlanarFrame& frame() const { return frame_; }
   [[nodiscard]] double yaw() const { return yaw_; }
+  [[nodiscard]] double parked_x() const { return parked_x_; }
+  [[nodiscard]] double parked_y() const { return parked_y_; }
+  [[nodiscard]] const TruckConfig& config() const { return config_; }
   [[nodiscard]] const std::vector<TruckPart>& parts() const { return part_; }
   [[nodiscard]] const TruckPart& hull() const { return hull_; }
   [[nodiscard]] const BedHeap& heap() const { return heap_; }

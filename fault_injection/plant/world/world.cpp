@@ -194,7 +194,10 @@ Truth World::truth() const {
   Truth out;
   const double density = w.loose_density();
   out.payload_kg = payload_kg();
-  for (const Truck& t : w.truck) out.truck_load_kg.push_back(t.load_kg());
+  for (const Truck& t : w.truck) {
+    out.truck_load_kg.push_back(t.load_kg());
+    out.truck_bed.push_back({t.parked_x(), t.parked_y(), t.yaw(), t.config().length, t.config().width, t.config().wall_top});
+  }
   out.spilled_kg = w.book.spilled * density;
   out.dug_kg = w.book.dug * density;
   if (const Truck* t = w.shown()) {

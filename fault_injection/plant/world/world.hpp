@@ -24,9 +24,12 @@ struct DigForces { std::array<double, 4> resist_speed_factor{1.0, 1.0, 1.0, 1.0}
 
 struct LidarPacket;     // world/spinning_lidar.hpp
 
+struct BedTruth { double x = 0.0, y = 0.0, yaw = 0.0, length = 0.0, width = 0.0, wall_top = 0.0; };  // inside, where it parks
+
 struct Truth {
   double payload_kg = 0.0;
   std::vector<double> truck_load_kg;      // one for each truck of the run
+  std::vector<BedTruth> truck_bed;        // as many
   double spilled_kg = 0.0;                // dug, and neither in a truck nor in the bucket nor back in the dig zone
   double dug_kg = 0.0;
   double load_centre_offset_m = 0.0, load_height_stddev_m = 0.0;  // of the current or last truck

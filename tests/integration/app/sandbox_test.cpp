@@ -7,9 +7,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <functional>
+#include <thread>
 #include <vector>
 
 #include "app/sandbox.hpp"
@@ -58,6 +60,32 @@ TEST(Sandbox, RefusesEveryWayOut) {
   expect_refused("mmap executable", [] { return reinterpret_cast<long>(::mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)); });
   expect_refused("sendto elsewhere", [] { return static_cast<long>(::sendto(1, "x", 1, 0, nullptr, 0)); });
   expect_refused("write elsewhere", [] { return static_cast<long>(::write(0, "x", 1)); });
+}
+
+// A thread that ran before, as the recogniser's does.
+TEST(Sandbox, HoldsThreadsThatRunAlready) {
+  int pair[2];
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_SEQPACKET, 0, pair), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    std::atomic<int> stage{0};
+    std::thread thread([&] {
+      stage = 1;
+      while (stage == 1) ::sched_yield();
+      std::vector<double> memory(4'000'000, 1.0);
+      stage = ::open("/dev/null", O_RDONLY) == -1 && errno == EPERM && memory.back() == 1.0 ? 3 : 4;
+    });
+    while (stage == 0) ::sched_yield();
+    enter_sandbox(pair[1], pair[1]);
+    stage = 2;
+    while (stage == 2) ::sched_yield();
+    ::_exit(stage == 3 ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  ::close(pair[0]);
+  ::close(pair[1]);
 }
 
 TEST(Sandbox, KillsAProcessThatWouldBecomeAnother) {

@@ -46,7 +46,7 @@ TEST(Sequencer, LoadsOneTruck) {
   while (!run.sequencer.finished() && run.seconds < 600.0) run.step();
   ASSERT_TRUE(run.sequencer.finished()) << "not loaded after " << run.seconds << " s: " << run.plant.site().bed_mass() << " kg";
   expect_no_contact(run);
-  const double target = app_bench::bench().truck.target_kg;
+  const double target = app_bench::bench().place.target_kg;
   EXPECT_GE(run.plant.site().bed_mass(), 0.96 * target);
   EXPECT_LE(run.plant.site().bed_mass(), 1.04 * target);
   EXPECT_LT(run.plant.site().spilled_mass(), 0.02 * target);

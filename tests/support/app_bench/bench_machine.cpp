@@ -7,6 +7,7 @@
 
 #include "app/machine_loader.hpp"
 #include "motion/arm_kinematics.hpp"
+#include "planning/truck_place.hpp"
 
 namespace berm::app_bench {
 
@@ -27,6 +28,19 @@ int kernel_index(double v) { return static_cast<int>(std::floor((v + kernel_half
 
 MachineModel zx200() { return machine_model(config::load_machine_file(BERM_CONFIG_DIR "/machines/zx200.toml")); }
 SiteModel bench() { return site_model(config::load_site_file(BERM_CONFIG_DIR "/sites/bench.toml")); }
+
+TruckBed bench_bed() {
+  TruckBed bed;
+  bed.centre_x = -0.70, bed.centre_y = 6.75, bed.length = 4.88, bed.width = 2.44, bed.height = 1.22, bed.wall_top = BenchSite::wall_top;
+  limit_to_zones(bed, bench().truck_zones);
+  return bed;
+}
+
+SiteModel bench_with_truck() {
+  SiteModel site = bench();
+  site.bed = bench_bed();
+  return site;
+}
 
 BenchMachine::BenchMachine(const MachineModel& machine, const Joints& start, std::uint64_t seed)
     : machine_(machine), segment_(std::make_unique<berm_state_segment>()), random_(seed), angle_(start), seen_(static_cast<std::size_t>(kernel_side * kernel_side), -1e9) {

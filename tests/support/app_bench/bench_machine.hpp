@@ -15,9 +15,11 @@
 
 namespace berm::app_bench {
 
-// The ZX200 and the bench from their files in interface_spec/config.
+// The ZX200 and the bench from their files in interface_spec/config; the truck that stands on the miniature bench, and a site where it was recognised.
 app::MachineModel zx200();
 app::SiteModel bench();
+app::TruckBed bench_bed();
+app::SiteModel bench_with_truck();
 
 struct Findings {
   int wall_contacts = 0;      // cycles in which an implement was under the truck's top plus the kernel's margin, over the truck

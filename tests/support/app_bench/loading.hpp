@@ -4,18 +4,19 @@
 #include <cstdlib>
 
 #include "app/sequencer.hpp"
+#include "app_bench/bench_finder.hpp"
 #include "app_bench/bench_machine.hpp"
 #include "perception/scan_intake.hpp"
 
 namespace berm::app_bench {
 
 struct Loading {
-  Loading(int trucks, const app::Joints& start)
-      : machine(zx200()), plant(machine, start, 7), log(std::getenv("BERM_TEST_VERBOSE") ? 1 : -1), sequencer(machine, bench(), trucks, log) {}
+  Loading(int trucks, const app::Joints& start, int log_fd = std::getenv("BERM_TEST_VERBOSE") ? 1 : -1)
+      : machine(zx200()), plant(machine, start, 7), log(log_fd), sequencer(machine, bench(), trucks, finder, log) {}
 
   void step() {
     const app::Observation o = app::observe(plant.state());
-    intake.take(plant.segment(), sequencer.terrain(), sequencer.bed());
+    intake.take(plant.segment(), sequencer.terrain(), sequencer.bed(), sequencer.sweep());
     if (o.cycle % 25 == 0) sequencer.kernel_map().take(plant.segment());
     last = sequencer.step(o);
     request = app::make_request(machine, last, ++sequence, o.time_us);
@@ -25,6 +26,7 @@ struct Loading {
 
   app::MachineModel machine;
   BenchMachine plant;
+  BenchFinder finder;
   app::ProgressLog log;
   app::Sequencer sequencer;
   app::ScanIntake intake;

@@ -16,7 +16,7 @@ scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-bad-"))
 def unknown_options():
     needed = {"berm_load": (), "berm_journal": (), "berm_replay": (), "berm_map": ("x.pcap",), "berm_params": (), "berm_kernel": (),
               "berm_plant": ("--scenario", ROOT / "fault_injection/scenarios/bench.toml", "--can", "udp:239.255.66.250:1", "--scan-port", 1, "--out", scratch / "none"),
-              "berm_app": ("--machine", MACHINE, "--site", SITE, "--socket", "x")}
+              "berm_app": ("--machine", MACHINE, "--site", SITE, "--truck-classes", ROOT / "interface_spec/config/truck_classes.toml", "--socket", "x")}
     for program, options in needed.items():
         one_clear_line(run(program, *options, "--no-such-option"), "no-such-option")
 

@@ -1,6 +1,7 @@
 """The main job: one truck, three processes, no contact; the same seed gives the same trace."""
 import csv
 import filecmp
+import json
 import os
 import pathlib
 import shutil
@@ -13,7 +14,7 @@ from berm_command import BIN, ROOT, check_slowed, load, main
 
 FIELDS = {"seed", "trucks_loaded", "passes", "pass_seconds", "target_kg", "payload_kg", "spill_fraction", "load_centre_offset_m",
           "load_height_stddev_m", "contacts", "closest_approach_m", "kernel_stops", "kernel_faults", "cycle_us_p50", "cycle_us_p99",
-          "cycle_us_max", "simulated_seconds", "wall_seconds", "slowed_seconds", "slowed_spans"}
+          "cycle_us_max", "simulated_seconds", "wall_seconds", "slowed_seconds", "slowed_spans", "recognition_error_m"}
 TRACE = ["time_s", "swing_rad", "boom_rad", "stick_rad", "bucket_rad", "swing_rad_s", "boom_rad_s", "stick_rad_s", "bucket_rad_s", "stop_state"]
 seen = {}
 
@@ -62,6 +63,11 @@ def loads_one_truck():
     assert result["contacts"] == 0 and result["kernel_faults"] == 0
     assert result["passes"] == len(result["pass_seconds"]) >= 6
     assert result["journal_lost"] == 0
+    assert len(result["recognition_error_m"]) == 1 and result["recognition_error_m"][0] < 0.05, result["recognition_error_m"]
+    events = [json.loads(line) for line in (out / "app.jsonl").read_text().splitlines()]
+    (recognised,) = [event for event in events if event["event"] == "recognised"]
+    # The plant's truck of this scenario; none of it stands in the site file.
+    assert recognised["class"] == "box" and abs(recognised["length_m"] - 4.88) < 0.05 and abs(recognised["height_m"] - 1.22) < 0.1, recognised
     check_slowed(result, out, text)
     assert len({result["pid_plant"], result["pid_kernel"], result["pid_app"]}) == 3
     with open(out / "trace.csv", newline="") as file:
@@ -80,6 +86,23 @@ def same_seed_same_trace():
     assert filecmp.cmp(seen["first"] / "journal.mcap", out / "journal.mcap", shallow=False), "two journals of seed 1 differ"
     shutil.rmtree(out)
     shutil.rmtree(seen["first"])
+
+
+def what_is_no_truck_is_not_loaded():
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
+    scenario = folder / "pickup.toml"
+    text = (ROOT / "fault_injection" / "scenarios" / "short.toml").read_text()
+    for old, new in (("max_time_s = 1800.0", "max_time_s = 60.0"), ("length = 4.88", "length = 2.60"), ("width = 2.44", "width = 1.50")):
+        assert old in text, old
+        text = text.replace(old, new)
+    scenario.write_text(text)
+    status, result, out, said = load("--scenario", scenario, "--seed", 1)
+    assert status != 0 and result["passes"] == 0 and result["recognition_error_m"] == [] and result["contacts"] == 0, result
+    assert "no truck recognised" in said and "operator needed, no_truck" in said, said[-1500:]
+    events = [json.loads(line)["event"] for line in (out / "app.jsonl").read_text().splitlines()]
+    assert "dig" not in events and events.count("no_truck") >= 3 and events.count("operator_needed") == 1, events
+    shutil.rmtree(folder)
+    shutil.rmtree(out)
 
 
 def app_holds_no_machine_descriptor():
@@ -123,4 +146,4 @@ def real_time_gets_under_way():
     shutil.rmtree(folder)
 
 
-main([loads_one_truck, same_seed_same_trace, app_holds_no_machine_descriptor, real_time_gets_under_way])
+main([loads_one_truck, same_seed_same_trace, what_is_no_truck_is_not_loaded, app_holds_no_machine_descriptor, real_time_gets_under_way])

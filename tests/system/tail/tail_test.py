@@ -11,7 +11,7 @@ import tempfile
 from berm_command import ROOT, load, main, run
 
 STILL_RAD_S = 0.009
-RESET_S = 75.0
+RESET_S = 85.0
 TAIL_RADIUS = 2.907  # m: of the plant's upper body, [-2.60, 1.30]
 PERSON_RADIUS = 0.25
 SCENARIOS = ROOT / "fault_injection" / "scenarios"
@@ -40,7 +40,7 @@ def person_behind():
             t = float(row["time_s"])
             gap = math.hypot(float(row["person_x_m"]), float(row["person_y_m"])) - PERSON_RADIUS - TAIL_RADIUS
             nearest = min(nearest, gap)
-            if stood is None and t > 30.0 and speed(row) < STILL_RAD_S and gap < 0.6:
+            if stood is None and t > 40.0 and speed(row) < STILL_RAD_S and gap < 0.6:
                 stood = t
             if stood is not None and t < RESET_S:
                 assert speed(row) < STILL_RAD_S, f"seed {seed}: moves at {t:.2f} s, before the reset"

@@ -30,12 +30,13 @@ struct Segment {
 TEST(ScanIntake, TakesEachBlockOnceAndOnlyUsedPoints) {
   Segment s;
   TerrainMap terrain;
-  BedMap bed(berm::app_bench::bench().truck);
+  BedMap bed(berm::app_bench::bench_bed());
+  TruckSweep sweep;
   ScanIntake intake;
   s.block(5000, 1);
   s.block(6000, 0);
-  EXPECT_EQ(intake.take(*s.at, terrain, bed), 1);
-  EXPECT_EQ(intake.take(*s.at, terrain, bed), 0);
+  EXPECT_EQ(intake.take(*s.at, terrain, &bed, sweep), 1);
+  EXPECT_EQ(intake.take(*s.at, terrain, &bed, sweep), 0);
   EXPECT_EQ(terrain.height(5.0, 0.0), -0.5);
   EXPECT_FALSE(terrain.height(6.0, 0.0));
 }
@@ -43,11 +44,12 @@ TEST(ScanIntake, TakesEachBlockOnceAndOnlyUsedPoints) {
 TEST(ScanIntake, ATornBlockIsLeftOut) {
   Segment s;
   TerrainMap terrain;
-  BedMap bed(berm::app_bench::bench().truck);
+  BedMap bed(berm::app_bench::bench_bed());
+  TruckSweep sweep;
   ScanIntake intake;
   s.block(5000, 1);
   s.at->scan[0].sequence = 1;  // being written
-  EXPECT_EQ(intake.take(*s.at, terrain, bed), 0);
+  EXPECT_EQ(intake.take(*s.at, terrain, &bed, sweep), 0);
   EXPECT_EQ(intake.blocks_missed(), 1u);
   EXPECT_FALSE(terrain.height(5.0, 0.0));
 }
@@ -55,23 +57,25 @@ TEST(ScanIntake, ATornBlockIsLeftOut) {
 TEST(ScanIntake, CountsWhatWasOverwritten) {
   Segment s;
   TerrainMap terrain;
-  BedMap bed(berm::app_bench::bench().truck);
+  BedMap bed(berm::app_bench::bench_bed());
+  TruckSweep sweep;
   ScanIntake intake;
   s.block(5000, 1);
-  intake.take(*s.at, terrain, bed);
+  intake.take(*s.at, terrain, &bed, sweep);
   for (int i = 0; i < BERM_SCAN_RING + 10; ++i) s.block(5000, 1);
-  EXPECT_EQ(intake.take(*s.at, terrain, bed), BERM_SCAN_RING);
+  EXPECT_EQ(intake.take(*s.at, terrain, &bed, sweep), BERM_SCAN_RING);
   EXPECT_EQ(intake.blocks_missed(), 10u);
 }
 
 TEST(ScanIntake, ACountBeyondTheBlockIsCut) {
   Segment s;
   TerrainMap terrain;
-  BedMap bed(berm::app_bench::bench().truck);
+  BedMap bed(berm::app_bench::bench_bed());
+  TruckSweep sweep;
   ScanIntake intake;
   s.block(5000, 1);
   s.at->scan[0].count = 65535;
-  EXPECT_EQ(intake.take(*s.at, terrain, bed), 1);
+  EXPECT_EQ(intake.take(*s.at, terrain, &bed, sweep), 1);
 }
 
 }  // namespace

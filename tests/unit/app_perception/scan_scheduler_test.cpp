@@ -63,6 +63,47 @@ TEST(ScanScheduler, DuringTheDigTheComingSectorIsSeenEveryNineSeconds) {
   EXPECT_LT(worst, 9.0);  // under half of what the kernel calls fresh
 }
 
+// What the truck recogniser needs: every bearing once, a scanline a degree, by a scanner that stands still afterwards.
+TEST(ScanScheduler, ALookSweepsItsSectorOnceAndSlowly) {
+  Pans pans(berm::app_bench::zx200());
+  const double swing_angle = radians(36.0);
+  const PanSector bearings{radians(40.0), radians(150.0)};
+  pans.scheduler.begin_look(0, bearings);
+  double low = 1e9, high = -1e9, before = pans.pan[0], seconds = 0.0, other = pans.pan[1];
+  int turns = 0;
+  for (double way = 0.0; !pans.scheduler.look_done() && seconds < 20.0; seconds += 0.01) {
+    pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
+    const double step = pans.pan[0] - before;
+    before = pans.pan[0];
+    if (!pans.scheduler.look_sweeps()) continue;
+    EXPECT_LE(std::fabs(step) / 0.01, ScanScheduler::look_rate + 1e-9);
+    turns += step * way < 0.0 ? 1 : 0;
+    if (step != 0.0) way = step;
+    low = std::min(low, pans.pan[0] + swing_angle);
+    high = std::max(high, pans.pan[0] + swing_angle);
+  }
+  ASSERT_TRUE(pans.scheduler.look_done());
+  EXPECT_EQ(turns, 0);
+  EXPECT_LT(low, bearings.low + radians(1.0));
+  EXPECT_GT(high, bearings.high - radians(1.0));
+  EXPECT_LT(seconds, 8.0);
+  EXPECT_LT(pans.fastest, radians(50.0)) << "nor on the way to its beginning";
+  EXPECT_NE(pans.pan[1], other) << "the other scanner goes on";
+  const double stays = pans.pan[0];
+  for (int k = 0; k < 100; ++k) pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
+  EXPECT_NEAR(pans.pan[0], stays, radians(0.6));
+  pans.scheduler.end_look();
+  for (int k = 0; k < 100; ++k) pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
+  EXPECT_GT(std::fabs(pans.pan[0] - stays), radians(5.0));
+}
+
+TEST(ScanScheduler, ALookBeyondThePansRangeEndsWhereTheRangeDoes) {
+  Pans pans(berm::app_bench::zx200());
+  pans.scheduler.begin_look(0, {radians(60.0), radians(300.0)});
+  for (int k = 0; !pans.scheduler.look_done() && k < 2000; ++k) pans.step(BERM_PHASE_WAIT, 0.0, 0.0);
+  EXPECT_TRUE(pans.scheduler.look_done());
+}
+
 TEST(ScanScheduler, NoScanlineTurnsTooFastWhateverTheSwing) {
   for (const double speed : {-38.0, -20.0, 0.0, 20.0, 38.0})
     for (std::uint16_t phase = 0; phase < BERM_PHASE_COUNT; ++phase) {

@@ -14,7 +14,7 @@ using namespace berm::app;
 constexpr double half_bucket = 0.56;
 
 TEST(DumpPoint, ByTheBooksTheThirdsFillEvenly) {
-  TruckBed bed = berm::app_bench::bench().truck;
+  TruckBed bed = berm::app_bench::bench_bed();
   bed.zone_low = -bed.length;  // with the cab's end as free as the other
   BedMap map(bed);
   std::array<double, 3> third{};
@@ -28,7 +28,7 @@ TEST(DumpPoint, ByTheBooksTheThirdsFillEvenly) {
 }
 
 TEST(DumpPoint, GoesToTheLowThirdThatIsSeen) {
-  const TruckBed bed = berm::app_bench::bench().truck;
+  const TruckBed bed = berm::app_bench::bench_bed();
   BedMap map(bed);
   for (double u = -2.2; u < 2.2; u += 0.1)
     for (double v = -1.0; v < 1.0; v += 0.1) {
@@ -44,7 +44,7 @@ TEST(DumpPoint, GoesToTheLowThirdThatIsSeen) {
 }
 
 TEST(DumpPoint, OldSightDoesNotCount) {
-  const TruckBed bed = berm::app_bench::bench().truck;
+  const TruckBed bed = berm::app_bench::bench_bed();
   BedMap map(bed);
   for (double u = -2.2; u < 2.2; u += 0.1)
     for (double v = -1.0; v < 1.0; v += 0.1) {
@@ -57,7 +57,7 @@ TEST(DumpPoint, OldSightDoesNotCount) {
 }
 
 TEST(DumpPoint, StaysABucketsWidthFromTheEndWalls) {
-  const TruckBed bed = berm::app_bench::bench().truck;
+  const TruckBed bed = berm::app_bench::bench_bed();
   BedMap map(bed);
   for (int pass = 0; pass < 6; ++pass) {
     const DumpPoint p = choose_dump_point(map, half_bucket, 0.0);
@@ -66,9 +66,26 @@ TEST(DumpPoint, StaysABucketsWidthFromTheEndWalls) {
   }
 }
 
+// An end that no ray showed may stand nearer than it is thought to.
+TEST(DumpPoint, StaysFartherFromAnEndThatIsNotSure) {
+  TruckBed bed = berm::app_bench::bench_bed();
+  bed.end_deviation = 0.35;
+  BedMap map(bed);
+  double farthest = 0.0;
+  for (int pass = 0; pass < 9; ++pass) {
+    const DumpPoint p = choose_dump_point(map, half_bucket, 0.0);
+    farthest = std::fmax(farthest, std::fabs(p.u));
+    map.note_dump(p.u, 1500.0);
+  }
+  EXPECT_LE(farthest + half_bucket, 0.5 * bed.length - 2.0 * bed.end_deviation);
+  EXPECT_GT(farthest, 0.5) << "it still fills the bed";
+  bed.end_deviation = 5.0;
+  EXPECT_EQ(choose_dump_point(BedMap(bed), half_bucket, 0.0).u, 0.0);
+}
+
 // The kernel lets nothing pass over what stands beyond the site's truck zone: the cab.
 TEST(DumpPoint, StaysWellWithinTheTruckZone) {
-  TruckBed bed = berm::app_bench::bench().truck;
+  TruckBed bed = berm::app_bench::bench_bed();
   EXPECT_NEAR(bed.zone_low, -2.6, 0.011) << "of the site file: to the cab";
   EXPECT_NEAR(bed.zone_high, 5.2, 0.011);
   bed.zone_low = -2.2;
@@ -87,7 +104,7 @@ TEST(DumpPoint, StaysWellWithinTheTruckZone) {
 }
 
 TEST(BedMap, HiddenCellsCountAsTheMeanOfTheSeen) {
-  const TruckBed bed = berm::app_bench::bench().truck;
+  const TruckBed bed = berm::app_bench::bench_bed();
   BedMap map(bed);
   double x = 0.0, y = 0.0;
   from_bed(bed, {-1.6, 0.0}, x, y);

@@ -13,15 +13,15 @@ using namespace berm::app;
 
 TEST(Skyline, TheTrucksWallsStandEvenUnseen) {
   const MachineModel m = berm::app_bench::zx200();
-  const SiteModel site = berm::app_bench::bench();
+  const SiteModel site = berm::app_bench::bench_with_truck();
   const TerrainMap nothing_seen;
   const Skyline sky(m, site, ground_of(nothing_seen));
-  EXPECT_GE(sky.height(radians(96.0), static_cast<int>(6.75 / LowerEdge::bin_m)), site.truck.wall_top);
+  EXPECT_GE(sky.height(radians(96.0), static_cast<int>(6.75 / LowerEdge::bin_m)), berm::app_bench::bench_bed().wall_top);
 }
 
 TEST(Skyline, HighIsClearLowIsNot) {
   const MachineModel m = berm::app_bench::zx200();
-  const SiteModel site = berm::app_bench::bench();
+  const SiteModel site = berm::app_bench::bench_with_truck();
   const TerrainMap nothing_seen;
   const Skyline sky(m, site, ground_of(nothing_seen));
   auto high = inverse_pin(m, {6.0, 3.2}, radians(-178.0), radians(7.0));
@@ -34,7 +34,7 @@ TEST(Skyline, HighIsClearLowIsNot) {
 
 TEST(Skyline, ContactInTheDigZoneOnlyWhileTheSwingIsSlowAndAboveTheFloor) {
   const MachineModel m = berm::app_bench::zx200();
-  const SiteModel site = berm::app_bench::bench();
+  const SiteModel site = berm::app_bench::bench_with_truck();
   const TerrainMap nothing_seen;
   const Skyline sky(m, site, ground_of(nothing_seen));
   const auto digging = inverse_tip(m, {6.6, -1.2}, radians(-110.0), radians(7.0));
@@ -51,7 +51,7 @@ TEST(Skyline, ContactInTheDigZoneOnlyWhileTheSwingIsSlowAndAboveTheFloor) {
 
 TEST(Skyline, LooksAsFarAheadAsTheSwingNeedsToStop) {
   const MachineModel m = berm::app_bench::zx200();
-  const SiteModel site = berm::app_bench::bench();
+  const SiteModel site = berm::app_bench::bench_with_truck();
   TerrainMap terrain;
   for (double r = 5.0; r < 7.0; r += 0.1)
     for (double across = -0.4; across < 0.4; across += 0.1) terrain.insert(r * std::cos(radians(-40)) + across * 0.64, r * std::sin(radians(-40)) + across * 0.77, 4.0, 1.0);
@@ -66,39 +66,39 @@ TEST(Skyline, LooksAsFarAheadAsTheSwingNeedsToStop) {
 
 TEST(PassPoses, HoldTheLoadLevelAndOpenOverTheBed) {
   const MachineModel m = berm::app_bench::zx200();
-  const SiteModel site = berm::app_bench::bench();
+  const SiteModel site = berm::app_bench::bench_with_truck();
   for (const double radius : {6.6, 6.8, 7.0, 7.15}) {
     PassTask task;
     task.dump_radius = radius;
     task.next_entry = {7.4, -1.6};
-    task.truck_top = site.truck.wall_top;
-    const auto poses = pass_poses(m, site, task);
+    task.truck_top = task.wall_top = berm::app_bench::bench_bed().wall_top;
+    const auto poses = pass_poses(m, task);
     ASSERT_TRUE(poses) << radius;
     EXPECT_NEAR(forward(m, poses->carry).bucket_attitude, radians(-178.0), radians(3.0));
     EXPECT_LT(forward(m, poses->spill).bucket_attitude, radians(-155.0));
     EXPECT_NEAR(forward(m, poses->dump).bucket_attitude, radians(-48.0), radians(3.0));
     EXPECT_NEAR(forward(m, poses->dump).tip.r, radius - 0.25 + 1.562 * std::cos(radians(-48.0)), 0.06);
-    for (const Joints* pose : {&poses->carry, &poses->spill, &poses->dump, &poses->back}) EXPECT_GT(bucket_underside(m, *pose), site.truck.wall_top + 1.1);
+    for (const Joints* pose : {&poses->carry, &poses->spill, &poses->dump, &poses->back}) EXPECT_GT(bucket_underside(m, *pose), berm::app_bench::bench_bed().wall_top + 1.1);
   }
 }
 
 TEST(PassPoses, PassHigherOverAHighCab) {
   const MachineModel m = berm::app_bench::zx200();
-  const SiteModel site = berm::app_bench::bench();
+  const SiteModel site = berm::app_bench::bench_with_truck();
   PassTask task;
   task.dump_radius = 6.8;
   task.next_entry = {7.4, -1.6};
-  task.truck_top = 0.3;
-  const auto low = pass_poses(m, site, task);
+  task.truck_top = task.wall_top = 0.3;
+  const auto low = pass_poses(m, task);
   task.truck_top = 0.8;
-  const auto high = pass_poses(m, site, task);
+  const auto high = pass_poses(m, task);
   ASSERT_TRUE(low && high);
   EXPECT_NEAR(bucket_underside(m, high->carry) - bucket_underside(m, low->carry), 0.5, 0.10);  // the bucket tilts a little as well
 }
 
 TEST(Skyline, NamesWhatBlocks) {
   const MachineModel m = berm::app_bench::zx200();
-  const SiteModel site = berm::app_bench::bench();
+  const SiteModel site = berm::app_bench::bench_with_truck();
   const Skyline sky(m, site, [](double x, double y) { return x > 0.0 && y > 4.0 && y < 5.0 ? INFINITY : -2.0; });
   auto pose = inverse_pin(m, {6.4, 3.2}, radians(-178.0), radians(7.0));
   ASSERT_TRUE(pose);
@@ -116,7 +116,7 @@ TEST(Skyline, NamesWhatBlocks) {
 
 TEST(PassSearch, FindsASwingThatStartsBeforeTheBoomIsUpAndStaysClear) {
   const MachineModel m = berm::app_bench::zx200();
-  const SiteModel site = berm::app_bench::bench();
+  const SiteModel site = berm::app_bench::bench_with_truck();
   TerrainMap terrain;
   for (double x = -12.0; x < 12.0; x += 0.1)
     for (double y = -12.0; y < 12.0; y += 0.1) terrain.insert(x, y, x < 6.0 && y < 3.6 ? 0.0 : -2.2, 1.0);
@@ -127,8 +127,8 @@ TEST(PassSearch, FindsASwingThatStartsBeforeTheBoomIsUpAndStaysClear) {
   task.dump_radius = 6.8;
   task.next_bearing = 0.0;
   task.next_entry = {7.4, -1.6};
-  task.truck_top = site.truck.wall_top;
-  const auto poses = pass_poses(m, site, task);
+  task.truck_top = task.wall_top = berm::app_bench::bench_bed().wall_top;
+  const auto poses = pass_poses(m, task);
   ASSERT_TRUE(poses);
   PassSearch search(m, sky, task, *poses);
   int steps = 0;

@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "run/recognised_truck.hpp"
 #include "run/run_result.hpp"
 
 namespace {
@@ -51,6 +54,31 @@ TEST(SlowedTime, FieldsAreFlatNumbers) {
   const json j = flat_json(with_events({}));
   EXPECT_TRUE(j.at("slowed_seconds").is_number_float());
   EXPECT_TRUE(j.at("slowed_spans").is_number_integer());
+}
+
+json recognised(int truck, double x, double yaw_deg) {
+  return {{"event", "recognised"}, {"truck", truck}, {"x_m", x}, {"y_m", 6.0}, {"yaw_deg", yaw_deg}, {"length_m", 5.0}, {"width_m", 2.4}, {"wall_top_m", 0.3}};
+}
+
+TEST(Recognition, IsJudgedByTheWorstCornerInSpaceOfEachTrucksFirstAnswer) {
+  RunResult r = with_events({recognised(1, 1.0, 180.0), recognised(1, 9.0, 180.0), recognised(2, 1.0, 180.0)});
+  json bed = recognised(1, 1.03, 180.0);
+  bed["wall_top_m"] = 0.34;
+  r.truth["truck_bed"] = {bed, recognised(2, 1.0, 0.0)};
+  const auto errors = flat_json(r).at("recognition_error_m").get<std::vector<double>>();
+  ASSERT_EQ(errors.size(), 2u);
+  EXPECT_NEAR(errors[0], 0.05, 1e-9);
+  EXPECT_NEAR(errors[1], std::hypot(5.0, 2.4), 1e-9) << "the wrong way round";
+  EXPECT_THAT(summary_text(r), testing::HasSubstr("trucks recognised"));
+}
+
+TEST(Recognition, OfNoTruckThereIsNoError) {
+  EXPECT_TRUE(flat_json(with_events({recognised(1, 1.0, 180.0)})).at("recognition_error_m").empty()) << "no truth";
+  EXPECT_TRUE(recognised_bed({}).empty());
+  const auto outline = recognised_bed({recognised(1, 0.0, 0.0), {{"event", "pass"}}, recognised(2, 1.0, 90.0)});
+  ASSERT_EQ(outline.size(), 4u);
+  EXPECT_NEAR(outline[0].first, 1.0 - 1.2, 1e-9);
+  EXPECT_NEAR(outline[0].second, 6.0 + 2.5, 1e-9);
 }
 
 }  // namespace

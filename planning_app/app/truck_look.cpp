@@ -1,0 +1,140 @@
+#include "app/truck_look.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planning/truck_place.hpp"
+
+namespace berm::app {
+
+namespace {
+
+constexpr std::size_t left_scanner = 0, right_scanner = 1;
+constexpr double look_aside = radians(60.0);        // of the truck: beside the implements, and the pans reach beyond its far end
+constexpr double place_half_length = 6.0, place_half_width = 1.6;  // m: a bed of 6 m that may be off, and a cab, either way round
+constexpr double beyond = radians(3.0);             // the sweep goes on so far
+constexpr double moved = radians(0.3);              // of the swing: the sweep is worth nothing
+constexpr double drain_s = 0.1;                     // until the last scanline has come through the kernel
+constexpr int vain_until_operator = 3;
+constexpr double vain_pause_s = 5.0;
+
+double dig_middle(const SiteModel& site) { return 0.5 * (site.dig_swing_left + site.dig_swing_right); }
+
+}  // namespace
+
+TruckLook::TruckLook(const MachineModel& machine, const SiteModel& site, TruckFinder& finder) : machine_(machine), site_(site), finder_(finder) {
+  const bool to_left = std::remainder(std::atan2(site.place.y, site.place.x) - dig_middle(site), 2.0 * std::numbers::pi) >= 0.0;
+  scanner_ = to_left ? left_scanner : right_scanner;
+  side_ = to_left ? 1.0 : -1.0;
+}
+
+double TruckLook::bearing() const {
+  const double wanted = std::atan2(site_.place.y, site_.place.x) - side_ * look_aside;
+  return std::clamp(wanted, machine_.joint[swing].low, machine_.joint[swing].high);
+}
+
+std::array<double, 3> TruckLook::viewpoint(double swing_angle) const {
+  const ScannerMount& mount = machine_.scanner[scanner_];
+  const double c = std::cos(swing_angle), s = std::sin(swing_angle);
+  return {mount.x * c - mount.y * s, mount.x * s + mount.y * c, mount.z};
+}
+
+double TruckLook::head_bearing_of(double x, double y, double swing_angle) const {
+  const std::array<double, 3> head = viewpoint(swing_angle);
+  // Near the swing angle, so that no sector is torn apart where angles wrap.
+  return swing_angle + std::remainder(std::atan2(y - head[1], x - head[0]) - swing_angle, 2.0 * std::numbers::pi);
+}
+
+void TruckLook::begin(const Observation& o, ScanScheduler& scanners) {
+  const double c = std::cos(site_.place.yaw), s = std::sin(site_.place.yaw);
+  PanSector bearings{1e9, -1e9};
+  for (const double u : {-place_half_length, place_half_length})
+    for (const double v : {-place_half_width, place_half_width}) {
+      const double b = head_bearing_of(site_.place.x + u * c - v * s, site_.place.y + u * s + v * c, o.angle[swing]);
+      bearings.low = std::min(bearings.low, b - beyond);
+      bearings.high = std::max(bearings.high, b + beyond);
+    }
+  scanners.begin_look(scanner_, bearings);
+  sweep_.end();
+  swing_ = o.angle[swing];
+  stage_ = Stage::sweeps;
+  stage_s_ = o.time_s;
+}
+
+void TruckLook::stop(ScanScheduler& scanners) {
+  scanners.end_look();
+  sweep_.end();
+  stage_ = Stage::idle;
+}
+
+std::optional<TruckBed> TruckLook::step(const Observation& o, ScanScheduler& scanners, int truck, const ProgressLog& log) {
+  const bool looks = stage_ == Stage::sweeps || stage_ == Stage::drains;
+  if (looks && std::fabs(o.angle[swing] - swing_) > moved) begin(o, scanners);
+  switch (stage_) {
+    case Stage::idle: break;
+    case Stage::sweeps:
+      if (scanners.look_sweeps() && !sweep_.recording()) sweep_.begin(scanner_);
+      if (!scanners.look_done()) break;
+      stage_ = Stage::drains;
+      last_return_s_ = o.time_s;
+      break;
+    case Stage::drains:
+      if (o.time_s - last_return_s_ < drain_s) break;
+      sweep_.end();
+      scanners.end_look();
+      finder_.ask(sweep_.points(), viewpoint(o.angle[swing]), o.cycle);
+      stage_ = Stage::asked;
+      break;
+    case Stage::asked:
+      if (const auto answer = finder_.answer(o.cycle)) {
+        const auto bed = judge(*answer, o, truck, log);
+        stage_ = bed ? Stage::idle : Stage::pauses;
+        stage_s_ = o.time_s;
+        return bed;
+      }
+      break;
+    case Stage::pauses:
+      if (vain_ < vain_until_operator || o.time_s - stage_s_ >= vain_pause_s) begin(o, scanners);
+      break;
+  }
+  return std::nullopt;
+}
+
+// After a few looks in vain the operator is told, once.
+void TruckLook::tell_none(const std::string& event, nlohmann::ordered_json fields, const std::string& advice, const Observation& o, const ProgressLog& log) {
+  log.event(event, std::move(fields));
+  if (++vain_ == vain_until_operator) log.event("operator_needed", {{"time_s", o.time_s}, {"reason", event}, {"advice", advice}});
+}
+
+std::optional<TruckBed> TruckLook::judge(const RecognisedTruck& truck, const Observation& o, int number, const ProgressLog& log) {
+  if (!truck.found) {
+    tell_none("no_truck", {{"time_s", o.time_s}, {"truck", number}, {"reason", truck.reason}},
+              "look whether a truck stands where trucks park, with its bed open, and nothing before it; the scanners look again every few seconds", o, log);
+    return std::nullopt;
+  }
+  TruckBed bed;
+  bed.centre_x = truck.pose.middle.x();
+  bed.centre_y = truck.pose.middle.y();
+  bed.yaw = truck.yaw;
+  bed.length = truck.length;
+  bed.width = truck.width;
+  bed.height = truck.height;
+  bed.wall_top = truck.pose.middle.z();
+  // An end lies half a length beyond the middle.
+  const Eigen::Vector2d along(std::cos(truck.yaw), std::sin(truck.yaw));
+  const double middle = along.dot(truck.pose_covariance.topLeftCorner<2, 2>() * along), both = std::fabs(along.dot(truck.pose_covariance.block<2, 1>(0, 6)));
+  bed.end_deviation = std::sqrt(std::max(0.0, middle + both + 0.25 * truck.pose_covariance(6, 6)));  // the worse end
+  limit_to_zones(bed, site_.truck_zones);
+  const nlohmann::ordered_json fields{{"time_s", o.time_s}, {"truck", number}, {"class", truck.truck_class}, {"x_m", bed.centre_x}, {"y_m", bed.centre_y},
+                                      {"yaw_deg", degrees(bed.yaw)}, {"length_m", bed.length}, {"width_m", bed.width}, {"height_m", bed.height},
+                                      {"wall_top_m", bed.wall_top}, {"end_deviation_m", bed.end_deviation}, {"several_echoes", sweep_.several_echoes()}};
+  if (!stands_in_zone(bed, site_.truck_zones)) {
+    tell_none("truck_misplaced", fields, "the truck stands where the site has no truck zone: nothing may pass over it there; have it park anew", o, log);
+    return std::nullopt;
+  }
+  vain_ = 0;
+  log.event("recognised", fields);
+  return bed;
+}
+
+}  // namespace berm::app

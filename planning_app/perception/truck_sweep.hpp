@@ -1,0 +1,37 @@
+// One sweep of one scanner, scanline by scanline, for the truck recogniser: the returns that the kernel took for real and not for the machine itself.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "contract/berm_contract.h"
+#include "points/point_cloud.hpp"
+
+namespace berm::app {
+
+class TruckSweep {
+public:
+  // From now on this scanner's scanlines are kept; what was kept before is forgotten.
+  void begin(std::size_t scanner);
+  void end() { recording_ = false; }
+  // Of every scanner; blocks in measuring order. Blocks are taken until the sweep ends or most_points are kept.
+  void take(const berm_scan_block& block);
+
+  bool recording() const { return recording_; }
+  const std::vector<ScanPoint>& points() const { return points_; }  // base frame
+  // Of the samples with a return, the share with an echo before the last: dust, or edges.
+  double several_echoes() const { return returns_ == 0 ? 0.0 : static_cast<double>(several_) / static_cast<double>(returns_); }
+
+  static constexpr std::size_t most_points = 200000;  // of 36,000 samples in a sweep of 3 s
+
+private:
+  bool recording_ = false;
+  std::size_t scanner_ = 0;
+  std::vector<ScanPoint> points_;
+  bool any_ = false;
+  std::uint32_t line_ = 0, lines_ = 0;  // the scanner's number of the newest scanline; how many before it
+  std::size_t returns_ = 0, several_ = 0;
+};
+
+}  // namespace berm::app
