@@ -56,9 +56,10 @@ void SvgPanel::text(double x, double y, const std::string& words, const std::str
 
 void SvgPanel::axes(double step_m, const std::string& x_name, const std::string& y_name) {
   frame_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" style=\"fill:none;stroke:#444\"/>\n", left_, top_, pixel_width(), pixel_height());
-  for (double x = std::ceil(x0_ / step_m) * step_m; x <= x1_ + 1e-9; x += step_m)
+  // Adding 0 makes 0 of -0, which would be labelled so.
+  for (double x = std::ceil(x0_ / step_m) * step_m + 0.0; x <= x1_ + 1e-9; x += step_m)
     frame_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" style=\"font:11px sans-serif;text-anchor:middle\">{:g}</text>\n", px(x), py(y0_) + 14, x);
-  for (double y = std::ceil(y0_ / step_m) * step_m; y <= y1_ + 1e-9; y += step_m)
+  for (double y = std::ceil(y0_ / step_m) * step_m + 0.0; y <= y1_ + 1e-9; y += step_m)
     frame_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" style=\"font:11px sans-serif;text-anchor:end\">{:g}</text>\n", px(x0_) - 5, py(y) + 4, y);
   frame_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" style=\"font:12px sans-serif;text-anchor:middle\">{}</text>\n", px((x0_ + x1_) / 2), py(y0_) + 30, x_name);
   frame_ += fmt::format("<text x=\"{0:.1f}\" y=\"{1:.1f}\" transform=\"rotate(-90 {0:.1f} {1:.1f})\" style=\"font:12px sans-serif;text-anchor:middle\">{2}</text>\n",

@@ -16,6 +16,7 @@ set(in_process_rooms plant in_process io)
 set(validate_rooms plant run in_process validate)
 set(watch_rooms plant run in_process watch io core record ${app_rooms})  # the app's own pan schedule moves the scanners
 set(truck_world_rooms plant run truck_world points recognition)  # points: clouds as files; recognition: what is judged
+set(echoes_rooms plant run echoes)
 set(identify_rooms identify run)  # never the plant: it measures what is on the bus
 
 set(violations 0)
@@ -67,6 +68,7 @@ check_folder(planning_app "${app_rooms};${interface_rooms}" "CGAL/")
 check_folder(fault_injection/plant "${plant_rooms};${interface_rooms}" "")
 check_folder(fault_injection/run "${run_rooms};${interface_rooms}" "")
 check_folder(fault_injection/truck_world "${truck_world_rooms};${interface_rooms}" "")
+check_folder(fault_injection/echoes "${echoes_rooms};${interface_rooms}" "")
 check_folder(fault_injection/identify "${identify_rooms};${interface_rooms}" "")
 check_folder(fault_injection/map "${run_rooms};${interface_rooms}" "")
 # Join plant and kernel in one process, for speed.

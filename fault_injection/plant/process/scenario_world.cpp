@@ -149,6 +149,11 @@ ScannerConfig read_scanner(StrictTable t) {
   scanner.dropout_probability = t.number("dropout_probability", 0.0, 1.0);
   scanner.dust_probability = t.number("dust_probability", 0.0, 1.0);
   scanner.window_percent = t.number("window_percent", 0.0, 100.0);
+  scanner.waveform_share = t.number_or("waveform_share", 0.0, 1.0, scanner.waveform_share);
+  for (const char* key : {"ranging", "reflectivity"})
+    if (t.has(key) && scanner.waveform_share == 0.0) t.fail(key, "is for samples with a waveform: needs a waveform_share above 0");
+  if (t.has("ranging")) scanner.ranging = t.choice("ranging", {"last_pulse", "trailing_edge"}) == "last_pulse" ? Ranging::last_pulse : Ranging::trailing_edge;
+  scanner.reflectivity = t.number_or("reflectivity", 0.01, 1.0, scanner.reflectivity);
   t.finish();
   return scanner;
 }
@@ -180,6 +185,21 @@ DustConfig read_dust(StrictTable t) {
   return dust;
 }
 
+CloudConfig read_cloud(StrictTable t) {
+  CloudConfig cloud;
+  const auto centre = t.array<2>("centre", -kSite, kSite);
+  const auto z = t.interval("z", -10.0, 50.0, 0.01);
+  cloud.x = centre[0], cloud.y = centre[1], cloud.z_low = z[0], cloud.z_high = z[1];
+  cloud.length = t.number("length", 0.1, 2 * kSite);
+  cloud.width = t.number("width", 0.1, 2 * kSite);
+  cloud.yaw = t.degrees("yaw_deg", -360.0, 360.0);
+  cloud.extinction = t.number("extinction", 0.001, 20.0);
+  cloud.at_s = t.number("at_s", 0.0, 36000.0);
+  cloud.for_s = t.number("for_s", 0.05, 36000.0);
+  t.finish();
+  return cloud;
+}
+
 }  // namespace
 
 WorldConfig read_world(StrictTable& file) {
@@ -200,6 +220,10 @@ WorldConfig read_world(StrictTable& file) {
   for (StrictTable& t : file.tables("scanner_fault")) world.scanner_faults.push_back(read_sensor_fault(t, "scanner", 2, "mirror_deg"));
   for (StrictTable& t : file.tables("lidar_fault")) world.lidar_faults.push_back(read_sensor_fault(t, "lidar", lidars_most, "sector_deg"));
   for (StrictTable& t : file.tables("dust")) world.dust.push_back(read_dust(t));
+  for (StrictTable& t : file.tables("cloud")) {
+    if (world.scanner.waveform_share == 0.0) file.fail("cloud", "is seen by samples with a waveform alone: needs a scanner.waveform_share above 0");
+    world.clouds.push_back(read_cloud(t));
+  }
   return world;
 }
 

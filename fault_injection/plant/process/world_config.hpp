@@ -76,6 +76,8 @@ struct DigZoneConfig {                    // ground in here may be touched and d
   double x_low = 3.9, y_low = -4.2, x_high = 10.5, y_high = 4.2, floor = -3.4;
 };
 
+enum class Ranging { last_pulse, trailing_edge };  // which edge of the last return a panning scanner ranges by
+
 struct ScannerConfig {
   double sample_rate_hz = 12000.0;
   int samples_per_revolution = 400;
@@ -85,6 +87,9 @@ struct ScannerConfig {
   double dropout_probability = 0.0;       // a sample without return
   double dust_probability = 0.0;          // a sample with an additional, nearer echo
   double window_percent = 100.0;
+  double waveform_share = 0.0;            // of the panning scanners' samples: echoes computed from the sampled return instead of drawn
+  Ranging ranging = Ranging::last_pulse;  // of those
+  double reflectivity = 0.3;              // of all that those meet: soil and rock 0.2 to 0.4 in the near infrared, snow and new paint more
 };
 
 struct SensorFault {                      // of a panning scanner, or of a lidar on the upper body, for a time
@@ -101,6 +106,12 @@ struct DustConfig {                       // in the air about every sensor, for 
   double lost = 0.0;                      // of the target's echo not coming back, but the dust's alone
 };
 
+struct CloudConfig {                      // dust in a box of the world, for a time: what samples with a waveform look through
+  double x = 0.0, y = 0.0, z_low = 0.0, z_high = 0.0, length = 0.0, width = 0.0, yaw = 0.0;
+  double extinction = 0.0;                // 1/m, one way
+  double at_s = 0.0, for_s = 0.0;
+};
+
 struct WorldConfig {
   double ballast_kg = 0.0;                // a test weight fixed in the bucket: weighs and takes room as soil would, and never falls out
   TerrainConfig terrain;
@@ -112,6 +123,7 @@ struct WorldConfig {
   ScannerConfig scanner;
   std::vector<SensorFault> scanner_faults, lidar_faults;
   std::vector<DustConfig> dust;
+  std::vector<CloudConfig> clouds;
 };
 
 }  // namespace berm::plant

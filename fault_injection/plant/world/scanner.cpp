@@ -1,6 +1,7 @@
 #include "plant/world/scanner.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -10,13 +11,24 @@ namespace {
 // A window that lets less through than this is reported as dirty, percent.
 constexpr double dirty_window = 70;
 
+// What is ranged this near to what the beam met came back from it, m: a pulse's half width and a little.
+constexpr double of_target_m = 0.3;
+
+// The beams beside one, by which the face that it met is known, rad; an edge passes for a face this steep at most.
+constexpr double beside_rad = 0.002, steepest_cosine = 0.17;
+
+Vec3 crossed(const Vec3& a, const Vec3& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+double dotted(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vec3 unit(const Vec3& a) { return (1.0 / std::sqrt(dotted(a, a))) * a; }
+
 int32_t micro(double value) { return static_cast<int32_t>(std::llround(value * 1e6)); }
 
 }  // namespace
 
 Scanner::Scanner(const ScannerConfig& config, const ScannerMount& mount, uint8_t number, uint64_t seed)
     : config_(config), head_{mount.position[0], mount.position[1], mount.position[2]}, number_(number), rate_(std::llround(config.sample_rate_hz)), random_(seed),
-      dust_random_(~seed) {
+      dust_random_(~seed), wave_random_(wave_seed(seed)) {
+  if (config.waveform_share > 0.0) receiver_.emplace(wave_.lidar(), config.ranging, config.range_min);
   for (int i = 0; i < config.samples_per_revolution; ++i) {
     const double e = 2 * std::numbers::pi * i / config.samples_per_revolution;
     cosine_.push_back(std::cos(e));
@@ -31,7 +43,46 @@ Vec3 Scanner::direction(int index, double pan) const {
 
 uint16_t Scanner::raw(double range) const { return static_cast<uint16_t>(std::clamp<long long>(std::llround(range * 1000 / BERM_SCAN_RANGE_LSB_MM), 1, 65535)); }
 
-Scanner::Sample Scanner::measure(const Shot& shot, const Scene& scene, const SensorAir& air, std::vector<MoverReturn>* returns) {
+Scanner::Shot Scanner::shot(const Stance& stance, const Ray& upper, double mirror) {
+  const Ray base{stance.body.out(upper.origin), stance.body.out(upper.direction)};
+  return {stance.stand.out(base), base, upper, mirror};
+}
+
+double Scanner::cos_incidence(const Shot& at, double range, const Stance& stance, const Scene& scene) const {
+  const Vec3& d = at.upper.direction;
+  const Vec3 across = std::abs(d.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
+  const Vec3 aside = unit(crossed(d, across)), upwards = crossed(aside, d);
+  std::array<Vec3, 2> face;  // from the hit to those beside it
+  size_t k = 0;
+  for (const Vec3& to : {aside, upwards}) {
+    const Shot beside = shot(stance, {at.upper.origin, unit(d + beside_rad * to)}, at.mirror);
+    const std::optional<double> met = scene.cast(beside.world, beside.base, beside.upper, config_.range_max);
+    if (!met) return steepest_cosine;
+    face[k++] = beside.upper.at(*met) - at.upper.at(range);
+  }
+  return std::clamp(std::abs(dotted(unit(crossed(face[0], face[1])), d)), steepest_cosine, 1.0);
+}
+
+Scanner::Sample Scanner::listen(const Shot& at, const std::optional<SceneHit>& hit, const Stance& stance, const Scene& scene, const SensorAir& air,
+                                double noise, uint64_t seed, std::vector<MoverReturn>* returns) {
+  PulsePath path;
+  path.window_percent = config_.window_percent;
+  const double reach = hit ? hit->range : config_.range_max;
+  for (const DustCloud& c : air.clouds)
+    if (const auto span = c.box.cross(at.world, reach)) path.clouds.push_back({(*span)[0], (*span)[1], c.extinction});
+  if (hit) path.target = HardTarget{hit->range, config_.reflectivity, cos_incidence(at, hit->range, stance, scene)};
+  wave_.sample(path, seed);
+  const Echoes echoes = receiver_->receive(wave_);
+  Sample s;
+  int k = 0;
+  for (; k < echoes.count; ++k) s.echo[k] = raw(std::max(config_.range_min, echoes.range[static_cast<size_t>(k)] + noise));
+  // More than one echo is the packet's only sign of dust: a single pulse that is too long is told twice.
+  if (echoes.dust && k == 1) s.echo[k++] = s.echo[0];
+  if (hit && k > 0 && std::abs(echoes.range[static_cast<size_t>(echoes.count - 1)] - hit->range) < of_target_m) note(*hit, at.world, returns);
+  return s;
+}
+
+Scanner::Sample Scanner::measure(const Shot& shot, const Stance& stance, const Scene& scene, const SensorAir& air, std::vector<MoverReturn>* returns) {
   Sample s;
   // The draws do not depend on what is hit, so that one changed object does not change every later sample's noise.
   const double noise = random_.normal(), what = random_.uniform(), where = random_.uniform(), film = random_.uniform();
@@ -44,10 +95,13 @@ Scanner::Sample Scanner::measure(const Shot& shot, const Scene& scene, const Sen
     s.echo[k] = r;
   };
   const double haze = air.dusty() ? dust_random_.uniform() : 1.0, haze_at = air.dusty() ? dust_random_.uniform() : 0.0;
+  const bool waveform = receiver_ && wave_random_.uniform() < config_.waveform_share;
+  const auto wave_noise = waveform ? static_cast<uint64_t>(wave_random_.uniform() * 0x1p53) : 0u;
   if (air.covers(shot.mirror)) {
     add(config_.range_min);
     return s;
   }
+  if (waveform) return listen(shot, hit, stance, scene, air, config_.range_stddev * noise, wave_noise, returns);
   // Part of the light comes back from a dirty window; the last echo is still the target.
   if (film * 200 < 100 - config_.window_percent) add(config_.range_min);
   double rate = config_.outlier_probability;
@@ -104,9 +158,8 @@ void Scanner::step(double t, double dt, const ScanPose& before, const ScanPose& 
     for (int i = 0; i < p.count; ++i) {
       const double f = fraction(next_ + i);
       const Ray upper{head_, direction(index + i, pan_at(f))};
-      const PlanarFrame body(0, 0, 0, before.swing + f * (now.swing - before.swing));
-      const Ray base{body.out(upper.origin), body.out(upper.direction)};
-      const Sample s = measure({stand.out(base), base, upper, 2 * std::numbers::pi * (index + i) / turn}, scene, air, returns);
+      const Stance stance{stand, PlanarFrame(0, 0, 0, before.swing + f * (now.swing - before.swing))};
+      const Sample s = measure(shot(stance, upper, 2 * std::numbers::pi * (index + i) / turn), stance, scene, air, returns);
       for (int k = 0; k < BERM_SCAN_ECHOES; ++k) {
         p.range[i][k] = s.echo[k];
         if (s.echo[k] != 0) most = std::max(most, k + 1);

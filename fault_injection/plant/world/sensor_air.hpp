@@ -3,8 +3,14 @@
 
 #include <array>
 #include <numbers>
+#include <vector>
+
+#include "plant/world/solids.hpp"
 
 namespace berm::plant {
+
+// Dust in a box of the world; extinction of one way, 1/m.
+struct DustCloud { BoxSolid box; double extinction = 0.0; };
 
 struct SensorAir {
   double dust = 0.0;     // probability of an additional echo
@@ -12,6 +18,7 @@ struct SensorAir {
   bool covered = false;  // something lies on the window,
   std::array<double, 2> turn{0.0, 2 * std::numbers::pi};  // over this part of the sensor's turn
   bool silent = false;   // sends nothing
+  std::vector<DustCloud> clouds;  // what samples with a waveform look through
 
   [[nodiscard]] bool dusty() const { return dust > 0.0 || lost > 0.0; }
   [[nodiscard]] bool covers(double turned) const { return covered && turned >= turn[0] && turned < turn[1]; }

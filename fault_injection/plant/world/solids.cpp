@@ -24,12 +24,17 @@ bool clip_slab(double origin, double direction, double low, double high, double&
 
 }  // namespace
 
-std::optional<double> cast_box(const Ray& ray, const Vec3& low, const Vec3& high, double range_max) {
+std::optional<std::array<double, 2>> cross_box(const Ray& ray, const Vec3& low, const Vec3& high, double range_max) {
   double t_in = 0, t_out = range_max;
   if (!clip_slab(ray.origin.x, ray.direction.x, low.x, high.x, t_in, t_out)) return std::nullopt;
   if (!clip_slab(ray.origin.y, ray.direction.y, low.y, high.y, t_in, t_out)) return std::nullopt;
   if (!clip_slab(ray.origin.z, ray.direction.z, low.z, high.z, t_in, t_out)) return std::nullopt;
-  return t_in;
+  return std::array<double, 2>{t_in, t_out};
+}
+
+std::optional<double> cast_box(const Ray& ray, const Vec3& low, const Vec3& high, double range_max) {
+  const auto crossed = cross_box(ray, low, high, range_max);
+  return crossed ? std::optional<double>((*crossed)[0]) : std::nullopt;
 }
 
 std::optional<double> CylinderSolid::cast(const Ray& ray, double range_max) const {

@@ -1,6 +1,7 @@
 // The solids that rays are cast against.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "plant/world/vec3.hpp"
 
 namespace berm::plant {
+
+// Where a ray enters and leaves an axis-aligned box, as far as it does before range_max; enters at 0 from within.
+std::optional<std::array<double, 2>> cross_box(const Ray& ray, const Vec3& low, const Vec3& high, double range_max);
 
 // Where a ray enters an axis-aligned box, if it does before range_max; 0 from within.
 std::optional<double> cast_box(const Ray& ray, const Vec3& low, const Vec3& high, double range_max);
@@ -17,6 +21,7 @@ struct BoxSolid {
   PlanarFrame frame;
   Vec3 low, high;
   [[nodiscard]] std::optional<double> cast(const Ray& ray, double range_max) const { return cast_box(frame.in(ray), low, high, range_max); }
+  [[nodiscard]] std::optional<std::array<double, 2>> cross(const Ray& ray, double range_max) const { return cross_box(frame.in(ray), low, high, range_max); }
 };
 
 // An upright cylinder.

@@ -88,6 +88,10 @@ struct World::State {
       (f.silent ? a.silent : a.covered) = true;
       if (!f.silent) a.turn = f.turn;
     }
+    for (const CloudConfig& c : config.clouds) {
+      if (!during(c)) continue;
+      a.clouds.push_back({{PlanarFrame(c.x, c.y, 0, c.yaw), {-c.length / 2, -c.width / 2, c.z_low}, {c.length / 2, c.width / 2, c.z_high}}, c.extinction});
+    }
     return a;
   }
   [[nodiscard]] double loose_density() const { return config.soil.density_bank / config.soil.swell; }

@@ -141,6 +141,35 @@ TEST(Scenario, FaultsOfSensorsAndDustAreRead) {
   EXPECT_EQ(d.dust[1].lost, 0.02);
 }
 
+TEST(Scenario, WaveformsAndCloudsAreReadAndChecked) {
+  const std::string good = text_of("bench.toml"), key = "window_percent = 98.0\n", share = key + "waveform_share = 0.25\n";
+  const ScannerConfig plain = loaded(good).world.scanner;
+  EXPECT_EQ(plain.waveform_share, 0.0);
+  EXPECT_EQ(plain.ranging, Ranging::last_pulse);
+  const std::string cloud = "\n[[cloud]]\ncentre = [-0.7, 6.8]\nz = [-2.2, 3]\nlength = 9\nwidth = 6\nyaw_deg = 90\nextinction = 0.5\nat_s = 2\nfor_s = 20\n";
+  const std::string whole = replaced(good, key, share + "ranging = \"trailing_edge\"\nreflectivity = 0.4\n") + cloud;
+  const WorldConfig w = loaded(whole).world;
+  EXPECT_EQ(w.scanner.waveform_share, 0.25);
+  EXPECT_EQ(w.scanner.ranging, Ranging::trailing_edge);
+  EXPECT_EQ(w.scanner.reflectivity, 0.4);
+  ASSERT_EQ(w.clouds.size(), 1u);
+  EXPECT_EQ(w.clouds[0].y, 6.8);
+  EXPECT_EQ(w.clouds[0].z_low, -2.2);
+  EXPECT_EQ(w.clouds[0].length, 9.0);
+  EXPECT_EQ(w.clouds[0].width, 6.0);
+  EXPECT_NEAR(w.clouds[0].yaw, std::numbers::pi / 2, 1e-12);
+  EXPECT_EQ(w.clouds[0].extinction, 0.5);
+  EXPECT_EQ(w.clouds[0].at_s, 2.0);
+  EXPECT_EQ(w.clouds[0].for_s, 20.0);
+  EXPECT_EQ(refusal(replaced(whole, "share = 0.25", "share = 1.5")), "scanner.waveform_share: 1.5 is outside 0 .. 1");
+  EXPECT_EQ(refusal(replaced(whole, "trailing_edge", "first_pulse")), "scanner.ranging: 'first_pulse' is not one of last_pulse, trailing_edge");
+  EXPECT_EQ(refusal(replaced(whole, "reflectivity = 0.4", "reflectivity = 0")), "scanner.reflectivity: 0 is outside 0.01 .. 1");
+  EXPECT_EQ(refusal(replaced(whole, "extinction = 0.5", "extinction = 50")), "cloud[0].extinction: 50 is outside 0.001 .. 20");
+  EXPECT_EQ(refusal(replaced(whole, "yaw_deg = 90\n", "")), "cloud[0].yaw_deg: is missing");
+  EXPECT_EQ(refusal(replaced(good, key, key + "ranging = \"last_pulse\"\n")), "scanner.ranging: is for samples with a waveform: needs a waveform_share above 0");
+  EXPECT_EQ(refusal(good + cloud), "cloud: is seen by samples with a waveform alone: needs a scanner.waveform_share above 0");
+}
+
 TEST(Scenario, MachineFaultsAreReadAndChecked) {
   const std::string good = text_of("bench.toml"), table = "\n[[machine_fault]]\n";
   EXPECT_TRUE(loaded(good).machine_fault.empty());
