@@ -7,19 +7,23 @@ import subprocess
 import sys
 import tempfile
 
-PROGRAMS = ("berm_bench_600", "berm_bench_150", "berm_bench_gathering")
+PROGRAMS = ("berm_bench_600", "berm_bench_150", "berm_bench_gathering", "berm_bench_planes")
 PLAIN_LOOP_TIMES = 1.5   # the certified check against the plain loop
 INSERT_PLAIN_SHARE = 0.5  # insertion against the plain loop
 INSERT_PEER_TIMES = 5.0   # insertion against updateNode
 GATHER_PEER_TIMES = 5.0   # gathering against insertPointCloud with its ray casting
+PLANES_PEER_TIMES = 8.0   # plane stage, and whole recognition, against every plane extraction of PCL and CGAL on the usual sweep
+SCALING_SLACK = 1.25      # of the points' own factor, as much as n log n would take from one density to the other
+PLANES_MEASURES = ("recall", "angle_error", "offset_error")
 
 
 def arguments():
     p = argparse.ArgumentParser(prog="./berm bench", description="Speed of the kernel's certified check and map insertion, side by side with FCL, Bullet and OctoMap "
-                                "as the distribution packages them and with plain loops, on the same workload in the same process; and who decides grazing cases how.")
+                                "as the distribution packages them and with plain loops, on the same workload in the same process; who decides grazing cases how; "
+                                "and gathering, extraction of planes and truck recognition beside OctoMap, PCL and CGAL.")
     p.add_argument("name", nargs="?", default="", metavar="NAME", help="only workloads whose name contains this (--list names them)")
     p.add_argument("--json", metavar="FILE", help="list of workload, unit, ours, peer, peer_value, ratio (above 1: ours is so many times better), reference (plain loop or memory)")
-    p.add_argument("--check", action="store_true", help="exit status 1 where a ratio to a plain loop or to OctoMap is missed, or ours decides a grazing case wrongly")
+    p.add_argument("--check", action="store_true", help="exit status 1 where a ratio to a plain loop or to a peer is missed, or ours decides a grazing case wrongly")
     p.add_argument("--list", action="store_true", help="names of the workloads, and stop")
     return p.parse_args()
 
@@ -43,6 +47,12 @@ def misses(rows):
             said.add(f"{name}: {r['ratio']:.1f} times {r['peer']}, at least {GATHER_PEER_TIMES:.0f} wanted")
         if name.startswith("gathering_memory") and r["ratio"] < 1.0:
             said.add(f"{name}: {1 / r['ratio']:.2f} of the memory of {r['peer']}, less than 1 wanted")
+        if name in ("planes_speed_36000", "recognition_speed_36000") and r["ratio"] < PLANES_PEER_TIMES:
+            said.add(f"{name}: {r['ratio']:.2f} times as fast as {r['peer']}, at least {PLANES_PEER_TIMES:.0f} wanted")
+        if name in [f"{stage}_{what}_36000" for stage in ("planes", "recognition") for what in PLANES_MEASURES] and r["ratio"] < 1.0:
+            said.add(f"{name}: {ours:.3g} against {r['peer_value']:.3g} {r['unit']} of {r['peer']}, no worse wanted")
+        if name in ("planes_scaling", "recognition_scaling") and ours > SCALING_SLACK * reference:
+            said.add(f"{name}: {ours:.1f} times the time for {reference:.1f} times the points, at most {SCALING_SLACK} times as many wanted")
         if name.startswith("grazing") and ours > 0:
             said.add(f"{name}: {ours:.0f} wrong decisions of ours")
     return sorted(said)
