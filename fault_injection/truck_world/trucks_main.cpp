@@ -6,6 +6,7 @@
 
 #include "config/command_line.hpp"
 #include "config/whole_file.hpp"
+#include "truck_world/in_turn.hpp"
 #include "truck_world/trial.hpp"
 
 namespace berm::truck_world {
@@ -15,6 +16,7 @@ struct TrialOptions {
   int scenes = 0;
   std::uint64_t seed = 1;
   int only = -1;
+  int jobs = 1;
   bool trucks = false, no_trucks = false, list = false;
   std::string json, drawn = BERM_TRUCK_CLASSES, ranges = BERM_TRUCK_RANGES;
   SceneOptions scene;
@@ -45,6 +47,19 @@ void report(const Trial& t, const TrialOptions& o) {
              t.pose.open_end, t.pose.length, t.pose.width, t.cab, t.true_score, t.true_cab);
 }
 
+// Of one number: the scene with a truck, and that without.
+std::vector<Trial> trials_of(int number, const TrialOptions& o, const std::vector<TruckClass>& classes, const app::TruckRangeSet& ranges) {
+  std::vector<Trial> trials;
+  for (const Content content : {Content::truck, Content::no_truck}) {
+    if ((content == Content::truck && o.no_trucks) || (content == Content::no_truck && o.trucks)) continue;
+    SceneOptions options = o.scene;
+    options.content = content;
+    const Scene scene = draw_scene(classes, options, o.seed, number);
+    trials.push_back(judge(scene, app::recognise_truck(scene.cloud, viewpoint_of(scene), ranges)));
+  }
+  return trials;
+}
+
 int run(int argc, char** argv) {
   TrialOptions o;
   CLI::App app{
@@ -55,6 +70,7 @@ int run(int argc, char** argv) {
   app.add_option("--seed", o.seed, "seed of every draw")->capture_default_str();
   app.add_option("--json", o.json, "write the result");
   app.add_option("--only", o.only, "this one scene alone")->check(CLI::Range(0, 999999));
+  app.add_option("--jobs", o.jobs, "so many scenes at a time; their CPU times are larger on a computer that has more to do")->check(CLI::Range(1, 256))->capture_default_str();
   auto* with = app.add_flag("--trucks", o.trucks, "only the scenes with a truck");
   app.add_flag("--no-trucks", o.no_trucks, "only the scenes without")->excludes(with);
   app.add_flag("--list", o.list, "one line for every scene, with its evidence");
@@ -69,19 +85,16 @@ int run(int argc, char** argv) {
 
   const std::vector<TruckClass> classes = read_truck_classes(o.drawn);
   const app::TruckRangeSet ranges = app::read_truck_ranges(o.ranges);
-  const int first = o.only >= 0 ? o.only : 0, end = o.only >= 0 ? o.only + 1 : o.scenes;
+  const int first = o.only >= 0 ? o.only : 0, count = o.only >= 0 ? 1 : o.scenes;
   const bool terminal = isatty(STDERR_FILENO) != 0;
   std::vector<Trial> trials;
-  for (int number = first; number < end; ++number) {
-    for (const Content content : {Content::truck, Content::no_truck}) {
-      if ((content == Content::truck && o.no_trucks) || (content == Content::no_truck && o.trucks)) continue;
-      o.scene.content = content;
-      const Scene scene = draw_scene(classes, o.scene, o.seed, number);
-      trials.push_back(judge(scene, app::recognise_truck(scene.cloud, viewpoint_of(scene), ranges)));
-      report(trials.back(), o);
-    }
-    if (terminal && number % 10 == 9) fmt::print(stderr, "\r{} of {} scenes", number + 1 - first, end - first);
-  }
+  in_turn<std::vector<Trial>>(
+      count, o.jobs, [&](int k) { return trials_of(first + k, o, classes, ranges); },
+      [&](int k, const std::vector<Trial>& done) {
+        for (const Trial& t : done) report(t, o);
+        trials.insert(trials.end(), done.begin(), done.end());
+        if (terminal && k % 10 == 9) fmt::print(stderr, "\r{} of {} scenes", k + 1, count);
+      });
   if (terminal) fmt::print(stderr, "\n");
   const nlohmann::ordered_json json = summary(trials);
   fmt::print("{}\n", json.dump(1));

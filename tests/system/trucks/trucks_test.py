@@ -38,6 +38,16 @@ def a_drawn_truck_is_found_and_bare_ground_is_none():
         assert all(answer["covariance"][i][i] > 0 for i in range(12))
 
 
+def several_jobs_judge_the_same():
+    def judged(jobs):
+        out = scratch / f"jobs{jobs}.json"
+        done = run("berm_trucks", "--scenes", 4, "--seed", SEED, "--jobs", jobs, "--json", out)
+        result = json.loads(out.read_text())
+        return done.returncode, {key: value for key, value in result.items() if not key.startswith("ms_")}
+
+    assert judged(1) == judged(3)
+
+
 def offline(content, number):
     """The same scene through files: what berm_recognize answers, and the truth."""
     folder = scratch / content
@@ -73,4 +83,4 @@ def what_is_malformed_is_refused():
     assert done.returncode == 1 and "no truck: " in done.stdout, (done.returncode, done.stdout, done.stderr)
 
 
-main([a_drawn_truck_is_found_and_bare_ground_is_none, what_is_malformed_is_refused])
+main([a_drawn_truck_is_found_and_bare_ground_is_none, several_jobs_judge_the_same, what_is_malformed_is_refused])
