@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kCertain = 30.0;  // of a logistic function's argument
+constexpr double kCertain = 12.0;  // of a logistic function's argument: a residual of 0.004 standard deviations
 
 double in_bed(const BedAxes& a, int axis, const Vector3d& at) { return a.axis[static_cast<std::size_t>(axis)].dot(at - a.middle); }
 

@@ -18,6 +18,7 @@ using Eigen::Vector2d;
 constexpr std::size_t kRegionsMost = 10;
 constexpr std::size_t kCoarseRays = 900;                                // that first decide between interpretations
 constexpr std::size_t kEndsOfStrip = 4, kOfRegion = 5, kFitted = 10, kFittedEnds = 12;  // most candidates
+constexpr double kRoughWorth = 0.5, kFittedWorth = 0.6;  // of the best one's evidence, to be fitted
 constexpr double kLengthSlack = 0.25;                                   // m, of what is fitted later
 constexpr double kRefineStep = 0.12;                                     // m
 constexpr int kRefineHalvings = 3;
@@ -34,13 +35,13 @@ bool alike(const BedPose& a, const BedPose& b) {
 double whole(const BedEnds& e) { return with_cab(e.bed, e.cab); }
 double whole(const BedInterpretation& i) { return i.whole(); }
 
-// The best that are not alike, the best first.
+// The best that are not alike, the best first, and of those what is worth this share of the first at least.
 template <typename Candidate>
-std::vector<Candidate> distinct(std::vector<Candidate> all, std::size_t most) {
+std::vector<Candidate> distinct(std::vector<Candidate> all, std::size_t most, double worth = 0.0) {
   std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return whole(a) > whole(b); });
   std::vector<Candidate> out;
   for (Candidate& c : all) {
-    if (out.size() >= most) break;
+    if (out.size() >= most || (!out.empty() && whole(c) < worth * whole(out.front()))) break;
     if (std::none_of(out.begin(), out.end(), [&](const Candidate& o) { return alike(c.pose, o.pose); })) out.push_back(std::move(c));
   }
   return out;
@@ -112,19 +113,19 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
   for (std::size_t k = 0; k < std::min(regions.size(), kRegionsMost); ++k)
     for (BedEnds& e : interpret_region(sweep, regions[k], ranges, lengths)) found.push_back(std::move(e));
   std::vector<BedEnds> ends;
-  for (const BedEnds& rough : distinct(std::move(found), kFitted)) {
+  for (const BedEnds& rough : distinct(std::move(found), kFitted, kRoughWorth)) {
     const auto [p, score] = fitted(sweep, rough.pose);
     ends.push_back({p, rough.cab_end, score, rough.cab});
     for (BedEnds& e : best_ends(strip_of(p), rays_around(sweep, p.middle), lengths, 1.0, kEndsOfStrip)) ends.push_back(std::move(e));
   }
   std::vector<BedInterpretation> out;
-  for (const BedEnds& e : distinct(std::move(ends), kFittedEnds)) {
+  for (const BedEnds& e : distinct(std::move(ends), kFittedEnds, kFittedWorth)) {
     BedInterpretation i;
     i.pose = fitted(sweep, e.pose).pose;
     weigh_whole(sweep, i);
     out.push_back(std::move(i));
   }
-  out = distinct(std::move(out), kInterpretations);
+  out = distinct(std::move(out), kInterpretations, kFittedWorth);
   for (BedInterpretation& i : out) {
     i.pose = refined(i.pose, every(i.rays, kRefineStride), kRefineStep, kRefineHalvings);
     i.pose = fitted(sweep, i.pose).pose;

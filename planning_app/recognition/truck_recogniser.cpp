@@ -18,6 +18,7 @@ constexpr int kInnerBeforeCab = 50, kInnerAlone = 150;  // returns on inner face
 constexpr int kLastRounds = 4;           // of the last fit
 constexpr double kBelowFloor = 0.1;       // m
 constexpr int kFootLeast = 12;            // returns
+constexpr double kFloorFlat = 0.15;       // m between its returns: a floor, not a load
 constexpr double kLengthUnsure = 0.5;  // m, standard deviation
 constexpr double kGroundSlack = 0.15;   // m: ruts
 constexpr double kGroundLeast = 0.02;   // share of returns
@@ -56,14 +57,16 @@ FaceDepths face_depths(const BedPose& pose, const std::vector<Ray>& rays, int ax
 
 // The depth at which hits on an outer face give way to rays that pass below the wall, by the fewest contradictions; at least that of the load's or
 // floor's deeper returns. An end wall reaches down to the floor in every class, the side of a half pipe does not. A face that goes on below every
-// class's floor is of what carries the bed as well, and has no foot to tell; then the floor is where the deeper returns of its inside are.
+// class's floor is of what carries the bed as well, and has no foot to tell; then the floor is where a flat inside lies.
 double wall_height(const BedPose& pose, const std::vector<Ray>& rays, const TruckRangeSet& ranges) {
   const SizeRange heights = ranges.hull(&TruckRanges::wall_height);
   FaceDepths depths = face_depths(pose, rays, 0);
   if (depths.hits.size() < 12 || depths.passes.size() < 6) depths = face_depths(pose, rays, 1);
-  const auto below = std::count_if(depths.hits.begin(), depths.hits.end(), [&](double depth) { return depth > heights[1] + kBelowFloor; });
-  const bool no_foot = below >= kFootLeast;
-  double best = no_foot ? heights[0] : 0.5 * (heights[0] + heights[1]);
+  const auto below = [&](const std::vector<double>& all) {
+    return std::count_if(all.begin(), all.end(), [&](double depth) { return depth > heights[1] + kBelowFloor; });
+  };
+  const bool no_foot = below(depths.hits) >= kFootLeast && below(depths.hits) > below(depths.passes);
+  double best = 0.5 * (heights[0] + heights[1]);
   long least = 1L << 30;
   for (double h = heights[0]; !no_foot && h <= heights[1]; h += 0.02) {
     const long wrong = std::count_if(depths.hits.begin(), depths.hits.end(), [h](double x) { return x > h; }) +
@@ -79,7 +82,10 @@ double wall_height(const BedPose& pose, const std::vector<Ray>& rays, const Truc
   if (inside.size() >= 10) {
     const auto deep = inside.begin() + static_cast<std::ptrdiff_t>(inside.size() * 9 / 10);
     std::nth_element(inside.begin(), deep, inside.end());
-    best = std::max(best, *deep);
+    const auto shallow = inside.begin() + static_cast<std::ptrdiff_t>(inside.size() / 10);
+    std::nth_element(inside.begin(), shallow, deep);
+    const bool floor_seen = *deep > heights[0] && *deep - *shallow < kFloorFlat;
+    best = no_foot && floor_seen ? *deep : std::max(best, *deep);
   }
   return best;
 }

@@ -15,9 +15,9 @@ constexpr double kOffLine = 0.09;       // m, of a segment from its region in pl
 constexpr std::size_t kFansApart = 3;
 constexpr int kSegmentsLeast = 4;
 constexpr int kFaceRounds = 5;
-constexpr double kOffFace = 0.06;         // m, of a return that its face leaves out
+constexpr double kOffFace = 0.05, kOffUpright = 0.12;  // m, of a return that its face leaves out: of the body's other surfaces; at first, as it leans
 constexpr double kFaceNoise = 0.03;      // m, standard deviation of a return
-constexpr double kLean = 0.05;           // rad, the same of how much walls lean
+constexpr double kLean = 0.012;          // rad, the same of how much walls lean, in the middle of what is drawn
 
 struct Growing {
   double n = 0.0;
@@ -97,6 +97,7 @@ void fit_face(const FanSweep& sweep, UprightRegion& r) {
   r.face_normal = {r.normal.x(), r.normal.y(), 0.0};
   r.face_at = {0.5 * (r.first.x() + r.last.x()), 0.5 * (r.first.y() + r.last.y()), 0.5 * (r.low + r.high)};
   for (int round = 0; round < kFaceRounds; ++round) {
+    const double gate = round == 0 ? kOffUpright : kOffFace;
     const Eigen::Vector3d level = Eigen::Vector3d(-r.face_normal.y(), r.face_normal.x(), 0.0).normalized();
     Eigen::Matrix3d normal = Eigen::Vector3d(0.0, 1.0 / (kLean * kLean), 0.0).asDiagonal();  // turned, leaned, moved
     // The lean is about what was known beforehand, an upright wall.
@@ -104,7 +105,7 @@ void fit_face(const FanSweep& sweep, UprightRegion& r) {
     const auto take = [&](const FanReturn& one) {
       const Eigen::Vector3d d = one.at - r.face_at;
       const double off = r.face_normal.dot(d);
-      if (std::abs(off) > kOffFace) return;
+      if (std::abs(off) > gate) return;
       const Eigen::Vector3d slope(level.dot(d), d.z(), 1.0);
       normal += slope * slope.transpose() / (kFaceNoise * kFaceNoise);
       right += slope * off / (kFaceNoise * kFaceNoise);

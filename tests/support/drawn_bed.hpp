@@ -15,6 +15,7 @@ struct DrawnBed {
   double x = 1.0, y = 8.5, yaw = 0.3;                        // of the middle
   double length = 5.0, width = 2.4, top = 1.6, floor = 0.2;  // inside; heights
   double thickness = 0.1, ground = -1.2;
+  bool carrier = false;                                      // below the bed, flush with its walls' outer faces, down to the ground
   bool lid = false, cab = true, rear_wall = true;            // the cab stands 0.3 m beyond the end at +x of the bed
   double swing_rate = 0.0;                                   // rad/s, of the sensor about z
 };
@@ -59,6 +60,7 @@ inline std::vector<ScanPoint> sweep_of(const DrawnBed& bed) {
     if (bed.rear_wall) box(-x - t, -x, -y - t, y + t, bed.floor, bed.top);
     if (bed.cab) box(x + t + 0.3, x + t + 2.1, -1.2, 1.2, bed.ground + 0.8, bed.top + 0.3);
     box(-x, x, -y, y, bed.floor - 0.1, bed.floor);
+    if (bed.carrier) box(-x - t, x + t, -y - t, y + t, bed.ground, bed.floor - 0.1);
     if (bed.lid) box(-x, x, -y, y, bed.top - 0.02, bed.top);
     box(-60.0, 60.0, -60.0, 60.0, bed.ground - 1.0, bed.ground);
     if (range >= 25.0) continue;

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = 0.017453292519943295;
 
-// 40 fans over a wall 2.4 m high whose plane is given; every tenth return comes from 0.25 m before it.
+// 40 fans over a wall 2.4 m high whose plane is given; a hundredth of the returns comes from 0.25 m before it.
 FanSweep sweep_over(const Vector3d& normal, const Vector3d& at) {
   FanSweep sweep;
   const Vector3d head(0.0, 0.0, 3.0);
@@ -25,7 +25,7 @@ FanSweep sweep_over(const Vector3d& normal, const Vector3d& at) {
     for (int k = 0; k < 90; ++k) {
       const double down = -0.9 * k * kDegree;
       const Vector3d d(std::cos(down) * std::cos(pan), std::cos(down) * std::sin(pan), std::sin(down));
-      const double range = normal.dot(at - head) / normal.dot(d) + (k % 2 == 0 ? 0.01 : -0.01) - (++number % 10 == 0 ? 0.25 : 0.0);
+      const double range = normal.dot(at - head) / normal.dot(d) + (k % 2 == 0 ? 0.01 : -0.01) - (++number % 97 == 0 ? 0.25 : 0.0);
       const Vector3d hit = head + range * d;
       if (hit.z() < 0.0 || hit.z() > 2.4) continue;
       sweep.returns.push_back({hit, static_cast<std::uint32_t>(fan)});
