@@ -88,6 +88,15 @@ def same_seed_same_trace():
     shutil.rmtree(seen["first"])
 
 
+def trucks_that_stand_elsewhere_and_are_of_other_sizes_are_loaded():
+    status, result, out, text = load("--scenario", "mixed_trucks", "--trucks", 3, "--seed", 1)
+    assert status == 0, text[-800:]
+    assert result["trucks_loaded"] == 3 and result["contacts"] == 0 and result["kernel_faults"] == 0, result
+    assert len(result["recognition_error_m"]) == 3 and max(result["recognition_error_m"]) < 0.05, result["recognition_error_m"]
+    assert result["spill_fraction"] < 0.02, result["spill_fraction"]
+    shutil.rmtree(out)
+
+
 def what_is_no_truck_is_not_loaded():
     folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
     scenario = folder / "pickup.toml"
@@ -146,4 +155,4 @@ def real_time_gets_under_way():
     shutil.rmtree(folder)
 
 
-main([loads_one_truck, same_seed_same_trace, what_is_no_truck_is_not_loaded, app_holds_no_machine_descriptor, real_time_gets_under_way])
+main([loads_one_truck, same_seed_same_trace, trucks_that_stand_elsewhere_and_are_of_other_sizes_are_loaded, what_is_no_truck_is_not_loaded, app_holds_no_machine_descriptor, real_time_gets_under_way])
