@@ -15,19 +15,11 @@ using nlohmann::json;
 struct Corner { double x, y, z; };
 
 // In order round the bed, the front left first.
-std::array<Corner, 4> corners(double x, double y, double yaw, double length, double width, double top) {
-  const double c = std::cos(yaw), s = std::sin(yaw);
-  std::array<Corner, 4> out{};
-  const std::array<std::array<double, 2>, 4> at{{{0.5, 0.5}, {-0.5, 0.5}, {-0.5, -0.5}, {0.5, -0.5}}};
-  std::transform(at.begin(), at.end(), out.begin(), [&](const auto& k) {
-    return Corner{x + k[0] * length * c - k[1] * width * s, y + k[0] * length * s + k[1] * width * c, top};
-  });
-  return out;
-}
-
 std::array<Corner, 4> corners_of(const json& bed) {
-  return corners(bed.value("x_m", 0.0), bed.value("y_m", 0.0), bed.value("yaw_deg", 0.0) * std::numbers::pi / 180, bed.value("length_m", 0.0), bed.value("width_m", 0.0),
-                 bed.value("wall_top_m", 0.0));
+  const double yaw = bed.value("yaw_deg", 0.0) * std::numbers::pi / 180, c = std::cos(yaw), s = std::sin(yaw);
+  const double half_length = bed.value("length_m", 0.0) / 2, half_width = bed.value("width_m", 0.0) / 2;
+  const auto corner = [&](double u, double v) { return Corner{bed.value("x_m", 0.0) + u * c - v * s, bed.value("y_m", 0.0) + u * s + v * c, bed.value("wall_top_m", 0.0)}; };
+  return {corner(half_length, half_width), corner(-half_length, half_width), corner(-half_length, -half_width), corner(half_length, -half_width)};
 }
 
 bool is_recognised(const json& event) { return event.value("event", "") == "recognised"; }

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
+
+#include "truck_world/percentile.hpp"
 
 namespace berm::truck_world {
 namespace {
@@ -13,9 +16,7 @@ using Vector8d = Eigen::Matrix<double, 8, 1>;
 
 // Null without a value.
 Json percentile(std::vector<double> values, double share) {
-  if (values.empty()) return nullptr;
-  std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())))];
+  return values.empty() ? Json(nullptr) : Json(percentile_of(std::move(values), share));
 }
 
 app::BedPose pose_of(const TruckTruth& k) {

@@ -6,7 +6,7 @@
 
 #include "config/command_line.hpp"
 #include "config/whole_file.hpp"
-#include "truck_world/in_turn.hpp"
+#include "in_process/workers.hpp"
 #include "truck_world/trial.hpp"
 
 namespace berm::truck_world {
@@ -87,13 +87,19 @@ int run(int argc, char** argv) {
   const app::TruckRangeSet ranges = app::read_truck_ranges(o.ranges);
   const int first = o.only >= 0 ? o.only : 0, count = o.only >= 0 ? 1 : o.scenes;
   const bool terminal = isatty(STDERR_FILENO) != 0;
+  std::vector<std::vector<Trial>> judged(static_cast<std::size_t>(count));
+  std::vector<bool> ready(judged.size(), false);
   std::vector<Trial> trials;
-  in_turn<std::vector<Trial>>(
-      count, o.jobs, [&](int k) { return trials_of(first + k, o, classes, ranges); },
-      [&](int k, const std::vector<Trial>& done) {
-        for (const Trial& t : done) report(t, o);
-        trials.insert(trials.end(), done.begin(), done.end());
-        if (terminal && k % 10 == 9) fmt::print(stderr, "\r{} of {} scenes", k + 1, count);
+  std::size_t told = 0;  // in the order of the scenes, whatever is done first
+  in_process::run_trials(
+      count, o.jobs, [&](int k) { judged[static_cast<std::size_t>(k)] = trials_of(first + k, o, classes, ranges); },
+      [&](int finished, int k) {
+        ready[static_cast<std::size_t>(k)] = true;
+        for (; told < judged.size() && ready[told]; ++told) {
+          for (const Trial& t : judged[told]) report(t, o);
+          trials.insert(trials.end(), judged[told].begin(), judged[told].end());
+        }
+        if (terminal && finished % 10 == 0) fmt::print(stderr, "\r{} of {} scenes", finished, count);
       });
   if (terminal) fmt::print(stderr, "\n");
   const nlohmann::ordered_json json = summary(trials);

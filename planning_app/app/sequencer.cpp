@@ -48,6 +48,12 @@ void Sequencer::look(const Observation& o) {
   skyline_s_ = o.time_s;
 }
 
+void Sequencer::begin_script(const Script& script) {
+  script_ = script;
+  script_.start();
+  script_s_ = -1.0;
+}
+
 void Sequencer::begin_approach(const Observation& o, bool lower) {
   goal_kg_ = fill_.next_goal_kg(full_bucket_kg);
   plan_next_dig();
@@ -58,9 +64,7 @@ void Sequencer::begin_approach(const Observation& o, bool lower) {
     log_.event("unreachable", {{"time_s", o.time_s}, {"what", "start of the dig"}});
     return;
   }
-  script_ = *script;
-  script_.start();
-  script_s_ = -1.0;
+  begin_script(*script);
   task_.next_bearing = dig_.bearing;
   enter(Stage::approach, o);
 }
@@ -73,9 +77,7 @@ void Sequencer::begin_look(const Observation& o) {
     log_.event("unreachable", {{"time_s", o.time_s}, {"what", "where the truck is looked for"}});
     return;
   }
-  script_ = *script;
-  script_.start();
-  script_s_ = -1.0;
+  begin_script(*script);
   enter(Stage::go_look, o);
 }
 

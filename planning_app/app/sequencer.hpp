@@ -59,6 +59,7 @@ private:
   DigNeeds needs_for(double kg) const;
   void note_cut(const Observation& o);
   void learn_yield(double weighed_kg);
+  void begin_script(const Script& script);
   void begin_approach(const Observation& o, bool lower);
   void begin_look(const Observation& o);
   Joints go_look(const Observation& o);

@@ -147,9 +147,7 @@ Joints Sequencer::curl(const Observation& o) {
   }
   if (done && search_ && search_->done()) {
     note_cut(o);
-    script_ = pass_script(machine_, task_, poses_, search_->thresholds());
-    script_.start();
-    script_s_ = -1.0;
+    begin_script(pass_script(machine_, task_, poses_, search_->thresholds()));
     emptied_ = false;
     open_since_s_ = -1.0;
     before_.reset();

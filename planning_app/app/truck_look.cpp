@@ -76,10 +76,10 @@ std::optional<TruckBed> TruckLook::step(const Observation& o, ScanScheduler& sca
       if (scanners.look_sweeps() && !sweep_.recording()) sweep_.begin(scanner_);
       if (!scanners.look_done()) break;
       stage_ = Stage::drains;
-      last_return_s_ = o.time_s;
+      stage_s_ = o.time_s;
       break;
     case Stage::drains:
-      if (o.time_s - last_return_s_ < drain_s) break;
+      if (o.time_s - stage_s_ < drain_s) break;
       sweep_.end();
       scanners.end_look();
       finder_.ask(sweep_.points(), viewpoint(o.angle[swing]), o.cycle);

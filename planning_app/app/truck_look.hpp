@@ -42,7 +42,7 @@ private:
   std::size_t scanner_;
   double side_;                    // 1: the truck stands to the left of the dig
   Stage stage_ = Stage::idle;
-  double stage_s_ = 0.0, swing_ = 0.0, last_return_s_ = 0.0;
+  double stage_s_ = 0.0, swing_ = 0.0;
   int vain_ = 0;                   // looks since the last truck
 };
 

@@ -24,11 +24,6 @@ void BedMap::insert(double x, double y, double z, double time_s) {
 
 void BedMap::note_dump(double u, double mass_kg) { dumps_.push_back({u, mass_kg}); }
 
-void BedMap::clear() {
-  std::fill(time_.begin(), time_.end(), -1.0);
-  dumps_.clear();
-}
-
 double BedMap::seen_share(double since_s) const {
   const auto seen = std::count_if(time_.begin(), time_.end(), [&](double t) { return t >= 0.0 && t >= since_s; });
   return static_cast<double>(seen) / static_cast<double>(time_.size());

@@ -17,7 +17,6 @@ public:
   void insert(double x, double y, double z, double time_s);
   // A dump of this many kilograms around u along the bed.
   void note_dump(double u, double mass_kg);
-  void clear();  // a new truck
 
   // Share of cells seen since the time.
   double seen_share(double since_s) const;

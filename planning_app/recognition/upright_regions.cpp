@@ -1,6 +1,5 @@
 #include "recognition/upright_regions.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -14,10 +13,6 @@ constexpr double kRiseLeast = 0.22;     // m between the ends of a segment
 constexpr double kOffLine = 0.09;       // m, of a segment from its region in plan
 constexpr std::size_t kFansApart = 3;
 constexpr int kSegmentsLeast = 4;
-constexpr int kFaceRounds = 5;
-constexpr double kOffFace = 0.05, kOffUpright = 0.12;  // m, of a return that its face leaves out: of the body's other surfaces; at first, as it leans
-constexpr double kFaceNoise = 0.03;      // m, standard deviation of a return
-constexpr double kLean = 0.012;          // rad, the same of how much walls lean, in the middle of what is drawn
 
 struct Growing {
   double n = 0.0;
@@ -79,7 +74,7 @@ std::vector<UprightSegment> upright_segments(FanSweep& sweep) {
         high = std::max(high, z);
       }
       if (count >= 3 && high - low >= kRiseLeast) {
-        out.push_back({fan, sum / count, low, high, count, sweep.begin[fan] + i});
+        out.push_back({fan, sum / count, low, high, count});
         for (std::size_t k = i; k < end; ++k) sweep.returns[sweep.begin[fan] + k].upright = true;
         i = end;
       } else {
@@ -89,36 +84,6 @@ std::vector<UprightSegment> upright_segments(FanSweep& sweep) {
   }
   return out;
 }
-
-namespace {
-
-// Least squares of the distances from an upright plane turned, leaned and moved a little; returns that are far off it are left out.
-void fit_face(const FanSweep& sweep, UprightRegion& r) {
-  r.face_normal = {r.normal.x(), r.normal.y(), 0.0};
-  r.face_at = {0.5 * (r.first.x() + r.last.x()), 0.5 * (r.first.y() + r.last.y()), 0.5 * (r.low + r.high)};
-  for (int round = 0; round < kFaceRounds; ++round) {
-    const double gate = round == 0 ? kOffUpright : kOffFace;
-    const Eigen::Vector3d level = Eigen::Vector3d(-r.face_normal.y(), r.face_normal.x(), 0.0).normalized();
-    Eigen::Matrix3d normal = Eigen::Vector3d(0.0, 1.0 / (kLean * kLean), 0.0).asDiagonal();  // turned, leaned, moved
-    // The lean is about what was known beforehand, an upright wall.
-    Eigen::Vector3d right(0.0, r.face_normal.z() / (kLean * kLean), 0.0);
-    const auto take = [&](const FanReturn& one) {
-      const Eigen::Vector3d d = one.at - r.face_at;
-      const double off = r.face_normal.dot(d);
-      if (std::abs(off) > gate) return;
-      const Eigen::Vector3d slope(level.dot(d), d.z(), 1.0);
-      normal += slope * slope.transpose() / (kFaceNoise * kFaceNoise);
-      right += slope * off / (kFaceNoise * kFaceNoise);
-    };
-    for (const UprightSegment& s : r.segments)
-      for (std::size_t k = s.begin; k < s.begin + static_cast<std::size_t>(s.count); ++k) take(sweep.returns[k]);
-    const Eigen::Vector3d step = normal.ldlt().solve(right);
-    r.face_at += step[2] * r.face_normal;
-    r.face_normal = (r.face_normal - step[0] * level - step[1] * Eigen::Vector3d::UnitZ()).normalized();
-  }
-}
-
-}  // namespace
 
 std::vector<UprightRegion> upright_regions(const FanSweep& sweep, const std::vector<UprightSegment>& segments) {
   std::vector<Growing> growing;
@@ -161,9 +126,7 @@ std::vector<UprightRegion> upright_regions(const FanSweep& sweep, const std::vec
     r.high = median(highs);
     r.count = static_cast<int>(g.n);
     r.segments = g.members;
-    if (most - least <= 0.5) continue;
-    fit_face(sweep, r);
-    out.push_back(std::move(r));
+    if (most - least > 0.5) out.push_back(r);
   }
   std::sort(out.begin(), out.end(), [](const UprightRegion& a, const UprightRegion& b) { return a.count > b.count; });
   return out;

@@ -13,8 +13,7 @@ struct UprightSegment {
   std::size_t fan = 0;
   Eigen::Vector2d at;         // in plan
   double low = 0.0, high = 0.0;
-  int count = 0;              // of returns, one after the other
-  std::size_t begin = 0;      // of them in the sweep's
+  int count = 0;              // of returns
 };
 
 // Segments on one upright plane. Metres; in plan the region goes from first to last.
@@ -24,7 +23,6 @@ struct UprightRegion {
   double low = 0.0, high = 0.0;  // the medians of its segments' ends
   int count = 0;                 // of returns
   std::vector<UprightSegment> segments;
-  Eigen::Vector3d face_normal, face_at;  // the plane through its returns, which may lean as much as a truck does: unit, towards the sensor; a point of it
 };
 
 // Marks their returns in the sweep.

@@ -120,20 +120,18 @@ std::vector<PlaneParty> cgal_parties(const SweepPoints& sweep, bool every_settin
   const auto bare = std::make_shared<OrientedPoints>();
   for (const Eigen::Vector3d& p : sweep.points) bare->emplace_back(Kernel::Point_3(p.x(), p.y(), p.z()), Kernel::Vector_3(0.0, 0.0, 0.0));
   std::vector<PlaneParty> parties;
-  for (const GrowingSettings& s : kCgalGrowing) {
-    const std::string name = every_setting ? fmt::format("cgal_region_growing k {} {} reach {} distance {} angle {} sorted {}", s.normal_neighbours,
-                                                         s.growing_neighbours, s.reach_m, s.distance_m, s.angle_deg, s.sorted)
-                                           : "cgal_region_growing";
-    parties.push_back({name, [&sweep, bare, s] { return grown(sweep, *bare, s); }});
-    if (!every_setting) break;
-  }
-  for (const RansacSettings& s : kCgalRansac) {
-    const std::string name = every_setting ? fmt::format("cgal_efficient_ransac k {} distance {} cluster {} normal {} probability {}",
-                                                         s.normal_neighbours, s.distance_m, s.cluster_m, s.normal_threshold, s.probability)
-                                           : "cgal_efficient_ransac";
-    parties.push_back({name, [&sweep, bare, s] { return ransac(sweep, *bare, s); }});
-    if (!every_setting) break;
-  }
+  add_parties(
+      parties, "cgal_region_growing", kCgalGrowing, every_setting,
+      [](const GrowingSettings& s) {
+        return fmt::format("k {} {} reach {} distance {} angle {} sorted {}", s.normal_neighbours, s.growing_neighbours, s.reach_m, s.distance_m, s.angle_deg, s.sorted);
+      },
+      [&sweep, bare](const GrowingSettings& s) { return grown(sweep, *bare, s); });
+  add_parties(
+      parties, "cgal_efficient_ransac", kCgalRansac, every_setting,
+      [](const RansacSettings& s) {
+        return fmt::format("k {} distance {} cluster {} normal {} probability {}", s.normal_neighbours, s.distance_m, s.cluster_m, s.normal_threshold, s.probability);
+      },
+      [&sweep, bare](const RansacSettings& s) { return ransac(sweep, *bare, s); });
   return parties;
 }
 

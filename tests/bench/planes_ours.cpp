@@ -17,7 +17,7 @@ PlanesFound upright_planes(const SweepPoints& sweep) {
   PlanesFound out;
   for (const app::UprightRegion& r : app::upright_regions(fans, app::upright_segments(fans))) {
     const Vector3d first(r.first.x(), r.first.y(), r.low), last(r.last.x(), r.last.y(), r.high);
-    FoundPlane plane{r.face_normal, r.face_at, Eigen::AlignedBox3d(first)};
+    FoundPlane plane{{r.normal.x(), r.normal.y(), 0.0}, first, Eigen::AlignedBox3d(first)};
     plane.box.extend(last);
     out.planes.push_back(plane);
   }

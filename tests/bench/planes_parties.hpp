@@ -14,6 +14,15 @@ std::vector<PlaneParty> our_parties(const SweepPoints& sweep, const app::TruckRa
 std::vector<PlaneParty> pcl_parties(const SweepPoints& sweep, bool every_setting);
 std::vector<PlaneParty> cgal_parties(const SweepPoints& sweep, bool every_setting);
 
+// A party for the first of the settings, by its name; or one for each, by what a setting is called.
+template <typename Settings, std::size_t count, typename Called, typename Run>
+void add_parties(std::vector<PlaneParty>& parties, const char* name, const Settings (&all)[count], bool every_setting, const Called& called, const Run& run) {
+  for (const Settings& s : all) {
+    parties.push_back({every_setting ? std::string(name) + " " + called(s) : name, [run, s] { return run(s); }});
+    if (!every_setting) break;
+  }
+}
+
 // The neighbourhood of a denser sweep: only the angle between scanlines shrinks, so k neighbours reach as far up as along when they grow by the root.
 int neighbours(const SweepPoints& sweep, int usual);
 // Least returns of a plane.

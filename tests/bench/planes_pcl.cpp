@@ -140,20 +140,18 @@ std::vector<PlaneParty> pcl_parties(const SweepPoints& sweep, bool every_setting
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // writing warnings would be timed
   std::vector<PlaneParty> parties = pcl_image_parties(sweep, every_setting);
   const Cloud::Ptr cloud = cloud_of(sweep);
-  for (const GrowingSettings& s : kPclGrowing) {
-    const std::string name = every_setting ? fmt::format("pcl_region_growing k {} {} smooth {} curvature {} residual {}", s.normal_neighbours,
-                                                         s.growing_neighbours, s.smoothness_deg, s.curvature, s.residual_m)
-                                           : "pcl_region_growing";
-    parties.push_back({name, [&sweep, cloud, s] { return grown(sweep, cloud, s); }});
-    if (!every_setting) break;
-  }
-  for (const RansacSettings& s : kPclRansac) {
-    const std::string name = every_setting ? fmt::format("pcl_ransac normals {} distance {} weight {} reach {} iterations {} rounds {}", s.by_normals,
-                                                         s.distance_m, s.normal_weight, s.sample_reach_m, s.iterations, s.rounds)
-                                           : "pcl_ransac";
-    parties.push_back({name, [&sweep, cloud, s] { return ransac(sweep, cloud, s); }});
-    if (!every_setting) break;
-  }
+  add_parties(
+      parties, "pcl_region_growing", kPclGrowing, every_setting,
+      [](const GrowingSettings& s) {
+        return fmt::format("k {} {} smooth {} curvature {} residual {}", s.normal_neighbours, s.growing_neighbours, s.smoothness_deg, s.curvature, s.residual_m);
+      },
+      [&sweep, cloud](const GrowingSettings& s) { return grown(sweep, cloud, s); });
+  add_parties(
+      parties, "pcl_ransac", kPclRansac, every_setting,
+      [](const RansacSettings& s) {
+        return fmt::format("normals {} distance {} weight {} reach {} iterations {} rounds {}", s.by_normals, s.distance_m, s.normal_weight, s.sample_reach_m, s.iterations, s.rounds);
+      },
+      [&sweep, cloud](const RansacSettings& s) { return ransac(sweep, cloud, s); });
   return parties;
 }
 

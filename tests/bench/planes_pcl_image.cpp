@@ -123,14 +123,13 @@ constexpr ImageSettings kPclImage[] = {{Estimation::COVARIANCE_MATRIX, 3.0F, 0.1
 std::vector<PlaneParty> pcl_image_parties(const SweepPoints& sweep, bool every_setting) {
   const auto image = std::make_shared<Image>(image_of(sweep));
   std::vector<PlaneParty> parties;
-  for (const ImageSettings& s : kPclImage) {
-    const std::string name = every_setting ? fmt::format("pcl_organized method {} smoothing {} depth {} angle {} distance {} curvature {} refined {}",
-                                                         static_cast<int>(s.method), s.smoothing_pixels, s.depth_change, s.angle_deg, s.distance_m,
-                                                         s.curvature, s.refined)
-                                           : "pcl_organized";
-    parties.push_back({name, [&sweep, image, s] { return segmented(sweep, *image, s); }});
-    if (!every_setting) break;
-  }
+  add_parties(
+      parties, "pcl_organized", kPclImage, every_setting,
+      [](const ImageSettings& s) {
+        return fmt::format("method {} smoothing {} depth {} angle {} distance {} curvature {} refined {}", static_cast<int>(s.method), s.smoothing_pixels, s.depth_change,
+                           s.angle_deg, s.distance_m, s.curvature, s.refined);
+      },
+      [&sweep, image](const ImageSettings& s) { return segmented(sweep, *image, s); });
   return parties;
 }
 

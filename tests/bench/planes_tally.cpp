@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "truck_world/percentile.hpp"
+
 namespace berm::bench {
 namespace {
+
+using truck_world::percentile_of;
 
 constexpr double kDegrees = 180.0 / truck_world::pi;
 
@@ -19,7 +23,7 @@ void add(nlohmann::json& rows, const std::string& filter, const std::string& wor
 
 double over_same_scenes(const std::array<PlaneTally, 2>& both) {
   const auto scenes = static_cast<std::ptrdiff_t>(std::min(both[0].ms.size(), both[1].ms.size()));
-  const auto first = [&](const PlaneTally& t) { return percentile({t.ms.begin(), t.ms.begin() + scenes}, 0.5); };
+  const auto first = [&](const PlaneTally& t) { return percentile_of({t.ms.begin(), t.ms.begin() + scenes}, 0.5); };
   return first(both[1]) / first(both[0]);
 }
 
@@ -31,12 +35,6 @@ std::size_t PlaneTally::matched() const {
 
 double PlaneTally::recall() const {
   return faces.empty() ? 0.0 : static_cast<double>(matched()) / static_cast<double>(faces.size());
-}
-
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())))];
 }
 
 CommonErrors common_errors(const PlaneTally& a, const PlaneTally& b) {
@@ -57,10 +55,10 @@ CommonErrors common_errors(const PlaneTally& a, const PlaneTally& b) {
 void print_tally(const PlaneTally& t) {
   const CommonErrors own = common_errors(t, t);
   const auto pair = [](const std::vector<double>& values, int digits) {
-    return fmt::format("{:.{}f} {:.{}f}", percentile(values, 0.5), digits, percentile(values, 0.95), digits);
+    return fmt::format("{:.{}f} {:.{}f}", percentile_of(values, 0.5), digits, percentile_of(values, 0.95), digits);
   };
   fmt::print("    {:<22} {:8.2f} ms ({:.2f} of it normals), {:.3f} of the faces; median and 95 %: {} deg, {} m, {} m from the bare wall; {:.1f} planes\n",
-             t.name, percentile(t.ms, 0.5), percentile(t.normals_ms, 0.5), t.recall(), pair(own.angle_deg[0], 2), pair(own.offset_m[0], 4),
+             t.name, percentile_of(t.ms, 0.5), percentile_of(t.normals_ms, 0.5), t.recall(), pair(own.angle_deg[0], 2), pair(own.offset_m[0], 4),
              pair(own.bare_offset_m[0], 4), static_cast<double>(t.planes) / static_cast<double>(t.ms.size()));
 }
 
@@ -69,14 +67,14 @@ void add_rows(nlohmann::json& rows, const std::string& stage, int samples, doubl
   const auto row = [&](const char* what, const char* unit, double a, double b, double ratio, double reference) {
     add(rows, name, fmt::format("{}_{}_{}", stage, what, samples), unit, a, peer.name, b, ratio, reference);
   };
-  const double time = percentile(ours.ms, 0.5), its_time = percentile(peer.ms, 0.5);
+  const double time = percentile_of(ours.ms, 0.5), its_time = percentile_of(peer.ms, 0.5);
   row("speed", "ms", time, its_time, its_time / time, returns);
   const double both_found = static_cast<double>(ours.matched() + 1) / static_cast<double>(peer.matched() + 1);
   row("recall", "share of faces", ours.recall(), peer.recall(), both_found, static_cast<double>(ours.faces.size()));
   const CommonErrors e = common_errors(ours, peer);
   if (e.faces == 0) return;
   const auto errors = [&](const char* what, const char* unit, const std::vector<double> both[2], double share) {
-    const double a = percentile(both[0], share), b = percentile(both[1], share);
+    const double a = percentile_of(both[0], share), b = percentile_of(both[1], share);
     row(what, unit, a, b, b / std::max(1e-9, a), static_cast<double>(e.faces));
   };
   errors("angle_error", "deg", e.angle_deg, 0.5);

@@ -20,9 +20,6 @@ struct PlaneTally {
   [[nodiscard]] double recall() const;
 };
 
-// Of the values the one with this share below it; 0 of none.
-double percentile(std::vector<double> values, double share);
-
 struct CommonErrors {
   std::size_t faces = 0;                // that both matched
   std::vector<double> angle_deg[2], offset_m[2], bare_offset_m[2];

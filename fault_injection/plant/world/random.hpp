@@ -8,9 +8,11 @@
 
 namespace berm::plant {
 
-class Random {
+// Bits: a generator of 64 random bits.
+template <typename Bits>
+class Draws {
  public:
-  explicit Random(uint64_t seed) : bits_(seed) {}
+  explicit Draws(uint64_t seed) : bits_(seed) {}
 
   // In [0, 1).
   double uniform() { return static_cast<double>(bits_() >> 11) * 0x1.0p-53; }
@@ -29,9 +31,26 @@ class Random {
   }
 
  private:
-  std::mt19937_64 bits_;
+  Bits bits_;
   double spare_ = 0;
   bool spare_ready_ = false;
+};
+
+using Random = Draws<std::mt19937_64>;
+
+// Costs nothing to begin, for streams of a few hundred draws (splitmix64; Steele, Lea and Flood, 2014).
+class SplitMix {
+ public:
+  explicit SplitMix(uint64_t seed) : state_(seed) {}
+  uint64_t operator()() {
+    uint64_t x = state_ += 0x9E3779B97F4A7C15u;
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
+    return x ^ (x >> 31);
+  }
+
+ private:
+  uint64_t state_;
 };
 
 }  // namespace berm::plant

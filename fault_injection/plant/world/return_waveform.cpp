@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "plant/world/random.hpp"
+
 namespace berm::plant {
 namespace {
 
@@ -12,32 +14,8 @@ constexpr double fwhm_per_spread = 2.354820045;    // of a Gaussian
 constexpr double before_m = 1.5, after_m = 3.5;    // the strongest echo has risen from, and fallen below, the noise within these
 constexpr double pulse_reach = 6.0;                // standard deviations: below 2e-8 of the peak beyond
 
-// A cheap stream for one pulse's noise, so that its length does not change what later pulses draw (splitmix64; Box and Muller).
-class PulseNoise {
- public:
-  explicit PulseNoise(std::uint64_t seed) : state_(seed) {}
-  double normal() {
-    if (ready_) {
-      ready_ = false;
-      return spare_;
-    }
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform())), angle = 2.0 * std::numbers::pi * uniform();
-    spare_ = radius * std::sin(angle);
-    ready_ = true;
-    return radius * std::cos(angle);
-  }
-
- private:
-  double uniform() {
-    std::uint64_t x = state_ += 0x9E3779B97F4A7C15u;
-    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
-    x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
-    return static_cast<double>((x ^ (x >> 31)) >> 11) * 0x1.0p-53;
-  }
-  std::uint64_t state_;
-  double spare_ = 0.0;
-  bool ready_ = false;
-};
+// A stream for each pulse's noise, so that its length does not change what later pulses draw.
+using PulseNoise = Draws<SplitMix>;
 
 }  // namespace
 

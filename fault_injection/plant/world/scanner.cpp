@@ -17,10 +17,6 @@ constexpr double of_target_m = 0.3;
 // The beams beside one, by which the face that it met is known, rad; an edge passes for a face this steep at most.
 constexpr double beside_rad = 0.002, steepest_cosine = 0.17;
 
-Vec3 crossed(const Vec3& a, const Vec3& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-double dotted(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec3 unit(const Vec3& a) { return (1.0 / std::sqrt(dotted(a, a))) * a; }
-
 int32_t micro(double value) { return static_cast<int32_t>(std::llround(value * 1e6)); }
 
 }  // namespace
@@ -51,7 +47,7 @@ Scanner::Shot Scanner::shot(const Stance& stance, const Ray& upper, double mirro
 double Scanner::cos_incidence(const Shot& at, double range, const Stance& stance, const Scene& scene) const {
   const Vec3& d = at.upper.direction;
   const Vec3 across = std::abs(d.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
-  const Vec3 aside = unit(crossed(d, across)), upwards = crossed(aside, d);
+  const Vec3 aside = unit(cross(d, across)), upwards = cross(aside, d);
   std::array<Vec3, 2> face;  // from the hit to those beside it
   size_t k = 0;
   for (const Vec3& to : {aside, upwards}) {
@@ -60,7 +56,7 @@ double Scanner::cos_incidence(const Shot& at, double range, const Stance& stance
     if (!met) return steepest_cosine;
     face[k++] = beside.upper.at(*met) - at.upper.at(range);
   }
-  return std::clamp(std::abs(dotted(unit(crossed(face[0], face[1])), d)), steepest_cosine, 1.0);
+  return std::clamp(std::abs(dot(unit(cross(face[0], face[1])), d)), steepest_cosine, 1.0);
 }
 
 Scanner::Sample Scanner::listen(const Shot& at, const std::optional<SceneHit>& hit, const Stance& stance, const Scene& scene, const SensorAir& air,

@@ -41,9 +41,11 @@ def a_drawn_truck_is_found_and_bare_ground_is_none():
 def several_jobs_judge_the_same():
     def judged(jobs):
         out = scratch / f"jobs{jobs}.json"
-        done = run("berm_trucks", "--scenes", 4, "--seed", SEED, "--jobs", jobs, "--json", out)
+        done = run("berm_trucks", "--scenes", 4, "--seed", SEED, "--jobs", jobs, "--list", "--json", out)
         result = json.loads(out.read_text())
-        return done.returncode, {key: value for key, value in result.items() if not key.startswith("ms_")}
+        scenes = [line.split(", nees")[0] for line in done.stdout.splitlines() if " --only " in line]  # behind it: CPU time
+        assert len(scenes) == 8, done.stdout
+        return done.returncode, scenes, {key: value for key, value in result.items() if not key.startswith("ms_")}
 
     assert judged(1) == judged(3)
 

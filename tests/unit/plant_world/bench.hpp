@@ -83,6 +83,15 @@ inline JointState move(World& w, double& t, const JointState& from, const JointS
   return before;
 }
 
+// Nothing of the machine but its sensors' places.
+inline ImplementShape heads_only() {
+  ImplementShape s = machine();
+  s.parts.clear();
+  s.upper_body.clear();
+  s.tracks.clear();
+  return s;
+}
+
 // One pass: drags the tip from the toe to the crest, curls, lifts. At the end the bucket is level and high.
 inline JointState dig(World& w, const ImplementShape& s, double& t, double swing) {
   JointState at = reach(s, swing, 7.9, -1.2, -105 * degree);

@@ -19,14 +19,6 @@ WorldConfig open_site() {
   return c;
 }
 
-ImplementShape heads_only() {
-  ImplementShape s = bench::machine();
-  s.parts.clear();
-  s.upper_body.clear();
-  s.tracks.clear();
-  return s;
-}
-
 double range_of(const berm_scan_packet& p, int i, int echo = 0) { return p.range[i][echo] * BERM_SCAN_RANGE_LSB_MM * 1e-3; }
 
 // A world that only scans: one step at a time, with the pans and the swing as functions of time.
@@ -51,7 +43,7 @@ struct ScanRun {
 const JointState tucked = {{0, 0.6, -2.2, -1.5}, {}};
 
 TEST(Scanner, TwelveThousandSamplesASecondInOrder) {
-  ScanRun run(open_site(), heads_only());
+  ScanRun run(open_site(), bench::heads_only());
   run.steps(1000, tucked);
   std::map<int, int64_t> samples;
   std::map<int, uint32_t> sequence;
@@ -108,7 +100,7 @@ TEST(Scanner, PacketsSurviveTheWire) {
 void expect_wall_and_ground(double swing_rate, double pan_rate) {
   WorldConfig c = open_site();
   c.boxes = {{"wall", 0, 8.5, -1, 6, 200, 1, 0}};  // its near face is y = 8
-  ScanRun run(c, heads_only());
+  ScanRun run(c, bench::heads_only());
   run.steps(200, tucked, swing_rate, 1.2, pan_rate);
   int wall = 0, ground = 0, sky = 0;
   for (const berm_scan_packet& p : run.out) {
@@ -165,7 +157,7 @@ TEST(Scanner, AWindowThatIsCoveredSendsBackItsOwnEchoAlone) {
   WorldConfig c = open_site();
   c.terrain.roughness = 0;
   c.scanner_faults = {{0, false, 0.0, 5.0, {300 * degree, 330 * degree}}, {1, false, 1.0, 1.0}, {0, false, 1.0, 1.0}};
-  ScanRun run(c, heads_only());
+  ScanRun run(c, bench::heads_only());
   run.steps(90, tucked);
   const Downwards covered = downwards(run, 0, 300, 330), left = downwards(run, 0, 200, 300), right = downwards(run, 1);
   EXPECT_GT(covered.all, 800);
@@ -186,7 +178,7 @@ TEST(Scanner, AWindowThatIsCoveredSendsBackItsOwnEchoAlone) {
 TEST(Scanner, ASilentScannerSendsNothingForItsTime) {
   WorldConfig c = open_site();
   c.scanner_faults = {{1, true, 0.5, 0.5}};
-  ScanRun run(c, heads_only());
+  ScanRun run(c, bench::heads_only());
   run.steps(200, tucked);
   for (const berm_scan_packet& p : run.out)
     if (p.scanner == 1) { EXPECT_FALSE(p.time_us > 500'000 && p.time_us < 980'000) << p.time_us; }
@@ -197,7 +189,7 @@ TEST(Scanner, DustOfTheAirAddsEchoesAndLosesTargetsForItsTime) {
   WorldConfig c = open_site();
   c.terrain.roughness = 0;
   c.dust = {{0.0, 1.0, 0.3, 0.1}};
-  ScanRun run(c, heads_only());
+  ScanRun run(c, bench::heads_only());
   run.steps(98, tucked);
   const Downwards dusty = downwards(run, 0);
   EXPECT_NEAR(1.0 * dusty.two / dusty.all, 0.3, 0.02);
@@ -214,7 +206,7 @@ TEST(Scanner, WhatIsDrawnOfNoiseIsTheSameInDust) {
   clear.scanner.range_stddev = dusty.scanner.range_stddev = 0.03;
   clear.scanner.dropout_probability = dusty.scanner.dropout_probability = 0.01;
   dusty.dust = {{0.0, 5.0, 0.4, 0.0}};
-  ScanRun a(clear, heads_only()), b(dusty, heads_only());
+  ScanRun a(clear, bench::heads_only()), b(dusty, bench::heads_only());
   a.steps(50, tucked);
   b.steps(50, tucked);
   ASSERT_EQ(a.out.size(), b.out.size());
@@ -226,7 +218,7 @@ TEST(Scanner, WhatIsDrawnOfNoiseIsTheSameInDust) {
 }
 
 TEST(Scanner, PanIsReportedForTheFirstAndLastSample) {
-  ScanRun run(open_site(), heads_only());
+  ScanRun run(open_site(), bench::heads_only());
   run.steps(30, tucked, 0, 0.5, 1.0);
   for (const berm_scan_packet& p : run.out) {
     const int64_t first = static_cast<int64_t>(p.scanline) * 400 + p.first_index;
@@ -239,7 +231,7 @@ TEST(Scanner, PanIsReportedForTheFirstAndLastSample) {
 struct SelfReturns { int boom = 0, bucket = 0, body = 0, tracks = 0, elsewhere = 0; };
 
 SelfReturns self_returns(double pan, double pan_rate) {
-  ScanRun bare(open_site(), heads_only()), whole(open_site(), bench::machine());
+  ScanRun bare(open_site(), bench::heads_only()), whole(open_site(), bench::machine());
   const JointState j = bench::reach(bench::machine(), 0, 6.5, 1.5, -170 * degree);
   bare.steps(300, j, 0, pan, pan_rate);
   whole.steps(300, j, 0, pan, pan_rate);
@@ -285,7 +277,7 @@ TEST(Scanner, SeesPeopleAndTrucks) {
   m.radius = 0.25;
   m.waypoints = {{1.30, 9.35, 0}};
   c.movers = {m};
-  ScanRun run(c, heads_only());
+  ScanRun run(c, bench::heads_only());
   run.steps(20, tucked, 0, std::numbers::pi / 2);
   int hits = 0;
   for (const berm_scan_packet& p : run.out) {
@@ -312,7 +304,7 @@ TEST(Scanner, TheWorldKnowsWhatPeopleSentBackAndWhoIsNotThereSendsNothing) {
   c.movers[1].waypoints = {{0.0, 6.0, 0.0}};
   c.movers[1].appears_s = 1e9;
   c.boxes.push_back({"box", -6.0, 0.0, 0.0, 2.0, 1.0, 1.0, 0.0});
-  ScanRun run(c, heads_only());
+  ScanRun run(c, bench::heads_only());
   std::array<int, 2> returns{};
   const auto look = [&](double pan, double rate) {
     run.steps(1, tucked, 0, pan, rate);
@@ -339,7 +331,7 @@ TEST(Scanner, NoiseOutliersDropoutsAndDustHaveTheirShares) {
   c.scanner.outlier_probability = 0.01;
   c.scanner.dropout_probability = 0.02;
   c.scanner.dust_probability = 0.03;
-  ScanRun run(c, heads_only()), exact(open_site(), heads_only());
+  ScanRun run(c, bench::heads_only()), exact(open_site(), bench::heads_only());
   run.steps(500, tucked, 0, 1.2);
   exact.steps(500, tucked, 0, 1.2);
   int n = 0, dropped = 0, outliers = 0, dust = 0;
@@ -372,7 +364,7 @@ TEST(Scanner, NoiseOutliersDropoutsAndDustHaveTheirShares) {
 TEST(Scanner, DirtyWindowIsReportedAndLeavesTheLastEchoRight) {
   WorldConfig c = open_site();
   c.scanner.window_percent = 50;
-  ScanRun run(c, heads_only()), exact(open_site(), heads_only());
+  ScanRun run(c, bench::heads_only()), exact(open_site(), bench::heads_only());
   run.steps(100, tucked, 0, 1.2);
   exact.steps(100, tucked, 0, 1.2);
   int doubled = 0;

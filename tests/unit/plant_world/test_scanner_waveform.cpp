@@ -32,14 +32,6 @@ WorldConfig noisy_site() {
   return c;
 }
 
-ImplementShape heads_only() {
-  ImplementShape s = bench::machine();
-  s.parts.clear();
-  s.upper_body.clear();
-  s.tracks.clear();
-  return s;
-}
-
 // Level ground, and a wall across the way whose near face is y = 8: 6.65 m from the left head, 9.35 m from the right.
 WorldConfig walled_site(double share, Ranging ranging) {
   WorldConfig c;
@@ -94,7 +86,7 @@ TEST(ScannerWaveform, InClearAirTheNoiseIsTheConfiguredOne) {
     WorldConfig exact = walled_site(0.0, ranging), c = walled_site(1.0, ranging);
     c.scanner.range_stddev = 0.03;
     exact.scanner.window_percent = 100;
-    const auto truth = scanned(exact, heads_only(), 300, 1.2), found = scanned(c, heads_only(), 300, 1.2);
+    const auto truth = scanned(exact, bench::heads_only(), 300, 1.2), found = scanned(c, bench::heads_only(), 300, 1.2);
     ASSERT_EQ(truth.size(), found.size());
     int n = 0, none = 0, several = 0;
     double sum = 0, sum2 = 0;
@@ -150,7 +142,7 @@ TEST(ScannerWaveform, ACloudAboutTheWallIsRangedByTheChosenEdgeForItsTime) {
     cloud.x = 1.3, cloud.y = 8.0, cloud.z_low = -1, cloud.z_high = 8, cloud.length = 40, cloud.width = 5.0;
     cloud.extinction = 0.5, cloud.at_s = 0.5, cloud.for_s = 0.5;
     c.clouds = {cloud};
-    const auto packets = scanned(c, heads_only(), 150, std::numbers::pi / 2);
+    const auto packets = scanned(c, bench::heads_only(), 150, std::numbers::pi / 2);
     const AtWall clear = at_wall(packets, 0.0, 0.48), dusty = at_wall(packets, 0.52, 0.97), after = at_wall(packets, 1.02, 1.5);
     EXPECT_GT(clear.all, 500);
     EXPECT_EQ(clear.wall, clear.all);
@@ -165,7 +157,7 @@ TEST(ScannerWaveform, ACloudAboutTheWallIsRangedByTheChosenEdgeForItsTime) {
 TEST(ScannerWaveform, ACoveredWindowSendsItsOwnEchoAlone) {
   WorldConfig c = walled_site(1.0, Ranging::last_pulse);
   c.scanner_faults = {{0, false, 0.0, 5.0, {0.0, 2 * std::numbers::pi}}};
-  for (const berm_scan_packet& p : scanned(c, heads_only(), 30, std::numbers::pi / 2)) {
+  for (const berm_scan_packet& p : scanned(c, bench::heads_only(), 30, std::numbers::pi / 2)) {
     if (p.scanner != 0) continue;
     for (int i = 0; i < p.count; ++i) ASSERT_EQ(p.range[i][0], 75) << "the least range";
   }
@@ -179,7 +171,7 @@ TEST(ScannerWaveform, TheWorldKnowsWhatPeopleSentBack) {
   m.height = 1.8, m.radius = 0.25;
   m.waypoints = {{6.0, 0.0, 0.0}};
   c.movers = {m};
-  World w(c, heads_only(), 3, 0);
+  World w(c, bench::heads_only(), 3, 0);
   std::vector<berm_scan_packet> out;
   int returns = 0;
   for (int i = 1; i <= 100; ++i) {

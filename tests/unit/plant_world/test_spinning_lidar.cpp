@@ -23,10 +23,7 @@ WorldConfig level_site() {
 
 // One lidar 3.4 m over level ground, its x axis straight down: laser k at azimuth a looks cos(e) cos(a) down.
 ImplementShape one_lidar() {
-  ImplementShape s = bench::machine();
-  s.parts.clear();
-  s.upper_body.clear();
-  s.tracks.clear();
+  ImplementShape s = bench::heads_only();
   s.lidar = {{{-2.65, 1.4, 3.4}, 0.0, std::numbers::pi / 2, 2.5}};
   return s;
 }
