@@ -35,9 +35,12 @@ bool alike(const BedPose& a, const BedPose& b) {
 double whole(const BedEnds& e) { return with_cab(e.bed, e.cab); }
 double whole(const BedInterpretation& i) { return i.whole(); }
 
-// The best that are not alike, the best first, and of those what is worth this share of the first at least.
+// The best that are not alike, the best first, and of those what is worth this share of the first at least; none like one that was refused.
 template <typename Candidate>
-std::vector<Candidate> distinct(std::vector<Candidate> all, std::size_t most, double worth = 0.0) {
+std::vector<Candidate> distinct(std::vector<Candidate> all, std::size_t most, double worth = 0.0, const std::vector<BedPose>& refused = {}) {
+  std::erase_if(all, [&](const Candidate& c) {
+    return std::any_of(refused.begin(), refused.end(), [&](const BedPose& r) { return alike(c.pose, r); });
+  });
   std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return whole(a) > whole(b); });
   std::vector<Candidate> out;
   for (Candidate& c : all) {
@@ -80,6 +83,12 @@ Weighed fitted(const FanSweep& sweep, const BedPose& start) {
   return after > before ? Weighed{fit.pose, after} : Weighed{start, before};
 }
 
+SizeRange fitted_lengths(const TruckRangeSet& ranges) {
+  SizeRange lengths = ranges.hull(&TruckRanges::inside_length);
+  lengths[0] -= kLengthSlack, lengths[1] += kLengthSlack;
+  return lengths;
+}
+
 }  // namespace
 
 double BedInterpretation::whole() const { return with_cab(evidence.score, cab); }
@@ -97,35 +106,40 @@ void weigh_whole(const FanSweep& sweep, BedInterpretation& i) {
   i.cab = i.cab_end > 0 ? front : rear;
 }
 
-double longer_length(const FanSweep& sweep, const BedPose& pose, const TruckRangeSet& ranges) {
+double longer_length(const FanSweep& sweep, const BedPose& pose, const TruckRangeSet& ranges, double cab) {
   const SizeRange usual = ranges.hull(&TruckRanges::inside_length);
   const std::vector<Ray> rays = rays_around(sweep, pose.middle);
   const auto within = best_ends(strip_of(pose), rays, usual, 1.0, 1);
   const auto longer = best_ends(strip_of(pose), rays, {usual[1] + kLengthSlack, usual[1] + kLongest}, 1.0, 1);
-  if (within.empty() || longer.empty() || longer.front().bed < kLongerBy * within.front().bed) return 0.0;
+  if (within.empty() || longer.empty() || longer.front().bed < kLongerBy * (within.front().bed + std::max(0.0, cab))) return 0.0;
   return longer.front().pose.length;
 }
 
-std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vector<UprightRegion>& regions, const TruckRangeSet& ranges) {
-  SizeRange lengths = ranges.hull(&TruckRanges::inside_length);
-  lengths[0] -= kLengthSlack, lengths[1] += kLengthSlack;
+std::vector<BedEnds> rough_beds(const FanSweep& sweep, const std::vector<UprightRegion>& regions, const TruckRangeSet& ranges) {
+  const SizeRange lengths = fitted_lengths(ranges);
   std::vector<BedEnds> found;
   for (std::size_t k = 0; k < std::min(regions.size(), kRegionsMost); ++k)
     for (BedEnds& e : interpret_region(sweep, regions[k], ranges, lengths)) found.push_back(std::move(e));
+  return found;
+}
+
+std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vector<BedEnds>& rough_ones, const TruckRangeSet& ranges,
+                                         const std::vector<BedPose>& refused) {
+  const SizeRange lengths = fitted_lengths(ranges);
   std::vector<BedEnds> ends;
-  for (const BedEnds& rough : distinct(std::move(found), kFitted, kRoughWorth)) {
+  for (const BedEnds& rough : distinct(rough_ones, kFitted, kRoughWorth, refused)) {
     const auto [p, score] = fitted(sweep, rough.pose);
     ends.push_back({p, rough.cab_end, score, rough.cab});
     for (BedEnds& e : best_ends(strip_of(p), rays_around(sweep, p.middle), lengths, 1.0, kEndsOfStrip)) ends.push_back(std::move(e));
   }
   std::vector<BedInterpretation> out;
-  for (const BedEnds& e : distinct(std::move(ends), kFittedEnds, kFittedWorth)) {
+  for (const BedEnds& e : distinct(std::move(ends), kFittedEnds, kFittedWorth, refused)) {
     BedInterpretation i;
     i.pose = fitted(sweep, e.pose).pose;
     weigh_whole(sweep, i);
     out.push_back(std::move(i));
   }
-  out = distinct(std::move(out), kInterpretations, kFittedWorth);
+  out = distinct(std::move(out), kInterpretations, kFittedWorth, refused);
   for (BedInterpretation& i : out) {
     i.pose = refined(i.pose, every(i.rays, kRefineStride), kRefineStep, kRefineHalvings);
     i.pose = fitted(sweep, i.pose).pose;

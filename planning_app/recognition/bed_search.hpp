@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "recognition/bed_ends.hpp"
 #include "recognition/rays_of_sweep.hpp"
 #include "recognition/truck_ranges.hpp"
 #include "recognition/upright_regions.hpp"
@@ -20,14 +21,20 @@ struct BedInterpretation {
   [[nodiscard]] double whole() const;
 };
 
-// The best interpretations by their evidence with the cab, at most kInterpretations, the best first.
+// Beds of which the largest regions may be faces, before any fit.
+std::vector<BedEnds> rough_beds(const FanSweep& sweep, const std::vector<UprightRegion>& regions, const TruckRangeSet& ranges);
+
+// Of these the best interpretations by their evidence with the cab, at most kInterpretations, the best first. What is like one that was refused is left
+// out, and what is weak is weak beside the others that remain: a container does not keep the truck beside it from being looked at.
 constexpr std::size_t kInterpretations = 6;
-std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vector<UprightRegion>& regions, const TruckRangeSet& ranges);
+std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vector<BedEnds>& rough_ones, const TruckRangeSet& ranges,
+                                         const std::vector<BedPose>& refused);
 
 // The evidence for the pose as it is: of the bed, and of a cab beyond the end where there is more of it, or opposite an open end.
 void weigh_whole(const FanSweep& sweep, BedInterpretation& interpretation);
 
-// The length at which the bed's sides, taken for something longer than every class of trucks, agree better with the rays; 0 when they do not.
-double longer_length(const FanSweep& sweep, const BedPose& pose, const TruckRangeSet& ranges);
+// The length at which the bed's sides, taken for something longer than every class of trucks, agree better with the rays than bed and cab (its evidence);
+// 0 when they do not.
+double longer_length(const FanSweep& sweep, const BedPose& pose, const TruckRangeSet& ranges, double cab);
 
 }  // namespace berm::app

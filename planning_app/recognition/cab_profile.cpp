@@ -14,7 +14,7 @@ constexpr double kCoreLow = -1.4, kCoreHigh = -0.75, kCoreHalf = 1.0;
 constexpr double kReturnLow = -1.6, kReturnHigh = 0.9, kReturnHalf = 1.4;
 constexpr std::array<double, 3> kGaps{0.15, 0.3, 0.45};
 constexpr double kShortest = 1.2;
-constexpr double kReturnWeight = 0.3, kReturnsMost = 150.0;  // in rays
+constexpr double kReturnWeight = 0.3, kReturnsMost = 300.0;  // in rays
 constexpr float kFlatWeight = 0.5F;                         // of a return that is none of an upright surface: a roof, a canopy
 constexpr double kFlatLow = -0.5;                           // m: lower it may be soil
 constexpr double kPassWeight = 1.0, kPassesMost = 150.0;

@@ -28,7 +28,7 @@ constexpr double kSensorClear = 1.0;         // m in plan between sensor and bed
 inline double heap_margin(double over_tops) { return over_tops <= kHeapOver ? 0.0 : (over_tops - kHeapOver) / kHeapSlope; }
 
 // Returns on one outer face tell less the more there are: a cab, a container or a wall has as many.
-constexpr double kFaceFull = 200.0, kFaceBeyond = 0.6;
+constexpr double kFaceFull = 200.0, kFaceBeyond = 0.3;
 inline double saturated(double face) { return face <= kFaceFull ? face : kFaceFull + kFaceBeyond * (face - kFaceFull); }
 
 // Of a return so far off a predicted surface, within the gate.

@@ -9,9 +9,9 @@
 namespace berm::app {
 namespace {
 
-constexpr double kScoreLeast = 100.0;  // evidence of a bed
+constexpr double kScoreLeast = 115.0;  // evidence of a bed
 constexpr int kOuterLeast = 12, kInnerLeast = 12;  // returns on outer faces of its walls, on inner faces of its far ones
-constexpr double kCabSeen = 30.0;      // evidence of a cab that leaves little doubt
+constexpr double kCabSeen = 100.0;     // evidence of a cab that leaves little doubt
 constexpr double kCabFaint = 2.0;      // evidence of anything at all where the cab would stand
 constexpr double kCabLeast = -30.0;   // evidence of its cab
 constexpr int kInnerBeforeCab = 50, kInnerAlone = 150;  // returns on inner faces of a bed that shows no outer one, with its cab and without
@@ -23,6 +23,8 @@ constexpr double kLengthUnsure = 0.5;  // m, standard deviation
 constexpr double kGroundSlack = 0.15;   // m: ruts
 constexpr double kGroundLeast = 0.02;   // share of returns
 constexpr double kMuchBetter = 1.1;
+constexpr double kCabOfWhole = 0.5;     // of the bed's evidence: what its cab counts at most against something larger
+constexpr int kPasses = 2;              // where all that a pass found was refused, one looks at the rest
 constexpr double kPi = 3.14159265358979323846;
 
 void turn_round(BedPose& pose) {
@@ -120,7 +122,6 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
   if (e.level_inside > 0.75 * over_opening && over_opening >= 10)
     return fmt::format("it is closed on top: {} of {} returns over its opening lie in the plane of the walls' tops", e.level_inside, over_opening);
   // A closed box, a lorry's board or a trench box matches as well from outside: the far walls' inside tells a bed.
-  const bool has_cab = i.cab > kCabSeen;
   if (e.inner_face < kInnerLeast) return fmt::format("the bed has {} returns on inner faces of its far walls, and needs {}", e.inner_face, kInnerLeast);
   const int explained = e.outer_face + e.inner_face + e.wall_top + e.inside;
   if (e.through > 0.1 * explained) return fmt::format("{} rays pass through its walls, {} agree with them", e.through, explained);
@@ -128,12 +129,12 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
   const double ground = share_of_ground(sweep, p, over_ground);
   if (ground < kGroundLeast)
     return fmt::format("{:.1f} % of the returns beside it lie {:.2f} to {:.2f} m below the walls' tops, where the ground would be", 100 * ground, over_ground[0], over_ground[1]);
-  if (!has_cab) {
+  if (i.cab < kCabSeen) {
     const double unsure = std::sqrt(fit.covariance(6, 6));
     if (i.cab < kCabFaint && unsure > kLengthUnsure) return fmt::format("it has no cab, and its length is known to {:.2f} m only: an end of it is not seen", unsure);
     // Without a cab, what goes on beyond the lengths of trucks' beds is a container.
-    const double further = longer_length(sweep, p, ranges);
-    if (further > 0.0) return fmt::format("it has no cab and goes on for {:.2f} m, longer than every class of trucks", further);
+    const double further = longer_length(sweep, p, ranges, i.cab);
+    if (further > 0.0) return fmt::format("it goes on for {:.2f} m, longer than every class of trucks", further);
   }
   if (ranges.find(p.length, p.width, p.open_end != 0) == nullptr)
     return fmt::format("its opening of {:.2f} by {:.2f} m is outside every class of trucks", p.length, p.width);
@@ -146,6 +147,16 @@ struct Verified {
   std::string refusal;  // empty: it is a bed
 };
 
+Verified verify(const FanSweep& sweep, BedInterpretation interpretation, const TruckRangeSet& ranges) {
+  Verified v;
+  v.interpretation = std::move(interpretation);
+  v.fit = fit_bed(v.interpretation.pose, v.interpretation.rays, kLastRounds);
+  v.interpretation.pose = v.fit.pose;
+  weigh_whole(sweep, v.interpretation);
+  v.refusal = refusal(sweep, v.interpretation, v.fit, ranges);
+  return v;
+}
+
 // Whether both say that something stands at the same place: more than half of the shorter one's length.
 bool same_place(const BedPose& a, const BedPose& b) {
   if (std::abs(std::remainder(a.yaw - b.yaw, kPi)) > 0.1) return false;
@@ -154,8 +165,10 @@ bool same_place(const BedPose& a, const BedPose& b) {
   return across < 0.3 && 0.5 * (a.length + b.length) - along > 0.5 * std::min(a.length, b.length);
 }
 
+double with_own_cab(const BedInterpretation& i) { return i.evidence.score + std::min(i.cab, kCabOfWhole * i.evidence.score); }
+
 // The bed with the most evidence; with none, the one that was refused with the most. A bed that is only a part of something that agrees with the rays
-// much better, and is none, is none either: a container, or a bed that has no cab.
+// much better than bed and cab do, and is none, is none either: a container. A bed and its cab taken for one long bed are no better than both.
 const Verified& choose(const std::vector<Verified>& all) {
   const auto less = [](const Verified& a, const Verified& b) {
     if (a.refusal.empty() != b.refusal.empty()) return b.refusal.empty();
@@ -165,7 +178,7 @@ const Verified& choose(const std::vector<Verified>& all) {
   if (!best->refusal.empty()) return *best;
   const Verified* whole = best;
   for (const Verified& v : all)
-    if (!v.refusal.empty() && v.interpretation.evidence.score > kMuchBetter * whole->interpretation.evidence.score &&
+    if (!v.refusal.empty() && v.interpretation.evidence.score > kMuchBetter * with_own_cab(whole->interpretation) &&
         same_place(v.interpretation.pose, best->interpretation.pose))
       whole = &v;
   return *whole;
@@ -186,19 +199,21 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
   const std::vector<UprightRegion> regions = upright_regions(sweep, upright_segments(sweep));
   out.reason = "the sweep shows no upright wall";
   if (regions.empty()) return out;
-  std::vector<BedInterpretation> interpretations = interpret(sweep, regions, ranges);
-  out.reason = "no upright wall can be one of a bed";
-  if (interpretations.empty()) return out;
+  const std::vector<BedEnds> rough = rough_beds(sweep, regions, ranges);
   std::vector<Verified> verified;
-  for (BedInterpretation& i : interpretations) {
-    Verified v;
-    v.fit = fit_bed(i.pose, i.rays, kLastRounds);
-    i.pose = v.fit.pose;
-    weigh_whole(sweep, i);
-    v.refusal = refusal(sweep, i, v.fit, ranges);
-    v.interpretation = std::move(i);
-    verified.push_back(std::move(v));
+  std::vector<BedPose> refused;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    std::vector<BedInterpretation> interpretations = interpret(sweep, rough, ranges, refused);
+    if (interpretations.empty()) break;
+    for (BedInterpretation& i : interpretations) {
+      refused.push_back(i.pose);
+      verified.push_back(verify(sweep, std::move(i), ranges));
+      refused.push_back(verified.back().fit.pose);
+    }
+    if (choose(verified).refusal.empty()) break;
   }
+  out.reason = "no upright wall can be one of a bed";
+  if (verified.empty()) return out;
   const Verified& chosen = choose(verified);
   const BedInterpretation& best = chosen.interpretation;
   FittedBed fit = chosen.fit;
