@@ -94,8 +94,10 @@ TEST(LongerLength, TellsAContainerFromABed) {
   container.length = 7.3;
   container.cab = false;
   const TruckRangeSet ranges = read_truck_ranges(BERM_TRUCK_RANGES);
-  EXPECT_EQ(longer_length(fans_of(bed), true_pose(bed), ranges), 0.0);
-  EXPECT_NEAR(longer_length(fans_of(container), true_pose(container), ranges), 7.3, 0.25);
+  EXPECT_EQ(longer_length(fans_of(bed), true_pose(bed), ranges, 0.0), 0.0);
+  EXPECT_NEAR(longer_length(fans_of(container), true_pose(container), ranges, 0.0), 7.3, 0.25);
+  // What beyond the bed's end agrees with a cab as well is no reason to take it for more of the bed.
+  EXPECT_EQ(longer_length(fans_of(container), true_pose(container), ranges, 300.0), 0.0);
 }
 
 }  // namespace
