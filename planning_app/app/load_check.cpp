@@ -11,7 +11,8 @@ namespace {
 constexpr double weighing_s = 0.5;                // five weighings
 constexpr double settling_s = 0.7;                // what slides comes to rest
 constexpr double blind_s = 6.0;                   // without a weighing: it has to go
-constexpr double longest_s = 20.0;
+constexpr double longest_s = 20.0;                // however it goes
+constexpr double pause_s = 0.2;
 constexpr double steepest = radians(-75.0);
 constexpr double kg_per_rad = 900.0;              // about what a full bucket loses
 constexpr double resting = radians(-163.0);       // before this tilt nothing slides
@@ -23,7 +24,7 @@ constexpr double under_way_s = 0.5;               // from the tilt to the weighi
 
 void LoadCheck::begin(double time_s, bool needed) {
   lifted_ = -1.0;
-  began_s_ = time_s;
+  began_s_ = last_s_ = time_s;
   enter(needed ? Stage::blind : Stage::passed, time_s);
 }
 
@@ -36,6 +37,13 @@ void LoadCheck::enter(Stage stage, double time_s) {
 
 double LoadCheck::step(const Lifted& now, const TruckFill& fill, const ProgressLog& log) {
   constexpr double nothing = -1.0;
+  // While the kernel stops the machine nothing is asked here: that time does not count.
+  if (const double gap = now.time_s - last_s_; gap > pause_s) {
+    began_s_ += gap;
+    stage_s_ += gap;
+  }
+  last_s_ = now.time_s;
+  if (now.time_s - began_s_ > longest_s) enter(Stage::passed, now.time_s);
   const double since = now.time_s - stage_s_;
   bool again = false;
   switch (stage_) {
@@ -63,7 +71,7 @@ double LoadCheck::step(const Lifted& now, const TruckFill& fill, const ProgressL
       if (since > settling_s) mean_.add(now.payload_kg);
       if (since < settling_s + weighing_s || !mean_.known()) return 0.0;
       lifted_ = std::max(lifted_, mean_.kg());
-      again = mean_.kg() - goal_ > fill.tolerance_kg() && now.attitude < steepest && now.time_s - began_s_ < longest_s;
+      again = mean_.kg() - goal_ > fill.tolerance_kg() && now.attitude < steepest;
       enter(again ? Stage::tilts : Stage::passed, now.time_s);
       return 0.0;
     case Stage::passed: return nothing;

@@ -31,7 +31,7 @@ private:
   void enter(Stage stage, double time_s);
 
   Stage stage_ = Stage::passed;
-  double stage_s_ = 0.0, began_s_ = 0.0;
+  double stage_s_ = 0.0, began_s_ = 0.0, last_s_ = 0.0;
   double lifted_ = -1.0, goal_ = 0.0;
   MeanWeight mean_;
   RecentWeight recent_;

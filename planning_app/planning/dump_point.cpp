@@ -15,6 +15,7 @@ constexpr double wall_guard = 0.25;      // of the end walls
 constexpr double side_guard = 0.05;      // of the side walls: the recogniser's deviation across the bed
 constexpr double zone_guard = 1.5;       // half the bucket, how far its tip leans out beyond the point, and the swing's way to a stop
 constexpr double pour_reach = 1.05;      // m from the dump point: a heaped bucket's first soil towards the machine, its last soil and what rolls on beyond
+constexpr double most_away = 0.15;       // m from the middle line, away from the machine, in a bed that is narrower than that
 constexpr double hole_price = 0.5, slope_price = 0.1;
 constexpr double beyond_price = 0.3;     // m of height for a metre that the soil has to run
 constexpr double offset_limit = 0.10;    // m: what of the load's centre's offset is of no account
@@ -34,9 +35,10 @@ double radius_of(const TruckBed& bed, const BedPoint& p) {
 }
 
 // How far to either side of the bed's middle line the bucket may pour: its way over the bed as it pours, and its width where the bed stands aslant.
+// Negative in a bed that is too narrow for it.
 double room_across(const TruckBed& bed, double bucket_half_width, double u) {
   const double turned = bearing_of(bed, {u, 0.0}) - bed.yaw;
-  return std::fmax(0.0, 0.5 * bed.width - pour_reach * std::fabs(std::sin(turned)) - bucket_half_width * std::fabs(std::cos(turned)) - side_guard);
+  return 0.5 * bed.width - pour_reach * std::fabs(std::sin(turned)) - bucket_half_width * std::fabs(std::cos(turned)) - side_guard;
 }
 
 // As near to the place as the bucket may come.
@@ -45,7 +47,9 @@ BedPoint nearest(const TruckBed& bed, const BedArea& area, const DumpNeeds& need
   BedPoint p{std::clamp(place.u, area.u_low, area.u_high), 0.0};
   for (;;) {
     const double room = room_across(bed, needs.bucket_half_width, p.u);
-    p.v = std::clamp(place.v, -room, room);
+    // Away from the machine a pour reaches less far: what is too narrow for it is made up for there.
+    const double away = std::sin(bearing_of(bed, {p.u, 0.0}) - bed.yaw) > 0.0 ? 1.0 : -1.0;
+    p.v = room >= 0.0 ? std::clamp(place.v, -room, room) : away * std::fmin(-room, most_away);
     // Out of the arm's reach: nearer to the bed's middle.
     if (radius_of(bed, p) <= needs.farthest_radius || std::fabs(p.u) < step) return p;
     p.u -= std::copysign(step, p.u);
@@ -81,7 +85,7 @@ LoadMoment load_of(const BedMap& bed, const BedGrid& heights, double seen_share)
 
 BedArea dump_area(const TruckBed& bed, double bucket_half_width) {
   const double farthest = std::fmax(0.0, 0.5 * bed.length - bucket_half_width - wall_guard - 2.0 * bed.end_deviation);
-  const double room = room_across(bed, bucket_half_width, 0.0);
+  const double room = std::fmax(0.0, room_across(bed, bucket_half_width, 0.0));
   return {std::fmin(0.0, std::fmax(-farthest, bed.zone_low + zone_guard)), std::fmax(0.0, std::fmin(farthest, bed.zone_high - zone_guard)), -room, room};
 }
 

@@ -98,4 +98,29 @@ TEST(LoadCheck, WithoutAWeighingItGoesInTheEnd) {
   EXPECT_LT(out.seconds, 7.0);
 }
 
+TEST(LoadCheck, AWeighingThatFailsDoesNotHoldItForEver) {
+  TruckFill fill(target, full_bucket);
+  fill.add_pass(3300.0, 0.0);
+  LoadCheck check;
+  check.begin(0.0, true);
+  const ProgressLog log(-1);
+  double t = 0.0;
+  for (; !check.passed() && t < 60.0; t += cycle) check.step({t, t < 0.02 ? 1600.0 : -1.0, radians(-178.0), true}, fill, log);
+  EXPECT_LT(t, 21.0);
+}
+
+// The kernel may stop the machine meanwhile: the check goes on afterwards.
+TEST(LoadCheck, AStopDoesNotEndIt) {
+  TruckFill fill(target, full_bucket);
+  fill.add_pass(3300.0, 0.0);
+  LoadCheck check;
+  check.begin(0.0, true);
+  const ProgressLog log(-1);
+  check.step({0.01, -1.0, radians(-178.0), true}, fill, log);
+  double rate = 0.0;
+  for (double t = 40.0; t < 42.0; t += cycle) rate = std::max(rate, check.step({t, 1600.0, radians(-178.0), true}, fill, log));
+  EXPECT_FALSE(check.passed());
+  EXPECT_GT(rate, 0.0);
+}
+
 }  // namespace
