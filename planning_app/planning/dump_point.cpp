@@ -18,7 +18,7 @@ constexpr double pour_reach = 1.05;      // m from the dump point: a heaped buck
 constexpr double most_away = 0.15;       // m from the middle line, away from the machine, in a bed that is narrower than that
 constexpr double hole_price = 0.5, slope_price = 0.1;
 constexpr double beyond_price = 0.3;     // m of height for a metre that the soil has to run
-constexpr double offset_limit = 0.10;    // m: what of the load's centre's offset is of no account
+constexpr double offset_limit = 0.07;    // m: what of the load's centre's offset is of no account
 constexpr double offset_price = 5.0;     // m of height for a metre of offset
 constexpr double middle_price = 0.02;    // m of height for a metre from the middle: of equal cells the one nearest to it
 
