@@ -26,7 +26,7 @@ const char* phase_name(std::uint16_t phase) {
 
 Sequencer::Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, TruckFinder& finder, const ProgressLog& log)
     : machine_(machine), site_(site), log_(log), trucks_(trucks), arm_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_),
-      fill_(site.place.target_kg) {
+      fill_(site.place.target_kg, full_bucket_kg) {
   scanners_.begin_full_sweep();
   dig_.bearing = site.dig_swing_right - radians(60.0);  // no dig before the first: nothing to stay away from
 }
@@ -55,7 +55,7 @@ void Sequencer::begin_script(const Script& script) {
 }
 
 void Sequencer::begin_approach(const Observation& o, bool lower) {
-  goal_kg_ = fill_.next_goal_kg(full_bucket_kg);
+  goal_kg_ = fill_.next_goal_kg();
   plan_next_dig();
   std::optional<PlanePoint> entry;
   if (lower) entry = PlanePoint{dig_.drag.front().r, dig_.drag.front().z};
@@ -111,7 +111,7 @@ void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
   for (const ScanPoint& p : look_.sweep().points()) bed_->insert(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), p.time_s);
   skyline_.reset();
   look(o);
-  fill_ = TruckFill(site_.place.target_kg);
+  fill_ = TruckFill(site_.place.target_kg, full_bucket_kg);
   pass_ = 0;
   pass_began_s_ = truck_began_s_ = o.time_s;
   begin_approach(o, true);
@@ -162,20 +162,24 @@ Joints Sequencer::settle(const Observation& o) {
 std::uint32_t Sequencer::pass_events(const Observation& o) {
   constexpr double open_at_least = 0.25, open_at_most = 2.0, empty_share = 0.05;
   const bool opening = script_.of(bucket).active() >= opening_rule;
-  if (!opening || emptied_) return emptied_ ? event_emptied : event_none;
+  const std::uint32_t weighed = load_check_.passed() ? event_weighed : event_none;
+  if (!opening || emptied_) return emptied_ ? event_emptied | weighed : weighed;
   if (open_since_s_ < 0.0 && o.angle[bucket] > poses_.dump[bucket] - radians(30.0)) open_since_s_ = o.time_s;
-  if (open_since_s_ < 0.0) return event_none;
+  if (open_since_s_ < 0.0) return weighed;
   // The load needs an open bucket, not time: while the bucket is slowed on its way the clock is too.
   const bool on_its_way = o.angle[bucket] < poses_.dump[bucket] - radians(8.0);
   if (on_its_way) open_since_s_ += (1.0 - arm_.shares()[bucket] * tempos()[bucket]) * machine_.cycle;
   const double open = o.time_s - open_since_s_;
   const bool light = o.payload_kg >= 0.0 && recent_.kg() < empty_share * full_bucket_kg;
   emptied_ = (open > open_at_least && (light || o.payload_kg < 0.0)) || open > open_at_most;
-  return emptied_ ? event_emptied : event_none;
+  return emptied_ ? event_emptied | weighed : weighed;
 }
 
 Joints Sequencer::pass(const Observation& o) {
-  const Joints command = run_script(o, pass_events(o));
+  const bool raised = o.angle[boom] > poses_.carry[boom] - radians(3.0);
+  const double tilt = load_check_.step({o.time_s, o.payload_kg, forward(machine_, o.angle).bucket_attitude, raised}, fill_, log_);
+  Joints command = run_script(o, pass_events(o));
+  if (tilt >= 0.0) command[bucket] = tilt;
   const int swing_rule = script_.of(swing).active();
   if (swing_rule == 0) enter_phase(BERM_PHASE_LIFT, o);
   else if (swing_rule >= 2) enter_phase(BERM_PHASE_SWING_TO_DIG, o);
@@ -194,12 +198,12 @@ void Sequencer::end_pass(const Observation& o) {
   const double had = fill_.loaded_kg();
   fill_.add_pass(before, after);
   const double payload = fill_.loaded_kg() - had;
-  if (weighed) learn_yield(before);
+  if (weighed) learn_yield(std::max(before, load_check_.lifted_kg()));
   poor_passes_ = payload < poor_share * goal_kg_ ? poor_passes_ + 1 : 0;
-  bed_->note_dump(dump_.u, payload);
+  bed_->note_dump(landing(*site_.bed, dump_.at, payload), payload);
   ++pass_;
   log_.event("pass", {{"pass", pass_}, {"truck", truck_}, {"seconds", o.time_s - pass_began_s_}, {"payload_kg", payload}, {"loaded_kg", fill_.loaded_kg()},
-                      {"dump_u_m", dump_.u}, {"dig_bearing_deg", degrees(task_.lifted_from[swing])}, {"time_s", o.time_s}});
+                      {"dump_u_m", dump_.at.u}, {"dump_v_m", dump_.at.v}, {"dig_bearing_deg", degrees(task_.lifted_from[swing])}, {"time_s", o.time_s}});
   pass_began_s_ = o.time_s;
   if (poor_passes_ >= most_poor_passes && !fill_.full()) {
     log_.event("face_exhausted", {{"time_s", o.time_s}, {"truck", truck_}, {"loaded_kg", fill_.loaded_kg()}});
@@ -313,7 +317,9 @@ Answer Sequencer::step(const Observation& o) {
   arm_.asked(answer.velocity);
   const double truck_bearing = site_.bed ? std::atan2(site_.bed->centre_y, site_.bed->centre_x) : std::atan2(site_.place.y, site_.place.x);
   const bool lifts_soon = stage_ == Stage::curl || (stage_ == Stage::dig && follower_.progress() > 0.6);
-  answer.pan = scanners_.step(lifts_soon ? std::uint16_t{BERM_PHASE_LIFT} : phase_, task_.next_bearing, truck_bearing, o.angle[swing], o.velocity[swing], o.pan);
+  // A bucket that is weighed over the dig waits: what lies under it and ahead has to stay seen as in a dig.
+  const bool weighs = stage_ == Stage::pass && !load_check_.passed();
+  answer.pan = scanners_.step(lifts_soon ? std::uint16_t{BERM_PHASE_LIFT} : weighs ? std::uint16_t{BERM_PHASE_DIG} : phase_, task_.next_bearing, truck_bearing, o.angle[swing], o.velocity[swing], o.pan);
   answer.phase = phase_;
   answer.horn = stage_ == Stage::horn;
   return answer;

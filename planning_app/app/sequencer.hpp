@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "app/load_check.hpp"
 #include "app/observation.hpp"
 #include "app/progress_log.hpp"
 #include "app/recovery.hpp"
@@ -53,7 +54,6 @@ private:
   Joints settle(const Observation& o);
   Joints dig(const Observation& o);
   Joints curl(const Observation& o);
-  Joints trim(const Observation& o);
   Joints pass(const Observation& o);
   void plan_next_dig();
   DigNeeds needs_for(double kg) const;
@@ -67,6 +67,7 @@ private:
   void begin_truck(const Observation& o, const TruckBed& bed);
   void begin_dig(const Observation& o);
   void begin_curl(const Observation& o);
+  void plan_dump(const Observation& o);
   void begin_pass_search(const Observation& o, const Joints& lifted_from);
   std::uint32_t pass_events(const Observation& o);
   void end_pass(const Observation& o);
@@ -106,8 +107,7 @@ private:
   double held_since_s_ = -1.0;                // by the guard
   bool looked_ = false;
   int poor_passes_ = 0;
-  bool trimming_ = false, trimmed_ = false;
-  double trim_since_s_ = 0.0;
+  LoadCheck load_check_;
   DumpPoint dump_;
   int truck_ = 1;
   int pass_ = 0;

@@ -1,5 +1,6 @@
 // The sequencer's digs: where, how deep, when the bucket is full, and what the next pass may learn from it.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "app/sequencer.hpp"
@@ -38,7 +39,7 @@ void Sequencer::plan_next_dig() {
 }
 
 void Sequencer::begin_dig(const Observation& o) {
-  goal_kg_ = fill_.next_goal_kg(full_bucket_kg);
+  goal_kg_ = fill_.next_goal_kg();
   const DigNeeds needs = needs_for(goal_kg_);
   cut_.emplace(machine_, SurfaceProfile(terrain_, o.angle[swing], needs.bucket_width), needs.bucket_width);
   SiteModel here = site_;
@@ -109,14 +110,29 @@ void Sequencer::begin_curl(const Observation& o) {
     begin_pass_search(o, o.angle);
     follower_.end();
   }
-  trimming_ = trimmed_ = false;
   enter(Stage::curl, o);
 }
 
+// The bucket is not weighed yet: it is to bring its goal, and the passes after it the rest.
+void Sequencer::plan_dump(const Observation& o) {
+  const auto began = std::chrono::steady_clock::now();
+  DumpNeeds needs;
+  needs.bucket_half_width = 0.5 * bucket_width(machine_);
+  needs.since_s = o.time_s - bed_points_age;
+  needs.dump_kg = goal_kg_;
+  needs.most_kg = fill_.must_weigh(heaped_kg) ? goal_kg_ : heaped_kg;
+  needs.rest_kg = std::max(0.0, TruckFill::aim_share * site_.place.target_kg - fill_.loaded_kg() - goal_kg_);
+  needs.farthest_radius = farthest_dump(machine_, site_.bed->wall_top);
+  dump_ = choose_dump_point(*bed_, needs);
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - began;
+  log_.event("dump", {{"time_s", o.time_s}, {"u_m", dump_.at.u}, {"v_m", dump_.at.v}, {"height_m", dump_.height}, {"bed_observed", dump_.observed},
+                      {"seen_share", dump_.seen_share}, {"load_centre_u_m", dump_.load_centre.u}, {"load_centre_v_m", dump_.load_centre.v},
+                      {"passes_left", fill_.passes_left()}, {"plan_ms", took.count()}});
+}
+
 void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_from) {
-  dump_ = choose_dump_point(*bed_, 0.5 * bucket_width(machine_), o.time_s - bed_points_age);
-  const double expected = fill_.loaded_kg() + goal_kg_;
-  const bool more = expected < TruckFill::full_share * site_.place.target_kg;
+  plan_dump(o);
+  const bool more = !fill_.full_with(goal_kg_);
   const double here = o.angle[swing];
   dig_.bearing = here;
   plan_next_dig();
@@ -137,14 +153,7 @@ void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_fro
 Joints Sequencer::curl(const Observation& o) {
   if (search_ && !search_->done()) search_->step();
   if (cut_) cut_->reach(o.angle);
-  if (trimming_) return trim(o);
   const bool done = !follower_.active() || follower_.finished() || o.time_s - stage_s_ > 5.0 || forward(machine_, o.angle).bucket_attitude < curled + radians(6.0);
-  if (done && !trimmed_ && recent_.kg() > TruckFill::trim_share * site_.place.target_kg - fill_.loaded_kg()) {
-    log_.event("trim", {{"time_s", o.time_s}, {"payload_kg", recent_.kg()}, {"loaded_kg", fill_.loaded_kg()}});
-    trimming_ = trimmed_ = true;
-    trim_since_s_ = o.time_s;
-    return {};
-  }
   if (done && search_ && search_->done()) {
     note_cut(o);
     begin_script(pass_script(machine_, task_, poses_, search_->thresholds()));
@@ -152,26 +161,14 @@ Joints Sequencer::curl(const Observation& o) {
     open_since_s_ = -1.0;
     before_.reset();
     after_.reset();
+    load_check_.begin(o.time_s, fill_.must_weigh(heaped_kg));
     log_.event("script", {{"swing_start_boom_deg", degrees(search_->thresholds().swing_start_boom)}, {"hover_offset_deg", degrees(search_->thresholds().hover_offset)},
-                          {"truck_bearing_deg", degrees(dump_.bearing)}, {"bed_observed", dump_.observed}, {"clear", search_->clear()}, {"model_seconds", search_->seconds()}});
+                          {"truck_bearing_deg", degrees(dump_.bearing)}, {"clear", search_->clear()}, {"model_seconds", search_->seconds()}});
     enter(Stage::pass, o);
     return pass(o);
   }
   if (!follower_.active()) return {};
   return follower_.step(machine_, arm_, o.angle[swing], curl_speed, o.angle, o.velocity);
-}
-
-// The last bucket would overload the truck: over the dig, lets go of what is too much, tilt by tilt, then curls again.
-Joints Sequencer::trim(const Observation& o) {
-  constexpr double tilt_rate = radians(12.0), longest_s = 12.0, steepest = radians(-75.0);
-  const double goal = site_.place.target_kg - fill_.loaded_kg();
-  const double attitude = forward(machine_, o.angle).bucket_attitude;
-  if (recent_.kg() <= goal || o.time_s - trim_since_s_ > longest_s || attitude > steepest) {
-    trimming_ = false;
-    follower_.end();
-    return {};
-  }
-  return {0.0, 0.0, 0.0, tilt_rate};
 }
 
 }  // namespace berm::app

@@ -15,6 +15,7 @@ namespace berm::app {
 enum Event : std::uint32_t {
   event_none = 0,
   event_emptied = 1,  // the bucket has let its load go
+  event_weighed = 2,  // it holds no more than it may, or what it holds does not matter yet
 };
 
 struct Condition {

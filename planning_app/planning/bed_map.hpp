@@ -3,39 +3,38 @@
 
 #include <vector>
 
-#include "planning/skyline.hpp"
+#include "planning/bed_grid.hpp"
+#include "planning/load_balance.hpp"
 
 namespace berm::app {
 
 class BedMap {
 public:
-  static constexpr double cell = 0.15;
-
   explicit BedMap(const TruckBed& bed);
 
   // Points outside the inside of the bed, a hand's breadth from the walls, are ignored.
   void insert(double x, double y, double z, double time_s);
-  // A dump of this many kilograms around u along the bed.
-  void note_dump(double u, double mass_kg);
+  // A dump of this many kilograms about the point.
+  void note_dump(const BedPoint& at, double mass_kg);
 
-  // Share of cells seen since the time.
-  double seen_share(double since_s) const;
-  // Mean height above the bed's floor of a stretch of the bed; hidden cells count as the mean of those that were seen (stentz-1999, 4.3).
-  double mean_height(double u_low, double u_high, double since_s) const;
-  // Mass dumped into the stretch by the books; a dump is spread evenly over its spread.
-  double noted_mass(double u_low, double u_high) const;
+  // What was seen since the time; the other cells are unknown.
+  BedGrid seen(double since_s) const;
+  // The load as the books have it: every dump falls evenly over what a bucket covers, and slides to rest.
+  const BedGrid& noted() const { return noted_; }
+  const LoadMoment& noted_load() const { return load_; }
 
   const TruckBed& bed() const { return bed_; }
 
-  static constexpr double dump_spread = 1.6;  // m along the bed
+  // What a dump covers about its point before it slides, m: the bucket's width, and the way of its lip while it pours.
+  static constexpr double dump_along = 1.1, dump_across = 1.4;
+  static constexpr double loose_density = 1340.0;  // kg/m3
+  static constexpr double repose = 0.65;           // rise over run at which loose soil rests
 
 private:
-  struct Dump { double u = 0.0, mass = 0.0; };
-
   TruckBed bed_;
-  int columns_ = 0, rows_ = 0;
-  std::vector<double> height_, time_;
-  std::vector<Dump> dumps_;
+  BedGrid grid_, noted_;
+  std::vector<double> time_;  // of each cell's height; negative: never seen
+  LoadMoment load_;
 };
 
 }  // namespace berm::app

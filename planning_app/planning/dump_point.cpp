@@ -1,42 +1,129 @@
 #include "planning/dump_point.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+
+#include "planning/bed_templates.hpp"
 
 namespace berm::app {
 
-DumpPoint choose_dump_point(const BedMap& bed, double bucket_half_width, double since_s) {
-  constexpr double enough_seen = 0.25;
-  constexpr int thirds = 3;
-  constexpr double wall_guard = 0.25;
-  constexpr double zone_guard = 1.5;  // half the bucket, how far its tip leans out beyond the point, and the swing's way to a stop
-  const double length = bed.bed().length;
-  const bool observed = bed.seen_share(since_s) >= enough_seen;
-  // From the middle outward: an even first layer begins where the axles share the weight.
-  constexpr std::array<int, thirds> order{1, 0, 2};
-  int best = order[0];
-  double least = INFINITY;
-  for (const int third : order) {
-    const double low = -0.5 * length + third * length / thirds, high = low + length / thirds;
-    const double fill = observed ? bed.mean_height(low, high, since_s) : bed.noted_mass(low, high);
-    // Less than a hand or a hundredth of a truck more is no reason to leave the order.
-    const double tie = observed ? 0.02 : 1.0;
-    if (fill < least - tie) {
-      least = fill;
-      best = third;
-    }
-  }
-  DumpPoint point;
-  point.observed = observed;
-  const double farthest = std::fmax(0.0, 0.5 * length - bucket_half_width - wall_guard - 2.0 * bed.bed().end_deviation);
-  const double wanted = -0.5 * length + (best + 0.5) * length / thirds;
-  const double lowest = std::fmin(0.0, std::fmax(-farthest, bed.bed().zone_low + zone_guard));
-  const double highest = std::fmax(0.0, std::fmin(farthest, bed.bed().zone_high - zone_guard));
-  point.u = std::fmin(highest, std::fmax(lowest, wanted));
+namespace {
+
+constexpr double enough_seen = 0.25;     // share of the cells; with less the books know more
+constexpr double smoothing = 0.20;       // m, of the Gaussian
+constexpr double wall_guard = 0.25;      // of the end walls
+constexpr double side_guard = 0.05;      // of the side walls: the recogniser's deviation across the bed
+constexpr double zone_guard = 1.5;       // half the bucket, how far its tip leans out beyond the point, and the swing's way to a stop
+constexpr double pour_reach = 1.05;      // m from the dump point: a heaped bucket's first soil towards the machine, its last soil and what rolls on beyond
+constexpr double most_away = 0.15;       // m from the middle line, away from the machine, in a bed that is narrower than that
+constexpr double hole_price = 0.5, slope_price = 0.1;
+constexpr double beyond_price = 0.3;     // m of height for a metre that the soil has to run
+constexpr double offset_limit = 0.07;    // m: what of the load's centre's offset is of no account
+constexpr double offset_price = 5.0;     // m of height for a metre of offset
+constexpr double middle_price = 0.02;    // m of height for a metre from the middle: of equal cells the one nearest to it
+
+double bearing_of(const TruckBed& bed, const BedPoint& p) {
   double x = 0.0, y = 0.0;
-  from_bed(bed.bed(), {point.u, 0.0}, x, y);
-  point.bearing = std::atan2(y, x);
-  point.radius = std::hypot(x, y);
+  from_bed(bed, p, x, y);
+  return std::atan2(y, x);
+}
+
+double radius_of(const TruckBed& bed, const BedPoint& p) {
+  double x = 0.0, y = 0.0;
+  from_bed(bed, p, x, y);
+  return std::hypot(x, y);
+}
+
+// How far to either side of the bed's middle line the bucket may pour: its way over the bed as it pours, and its width where the bed stands aslant.
+// Negative in a bed that is too narrow for it.
+double room_across(const TruckBed& bed, double bucket_half_width, double u) {
+  const double turned = bearing_of(bed, {u, 0.0}) - bed.yaw;
+  return 0.5 * bed.width - pour_reach * std::fabs(std::sin(turned)) - bucket_half_width * std::fabs(std::cos(turned)) - side_guard;
+}
+
+// As near to the place as the bucket may come.
+BedPoint nearest(const TruckBed& bed, const BedArea& area, const DumpNeeds& needs, const BedPoint& place) {
+  constexpr double step = 0.05;
+  BedPoint p{std::clamp(place.u, area.u_low, area.u_high), 0.0};
+  for (;;) {
+    const double room = room_across(bed, needs.bucket_half_width, p.u);
+    // Away from the machine a pour reaches less far: what is too narrow for it is made up for there.
+    const double away = std::sin(bearing_of(bed, {p.u, 0.0}) - bed.yaw) > 0.0 ? 1.0 : -1.0;
+    p.v = room >= 0.0 ? std::clamp(place.v, -room, room) : away * std::fmin(-room, most_away);
+    // Out of the arm's reach: nearer to the bed's middle.
+    if (radius_of(bed, p) <= needs.farthest_radius || std::fabs(p.u) < step) return p;
+    p.u -= std::copysign(step, p.u);
+  }
+}
+
+// How far towards the machine the middle of a bucket of this much falls from where it is poured.
+double inward(double kg) {
+  constexpr double even_kg = 1300.0, per_kg = 0.00045, most_inward = 0.11, most_outward = 0.35;
+  return std::clamp(per_kg * (kg - even_kg), -most_outward, most_inward);
+}
+
+BedPoint moved_inward(const TruckBed& bed, const BedPoint& p, double distance) {
+  double x = 0.0, y = 0.0;
+  from_bed(bed, p, x, y);
+  const double share = 1.0 - distance / std::hypot(x, y);
+  return to_bed(bed, x * share, y * share);
+}
+
+// By the books, its centre moved towards that of what is seen as much as is seen.
+LoadMoment load_of(const BedMap& bed, const BedGrid& heights, double seen_share) {
+  LoadMoment seen;
+  for (int row = 0; row < heights.rows; ++row)
+    for (int column = 0; column < heights.columns; ++column) seen.add({heights.u(column), heights.v(row)}, heights.height[heights.index(column, row)]);
+  LoadMoment load = bed.noted_load();
+  const BedPoint by_sight = seen.centre();
+  load.u_kgm += seen_share * (load.kg * by_sight.u - load.u_kgm);
+  load.v_kgm += seen_share * (load.kg * by_sight.v - load.v_kgm);
+  return load;
+}
+
+}  // namespace
+
+BedArea dump_area(const TruckBed& bed, double bucket_half_width) {
+  const double farthest = std::fmax(0.0, 0.5 * bed.length - bucket_half_width - wall_guard - 2.0 * bed.end_deviation);
+  const double room = std::fmax(0.0, room_across(bed, bucket_half_width, 0.0));
+  return {std::fmin(0.0, std::fmax(-farthest, bed.zone_low + zone_guard)), std::fmax(0.0, std::fmin(farthest, bed.zone_high - zone_guard)), -room, room};
+}
+
+BedPoint landing(const TruckBed& bed, const BedPoint& at, double kg) {
+  return moved_inward(bed, at, inward(kg));
+}
+
+DumpPoint choose_dump_point(const BedMap& map, const DumpNeeds& needs) {
+  const TruckBed& bed = map.bed();
+  const BedGrid seen = map.seen(needs.since_s);
+  DumpPoint point;
+  point.seen_share = seen.known_share();
+  point.observed = point.seen_share >= enough_seen;
+  const BedGrid load_heights = point.observed ? filled(smoothed(seen, smoothing), smoothed(map.noted(), smoothing)) : smoothed(map.noted(), smoothing);
+  const LoadMoment load = load_of(map, load_heights, point.observed ? point.seen_share : 0.0);
+  const BedArea area = dump_area(bed, needs.bucket_half_width);
+  const std::vector<double> height = convolved(load_heights, constant_template()), hole = convolved(load_heights, hole_template()),
+                            along = convolved(load_heights, slope_template(true)), over = convolved(load_heights, slope_template(false));
+  // Poured short of its place where it is sure to fall beyond.
+  const double lead = std::fmax(0.0, -inward(needs.most_kg));
+  double least = std::numeric_limits<double>::infinity();
+  for (int row = 0; row < load_heights.rows; ++row)
+    for (int column = 0; column < load_heights.columns; ++column) {
+      const std::size_t i = load_heights.index(column, row);
+      const BedPoint cell{load_heights.u(column), load_heights.v(row)}, under = nearest(bed, area, needs, cell), at = moved_inward(bed, under, lead);
+      LoadMoment with = load;
+      with.add(landing(bed, at, needs.dump_kg), needs.dump_kg);
+      const double offset = std::fmax(0.0, least_final_offset(with, needs.rest_kg, area) - offset_limit);
+      const double price = height[i] - hole_price * hole[i] + slope_price * std::hypot(along[i], over[i]) + beyond_price * std::hypot(under.u - cell.u, under.v - cell.v) +
+                           offset_price * offset + middle_price * std::hypot(under.u, under.v);
+      if (price >= least) continue;
+      least = price;
+      point.at = at;
+      point.height = score(load_heights, constant_template(), load_heights.column_of(at.u), load_heights.row_of(at.v));
+      point.load_centre = with.centre();
+    }
+  point.bearing = bearing_of(bed, point.at);
+  point.radius = radius_of(bed, point.at);
   return point;
 }
 

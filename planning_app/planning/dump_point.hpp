@@ -1,19 +1,48 @@
-// Where the next bucket goes: the lowest part of the bed along its long axis, but no nearer to the end of the site's truck zone than a bucket needs.
+// Where the next bucket goes: template-based dump planning (stentz-1999, 4.3), held to what the axles bear.
+//
+// The bed map is smoothed, what the walls hide is filled with the mean (as the books raise or lower it), and three templates are convolved over all of it. A cell's price is in metres of
+// height, and the cheapest cell is dumped on:
+//   constant elevation   the mean height under the bucket: the lowest part of the load is filled first;
+//   hole                 less by half the hole's depth: a dip that the mean does not show is worth filling;
+//   slope                more by a tenth of the rise: what falls on a slope does not stay there.
+// The bucket may not come over every cell (walls, the end of the site's truck zone, its own reach). Soil for a cell beyond is poured as near to it as it may
+// and has to run there down a slope, so such a cell's price is higher by a share of its distance.
+// Balance: from the load's centre as books and sight have it, a dump may only be where what is still to come can bring the whole load's centre to the
+// bed's middle; what it would miss by is added to the price, manyfold.
 #pragma once
 
-#include "motion/machine_model.hpp"
+#include <limits>
+
 #include "planning/bed_map.hpp"
 
 namespace berm::app {
 
-struct DumpPoint {
-  double u = 0.0;        // along the bed, m from its centre
-  double bearing = 0.0;  // swing angle
-  double radius = 0.0;   // m from the swing axis
-  bool observed = false; // from the bed map; else from the books
+struct DumpNeeds {
+  double bucket_half_width = 0.0;  // m
+  double since_s = 0.0;            // how new a bed cell must be to count
+  double dump_kg = 0.0;            // in the bucket, as planned
+  double most_kg = std::numeric_limits<double>::infinity();  // what may be in it at most
+  double rest_kg = 0.0;            // of the passes after it
+  double farthest_radius = std::numeric_limits<double>::infinity();  // of a dump point from the swing axis, m
 };
 
-// since_s: how new a bed cell must be to count. Candidates stand in the middle of each third of the stretch that a bucket can fill.
-DumpPoint choose_dump_point(const BedMap& bed, double bucket_half_width, double since_s);
+struct DumpPoint {
+  BedPoint at;                     // m from the bed's centre
+  double bearing = 0.0;            // swing angle
+  double radius = 0.0;             // m from the swing axis
+  bool observed = false;           // from the bed map; else from the books
+  double seen_share = 0.0;         // of the bed map's cells
+  double height = 0.0;             // mean height of the load there, m over the floor
+  BedPoint load_centre;            // of the whole load with this dump
+};
+
+DumpPoint choose_dump_point(const BedMap& bed, const DumpNeeds& needs);
+
+// Where the middle of a bucket of this much falls that is poured at a point: a heaped one begins to pour when it has hardly tilted, its lip still towards
+// the machine; a small load slides only when the lip has passed the point.
+BedPoint landing(const TruckBed& bed, const BedPoint& at, double kg);
+
+// Where a dump point may be along the bed, and across it at its middle.
+BedArea dump_area(const TruckBed& bed, double bucket_half_width);
 
 }  // namespace berm::app

@@ -12,6 +12,7 @@ using Relation = Condition::Relation;
 constexpr double range_guard = radians(7.5);      // a standing joint's stop travel stays inside its range
 constexpr double pin_over_top = 2.90;             // bucket pin above what it passes over: the bucket's circle, the spread of a stop, the margin
 constexpr double highest_top = 1.2;               // z; over anything higher the pass is not tried higher
+constexpr double reach_step = 0.05;               // m, of the search for a reach
 constexpr double carry_radius = 6.4;              // of the bucket pin, m
 constexpr double back_radius = 6.3;
 constexpr double attitude_carry = radians(-178.0);
@@ -27,11 +28,17 @@ constexpr double spill_pace = 0.6;
 constexpr double arrived = radians(1.0);
 constexpr double over_the_dig = radians(2.0);     // from here the swing is slower than the dig zone's limit
 
-// Pose with the pin at the point and the attitude as wanted, or as near as the bucket's range allows; with a shorter radius if out of reach.
+// Pose with the pin at the point and the attitude as wanted, or as near as the bucket's range allows.
+std::optional<Joints> pose_at(const MachineModel& machine, const PlanePoint& pin, double attitude) {
+  for (int turn = 0; turn <= 60; ++turn)
+    if (auto q = inverse_pin(machine, pin, attitude + radians(turn), range_guard)) return q;
+  return std::nullopt;
+}
+
+// ... with a shorter radius if out of reach.
 std::optional<Joints> pose_near(const MachineModel& machine, PlanePoint pin, double attitude) {
-  for (int shorter = 0; shorter < 20; ++shorter, pin.r -= 0.05)
-    for (int turn = 0; turn <= 60; ++turn)
-      if (auto q = inverse_pin(machine, pin, attitude + radians(turn), range_guard)) return q;
+  for (int shorter = 0; shorter < 20; ++shorter, pin.r -= reach_step)
+    if (auto q = pose_at(machine, pin, attitude)) return q;
   return std::nullopt;
 }
 
@@ -59,6 +66,12 @@ std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask&
   return PassPoses{*carry, *spill, *dump, *back, *hover, *dig};
 }
 
+double farthest_dump(const MachineModel& machine, double wall_top) {
+  double radius = carry_radius;
+  while (pose_at(machine, {radius + reach_step + spill_ahead, wall_top + pin_over_top}, attitude_carry)) radius += reach_step;
+  return radius;
+}
+
 Script pass_script(const MachineModel& machine, const PassTask& task, const PassPoses& p, const PassThresholds& t) {
   const double bucket_low = machine.joint[bucket].low + range_guard;
   // The truck stands to the left of the dig, or to its right: the comparisons turn round with it.
@@ -73,7 +86,7 @@ Script pass_script(const MachineModel& machine, const PassTask& task, const Pass
   const Condition over_dig = when(swing, Relation::near, task.next_bearing, over_the_dig);
   return Script({
       JointScript({{"digging finished: wait", {}, event_none, task.lifted_from[swing]},
-                   {"boom high: swing to truck", {when(boom, Relation::above, t.swing_start_boom)}, event_none, task.truck_bearing},
+                   {"boom high: swing to truck", {when(boom, Relation::above, t.swing_start_boom)}, event_weighed, task.truck_bearing},
                    {"emptied: swing to dig", {}, event_emptied, task.next_bearing},
                    {"over the dig: stop and dig", {when(swing, Relation::near, task.next_bearing, arrived)}, event_none, task.next_bearing}}),
       JointScript({{"digging finished: raise", {}, event_none, p.carry[boom]},
@@ -185,7 +198,7 @@ PassSearch::Outcome PassSearch::simulate(const PassThresholds& thresholds) const
     }
     const bool open = script.of(bucket).active() >= opening_rule && angle[bucket] > poses_.dump[bucket] - radians(8.0);
     open_s = open ? open_s + machine_.cycle : open_s;
-    if (k % script_every == 0) script.evaluate(angle, open_s >= emptying ? event_emptied : event_none);
+    if (k % script_every == 0) script.evaluate(angle, open_s >= emptying ? event_emptied | event_weighed : event_weighed);
     const bool returning = script.of(swing).active() >= 2;
     if (k % check_every == 0) {
       const ReachIntervals box = preview(machine_, angle, velocity);

@@ -39,6 +39,9 @@ struct PassThresholds {
 // Nothing when the dump point is out of reach.
 std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask& task);
 
+// The farthest dump point from the swing axis, m, at which the load is spilled where it is meant to be: beyond it the arm is stretched.
+double farthest_dump(const MachineModel& machine, double wall_top);
+
 // The bucket's rule that opens it over the bed.
 inline constexpr int opening_rule = 3;
 Script pass_script(const MachineModel& machine, const PassTask& task, const PassPoses& poses, const PassThresholds& thresholds);

@@ -10,11 +10,24 @@ void TruckFill::add_pass(double before_kg, double after_kg) {
   ++passes_;
 }
 
-double TruckFill::next_goal_kg(double full_bucket_kg) const {
-  const double left = target_ - loaded_;
-  if (left <= 0.0) return 0.0;
-  const double passes = std::ceil(left / full_bucket_kg);
-  return std::min(left / passes, overload_share * target_ - loaded_);
+int TruckFill::passes_left() const {
+  constexpr double rounding = 1e-9;  // a truck of whole buckets takes no pass more
+  return full() ? 0 : static_cast<int>(std::ceil(rest_kg() / full_bucket_ - rounding));
 }
+
+double TruckFill::next_goal_kg() const {
+  const int passes = passes_left();
+  return passes == 0 ? 0.0 : rest_kg() / passes;
+}
+
+double TruckFill::allowed_kg(double kg) const {
+  if (loaded_ + kg > most_share * target_) return std::max(0.0, rest_kg());
+  if (full_with(kg)) return kg;
+  // Two passes at least are left: this one leaves the last enough, unless there is too little for two.
+  const double handful = handful_kg(), rest = rest_kg();
+  return rest - kg < handful && rest >= 2.0 * handful ? rest - handful : kg;
+}
+
+bool TruckFill::must_weigh(double heaped_kg) const { return rest_kg() < heaped_kg + handful_kg(); }
 
 }  // namespace berm::app

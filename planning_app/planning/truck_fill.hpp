@@ -1,25 +1,40 @@
-// Bookkeeping of one truck's load, from the on-board weighing before and after each dump.
+// Bookkeeping of one truck's load, from the on-board weighing before and after each dump, and how many passes the rest takes.
 #pragma once
 
 namespace berm::app {
 
 class TruckFill {
 public:
-  explicit TruckFill(double target_kg) : target_(target_kg) {}
+  // What the truck is to carry, and what a pass is planned to bring at most.
+  TruckFill(double target_kg, double full_bucket_kg) : target_(target_kg), full_bucket_(full_bucket_kg) {}
 
   void add_pass(double before_kg, double after_kg);
   double loaded_kg() const { return loaded_; }
   int passes() const { return passes_; }
-  bool full() const { return loaded_ >= full_share * target_; }
-  // What the next pass should bring: the remainder spread evenly over the fewest passes of at most full_bucket_kg; never beyond the overload limit.
-  double next_goal_kg(double full_bucket_kg) const;
+  bool full() const { return full_with(0.0); }
+  // Whether a bucket of this much makes the truck full.
+  bool full_with(double kg) const { return loaded_ + kg >= full_share * target_ || rest_kg() - kg < worth_share * full_bucket_; }
+  // The fewest passes that bring the rest; 0 when the truck is full.
+  int passes_left() const;
+  // What the next pass should bring: the rest in equal parts, so that the last is no handful.
+  double next_goal_kg() const;
+  // What of a bucket of this much may go into the truck: less when it would overload it, or leave a handful for the pass after it.
+  double allowed_kg(double kg) const;
+  // How far above its goal a trimmed bucket may stay.
+  double tolerance_kg() const { return (most_share - aim_share) * target_; }
+  // Whether a bucket that holds at most so much may hold more than is allowed: it has to be weighed before it leaves the dig.
+  bool must_weigh(double heaped_kg) const;
 
-  static constexpr double full_share = 0.96;   // a last bucket for less than this would overload it rather
-  static constexpr double overload_share = 1.03;
-  static constexpr double trim_share = 1.02;      // a bucket that would bring more than this lets some of it go first
+  // Shares of the target: what is filled up to, when it is full, and what is let go of rather than loaded, a weighing's error below the target.
+  static constexpr double aim_share = 0.988, full_share = 0.98, most_share = 0.995;
+  static constexpr double handful_share = 0.25;  // of a full bucket; a pass planned for less would be inexact ...
+  static constexpr double worth_share = 0.06;    // ... and for less than this not worth its time
 
 private:
-  double target_;
+  double rest_kg() const { return aim_share * target_ - loaded_; }
+  double handful_kg() const { return handful_share * full_bucket_; }
+
+  double target_, full_bucket_;
   double loaded_ = 0.0;
   int passes_ = 0;
 };

@@ -6,33 +6,65 @@ namespace {
 
 using berm::app::TruckFill;
 
-TEST(TruckFill, FullFromNinetySixPercentOn) {
-  TruckFill fill(18000.0);
-  for (int i = 0; i < 11; ++i) fill.add_pass(1569.0, 0.0);
-  EXPECT_FALSE(fill.full());  // 17 259
-  fill.add_pass(30.0, 0.0);
-  EXPECT_TRUE(fill.full());   // 17 289
+constexpr double full_bucket = 1560.0;
+
+TEST(TruckFill, FullFromNinetyEightPercentOn) {
+  TruckFill fill(18000.0, full_bucket);
+  for (int i = 0; i < 11; ++i) fill.add_pass(1600.0, 0.0);
+  EXPECT_FALSE(fill.full());  // 17 600
+  EXPECT_FALSE(fill.full_with(39.0));
+  EXPECT_TRUE(fill.full_with(41.0));
+  fill.add_pass(41.0, 0.0);
+  EXPECT_TRUE(fill.full());
   EXPECT_EQ(fill.passes(), 12);
+  EXPECT_EQ(fill.passes_left(), 0);
+  EXPECT_EQ(fill.next_goal_kg(), 0.0);
+}
+
+TEST(TruckFill, ForNextToNothingNoPassIsMade) {
+  TruckFill fill(4500.0, full_bucket);
+  fill.add_pass(4500.0 * TruckFill::aim_share - 1.01 * TruckFill::worth_share * full_bucket, 0.0);
+  EXPECT_FALSE(fill.full());
+  fill.add_pass(0.02 * TruckFill::worth_share * full_bucket, 0.0);
+  EXPECT_TRUE(fill.full());
 }
 
 TEST(TruckFill, WhatStaysInTheBucketDoesNotCountAndNothingIsTakenBack) {
-  TruckFill fill(18000.0);
+  TruckFill fill(18000.0, full_bucket);
   fill.add_pass(1500.0, 200.0);
   EXPECT_EQ(fill.loaded_kg(), 1300.0);
   fill.add_pass(100.0, 130.0);
   EXPECT_EQ(fill.loaded_kg(), 1300.0);
 }
 
-TEST(TruckFill, PlansEqualPassesThatNeverOverload) {
-  TruckFill fill(18000.0);
-  EXPECT_NEAR(fill.next_goal_kg(1600.0), 1500.0, 1e-9);  // 12 passes of 1500
-  // Whatever the passes bring within 5 % of their goal, the sum ends within 97.5 and 103 %.
-  for (const double error : {-0.05, -0.02, 0.0, 0.02, 0.05}) {
-    TruckFill f(18000.0);
-    for (int i = 0; i < 30 && !f.full(); ++i) f.add_pass(f.next_goal_kg(1600.0) * (1.0 + error), 0.0);
-    EXPECT_TRUE(f.full());
-    EXPECT_LE(f.loaded_kg(), 1.03 * 18000.0);
-  }
+TEST(TruckFill, TheRestIsPlannedInTheFewestEqualPasses) {
+  TruckFill fill(18000.0, full_bucket);
+  EXPECT_EQ(fill.passes_left(), 12);
+  EXPECT_NEAR(fill.next_goal_kg(), 18000.0 * TruckFill::aim_share / 12.0, 1e-9);
+  // A little more than a bucket is left: two halves, no bucket and a handful.
+  fill.add_pass(18000.0 * TruckFill::aim_share - full_bucket - 40.0, 0.0);
+  EXPECT_EQ(fill.passes_left(), 2);
+  EXPECT_NEAR(fill.next_goal_kg(), 0.5 * (full_bucket + 40.0), 1e-9);
+}
+
+TEST(TruckFill, ABucketIsTrimmedThatWouldOverloadTheTruckOrLeaveAHandful) {
+  TruckFill fill(4500.0, full_bucket);
+  fill.add_pass(3000.0, 0.0);
+  const double rest = 4500.0 * TruckFill::aim_share - 3000.0;
+  EXPECT_EQ(fill.allowed_kg(1600.0), rest) << "overload";
+  EXPECT_EQ(fill.allowed_kg(1450.0), 1450.0) << "within the limits";
+  const double handful = TruckFill::handful_share * full_bucket;
+  EXPECT_NEAR(fill.allowed_kg(1300.0), rest - handful, 1e-9) << "a handful would be left";
+  EXPECT_EQ(fill.allowed_kg(900.0), 900.0) << "enough is left";
+}
+
+TEST(TruckFill, OnlyABucketThatMayHoldTooMuchHasToBeWeighed) {
+  TruckFill fill(18000.0, full_bucket);
+  EXPECT_FALSE(fill.must_weigh(1600.0));
+  for (int i = 0; i < 10; ++i) fill.add_pass(1480.0, 0.0);
+  EXPECT_FALSE(fill.must_weigh(1600.0));  // 2984 kg left: no bucket leaves less than two thirds of one
+  fill.add_pass(1480.0, 0.0);
+  EXPECT_TRUE(fill.must_weigh(1600.0));
 }
 
 }  // namespace

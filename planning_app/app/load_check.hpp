@@ -1,0 +1,40 @@
+// Whether a lifted bucket holds more than may go into the truck. It is weighed while it is raised over the dig, and lets go of what is too much there.
+#pragma once
+
+#include "app/progress_log.hpp"
+#include "app/weighing.hpp"
+#include "planning/truck_fill.hpp"
+
+namespace berm::app {
+
+class LoadCheck {
+public:
+  // The bucket has left the soil. A check that is not needed is passed at once.
+  void begin(double time_s, bool needed);
+
+  // The bucket as it is lifted.
+  struct Lifted {
+    double time_s = 0.0;
+    double payload_kg = 0.0;  // on-board weighing; negative: unknown, as while it digs and shortly after
+    double attitude = 0.0;    // absolute angle of the bucket, rad
+    bool raised = false;      // it has room to tilt
+  };
+  // Once a cycle from then on. How fast the bucket is to tilt towards the dump, rad/s; 0: it is to be held; negative: nothing is asked for.
+  double step(const Lifted& now, const TruckFill& fill, const ProgressLog& log);
+
+  bool passed() const { return stage_ == Stage::passed; }
+  // What was in it before anything was let go of; negative when it was not weighed.
+  double lifted_kg() const { return lifted_; }
+
+private:
+  enum class Stage { blind, weighs, tilts, settles, passed };
+  void enter(Stage stage, double time_s);
+
+  Stage stage_ = Stage::passed;
+  double stage_s_ = 0.0, began_s_ = 0.0, last_s_ = 0.0;
+  double lifted_ = -1.0, goal_ = 0.0;
+  MeanWeight mean_;
+  RecentWeight recent_;
+};
+
+}  // namespace berm::app

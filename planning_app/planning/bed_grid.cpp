@@ -1,0 +1,94 @@
+#include "planning/bed_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace berm::app {
+
+BedGrid::BedGrid(double along, double across)
+    : length(along), width(across), columns(static_cast<int>(std::ceil(along / cell))), rows(static_cast<int>(std::ceil(across / cell))),
+      height(static_cast<std::size_t>(columns * rows), 0.0), known(height.size(), 0) {}
+
+double BedGrid::at(int column, int row) const { return height[index(std::clamp(column, 0, columns - 1), std::clamp(row, 0, rows - 1))]; }
+
+int BedGrid::column_of(double along) const { return std::clamp(static_cast<int>(std::floor(along / cell + 0.5 * columns)), 0, columns - 1); }
+
+int BedGrid::row_of(double across) const { return std::clamp(static_cast<int>(std::floor(across / cell + 0.5 * rows)), 0, rows - 1); }
+
+double BedGrid::known_share() const {
+  return static_cast<double>(std::count_if(known.begin(), known.end(), [](char k) { return k != 0; })) / static_cast<double>(known.size());
+}
+
+double BedGrid::known_mean() const {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < height.size(); ++i)
+    if (known[i]) { sum += height[i]; ++count; }
+  return count == 0 ? 0.0 : sum / count;
+}
+
+BedGrid smoothed(const BedGrid& grid, double sigma) {
+  const int reach = static_cast<int>(std::ceil(2.0 * sigma / BedGrid::cell));
+  std::vector<double> weight(static_cast<std::size_t>(reach) + 1);
+  for (int k = 0; k <= reach; ++k) weight[static_cast<std::size_t>(k)] = std::exp(-0.5 * std::pow(k * BedGrid::cell / sigma, 2));
+  BedGrid out = grid;
+  for (int row = 0; row < grid.rows; ++row)
+    for (int column = 0; column < grid.columns; ++column) {
+      if (!grid.known[grid.index(column, row)]) continue;
+      double sum = 0.0, weights = 0.0;
+      for (int j = std::max(0, row - reach); j <= std::min(grid.rows - 1, row + reach); ++j)
+        for (int i = std::max(0, column - reach); i <= std::min(grid.columns - 1, column + reach); ++i) {
+          if (!grid.known[grid.index(i, j)]) continue;
+          const double w = weight[static_cast<std::size_t>(std::abs(i - column))] * weight[static_cast<std::size_t>(std::abs(j - row))];
+          sum += w * grid.height[grid.index(i, j)];
+          weights += w;
+        }
+      out.height[grid.index(column, row)] = sum / weights;
+    }
+  return out;
+}
+
+BedGrid filled(const BedGrid& grid) {
+  BedGrid even = grid;
+  std::fill(even.height.begin(), even.height.end(), 0.0);
+  return filled(grid, even);
+}
+
+BedGrid filled(const BedGrid& grid, const BedGrid& noted) {
+  BedGrid out = grid, noted_where_known = noted;
+  noted_where_known.known = grid.known;
+  const double lift = grid.known_mean() - noted_where_known.known_mean();
+  for (std::size_t i = 0; i < out.height.size(); ++i)
+    if (!out.known[i]) {
+      out.height[i] = std::max(0.0, noted.height[i] + lift);
+      out.known[i] = 1;
+    }
+  return out;
+}
+
+BedGrid settled(const BedGrid& grid, double slope) {
+  constexpr int most_rounds = 60;
+  constexpr double rest_step = 0.002;  // m; less is left standing
+  constexpr double share = 0.25;       // of the excess, for a cell has four neighbours
+  BedGrid out = grid;
+  const auto slide = [&](std::size_t a, std::size_t b) {
+    const double step = out.height[a] - out.height[b], excess = std::fabs(step) - slope * BedGrid::cell;
+    if (excess <= rest_step) return false;
+    const double moved = std::copysign(share * excess, step);
+    out.height[a] -= moved;
+    out.height[b] += moved;
+    return true;
+  };
+  for (int round = 0; round < most_rounds; ++round) {
+    bool moved = false;
+    for (int row = 0; row < out.rows; ++row)
+      for (int column = 0; column < out.columns; ++column) {
+        if (column + 1 < out.columns && slide(out.index(column, row), out.index(column + 1, row))) moved = true;
+        if (row + 1 < out.rows && slide(out.index(column, row), out.index(column, row + 1))) moved = true;
+      }
+    if (!moved) break;
+  }
+  return out;
+}
+
+}  // namespace berm::app

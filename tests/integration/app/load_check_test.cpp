@@ -1,0 +1,126 @@
+// A bucket that is weighed before it leaves the dig, and lets go of what is too much: on a bucket that pours as it tilts, and a weighing that is blind at
+// first, noisy, and comes ten times a second.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "app/load_check.hpp"
+#include "motion/angles.hpp"
+
+namespace {
+
+using namespace berm::app;
+
+constexpr double target = 4500.0, full_bucket = 1560.0, cycle = 0.01;
+
+struct Bucket {
+  explicit Bucket(double mass, unsigned seed) : kg(mass), random(seed) {}
+
+  // What rests at a tilt: a full bucket loses from 20 degrees on; the rest slides within a third of a second.
+  void step(double tilt_rate) {
+    attitude += std::max(0.0, tilt_rate) * cycle;
+    const double rests = 1608.0 * std::clamp(1.0 - (degrees(attitude) + 158.0) / 100.0, 0.0, 1.0);
+    if (kg > rests) kg -= (kg - rests) * cycle / 0.35;
+  }
+  double weighed(int k) {
+    if (k % 10 == 0) last = std::max(0.0, kg * (1.0 + 0.02 * noise(random)) + 10.0 * noise(random));
+    return last;
+  }
+
+  double kg, attitude = radians(-178.0), last = 0.0;
+  std::mt19937 random;
+  std::uniform_real_distribution<double> noise{-1.0, 1.0};
+};
+
+struct Outcome { double kg = 0.0, lifted = 0.0, seconds = 0.0; bool tilted = false; };
+
+Outcome run(double loaded, double in_bucket, unsigned seed, double blind_s = 3.0, double raised_s = 1.0) {
+  TruckFill fill(target, full_bucket);
+  fill.add_pass(loaded, 0.0);
+  Bucket bucket(in_bucket, seed);
+  LoadCheck check;
+  check.begin(0.0, fill.must_weigh(1600.0));
+  const ProgressLog log(-1);
+  Outcome out;
+  int k = 0;
+  for (; !check.passed() && k < 6000; ++k) {
+    const double t = k * cycle;
+    const double rate = check.step({t, t < blind_s ? -1.0 : bucket.weighed(k), bucket.attitude, t >= raised_s}, fill, log);
+    if (rate > 0.0) {
+      EXPECT_GE(t, raised_s) << "it has no room to tilt yet";
+      out.tilted = true;
+    }
+    bucket.step(rate);
+  }
+  out.kg = bucket.kg;
+  out.lifted = check.lifted_kg();
+  out.seconds = k * cycle;
+  return out;
+}
+
+TEST(LoadCheck, EarlyPassesAreNotHeldUp) {
+  const Outcome out = run(0.0, 1600.0, 1);
+  EXPECT_EQ(out.seconds, 0.0);
+  EXPECT_LT(out.lifted, 0.0) << "not weighed";
+}
+
+TEST(LoadCheck, WhatIsTooMuchIsLetGoOf) {
+  for (unsigned seed = 1; seed <= 20; ++seed)
+    for (const double loaded : {3050.0, 3300.0, 3900.0}) {
+      const Outcome out = run(loaded, 1600.0, seed);
+      EXPECT_TRUE(out.tilted);
+      EXPECT_NEAR(out.lifted, 1600.0, 30.0);
+      EXPECT_GE(loaded + out.kg, 0.97 * target) << loaded << " loaded, seed " << seed;
+      EXPECT_LE(loaded + out.kg, 1.0 * target) << loaded << " loaded, seed " << seed;
+      EXPECT_LT(out.seconds, 15.0);
+    }
+}
+
+TEST(LoadCheck, WhatFitsGoesAsSoonAsItIsWeighed) {
+  const Outcome out = run(2900.0, 1550.0, 5, 2.0);
+  EXPECT_FALSE(out.tilted);
+  EXPECT_EQ(out.kg, 1550.0);
+  EXPECT_NEAR(out.seconds, 2.5, 0.1);
+}
+
+TEST(LoadCheck, TiltsOnlyOnceItIsRaised) {
+  const Outcome out = run(3300.0, 1600.0, 3, 0.0, 4.0);
+  EXPECT_TRUE(out.tilted);
+  EXPECT_GT(out.seconds, 4.0);
+}
+
+TEST(LoadCheck, WithoutAWeighingItGoesInTheEnd) {
+  const Outcome out = run(3300.0, 1600.0, 3, 1e9);
+  EXPECT_FALSE(out.tilted);
+  EXPECT_LT(out.lifted, 0.0);
+  EXPECT_LT(out.seconds, 7.0);
+}
+
+TEST(LoadCheck, AWeighingThatFailsDoesNotHoldItForEver) {
+  TruckFill fill(target, full_bucket);
+  fill.add_pass(3300.0, 0.0);
+  LoadCheck check;
+  check.begin(0.0, true);
+  const ProgressLog log(-1);
+  double t = 0.0;
+  for (; !check.passed() && t < 60.0; t += cycle) check.step({t, t < 0.02 ? 1600.0 : -1.0, radians(-178.0), true}, fill, log);
+  EXPECT_LT(t, 21.0);
+}
+
+// The kernel may stop the machine meanwhile: the check goes on afterwards.
+TEST(LoadCheck, AStopDoesNotEndIt) {
+  TruckFill fill(target, full_bucket);
+  fill.add_pass(3300.0, 0.0);
+  LoadCheck check;
+  check.begin(0.0, true);
+  const ProgressLog log(-1);
+  check.step({0.01, -1.0, radians(-178.0), true}, fill, log);
+  double rate = 0.0;
+  for (double t = 40.0; t < 42.0; t += cycle) rate = std::max(rate, check.step({t, 1600.0, radians(-178.0), true}, fill, log));
+  EXPECT_FALSE(check.passed());
+  EXPECT_GT(rate, 0.0);
+}
+
+}  // namespace
