@@ -19,7 +19,8 @@ void ScanIntake::hand_on(const ScanlinePart& part, TerrainMap& terrain, BedMap* 
     ++counts_.returns;
     if (s.flagged()) {
       ++counts_.flagged;
-      if (!second_sweep_.confirms(terrain, s.x, s.y, s.z, s.time_s)) continue;
+      // What is alone beside the own bucket comes again as long as the bucket hides the ground behind it.
+      if (s.lone || !second_sweep_.confirms(terrain, s.x, s.y, s.z, s.time_s)) continue;
       ++counts_.confirmed;
     }
     terrain.insert(s.x, s.y, s.z, s.time_s);

@@ -17,16 +17,16 @@ class ScanIntake {
 public:
   explicit ScanIntake(const MachineModel& machine) : processor_(machine) {}
 
-  // Once a cycle. Returns that are not the machine's own go into terrain and bed (null: none is known), flagged ones when a second sweep confirms
-  // them; every processed part of a scanline goes into the sweep. A block that is newer than the machine's newest state waits. Returns the number of
-  // points for the maps.
+  // Once a cycle. Returns that are not the machine's own go into terrain and bed (null: none is known): no lone ones, and those with several echoes
+  // when a second sweep confirms them. Every processed part of a scanline goes into the sweep. A block that is newer than the machine's newest state
+  // waits. Returns the number of points for the maps.
   int take(const berm_state_segment& segment, TerrainMap& terrain, BedMap* bed, TruckSweep& sweep);
 
   struct Counts {
     std::uint64_t blocks_missed = 0;   // overwritten before they were read
     std::uint64_t blocks_refused = 0;  // a field outside the contract's bounds, or a time that is not the machine's
     std::uint64_t returns = 0;         // not from the machine itself
-    std::uint64_t flagged = 0, confirmed = 0;
+    std::uint64_t flagged = 0, confirmed = 0;  // lone or with several echoes; of the latter, by a second sweep
   };
   const Counts& counts() const { return counts_; }
   const ProjectionCheck& check() const { return processor_.check(); }

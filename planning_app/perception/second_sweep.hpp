@@ -1,6 +1,6 @@
-// Whether a flagged return is believed: only where an earlier passage of a scanline found the same height. Dust drifts and noise does not come twice;
-// ground and soil do. Where the terrain map holds that height the first passage has been; otherwise the return waits here for the next. Metres, base
-// frame; seconds.
+// Whether a return with several echoes is believed: only where an earlier passage of a scanline found the same height. Dust drifts; ground and soil
+// stay. Where the terrain map holds that height the first passage has been; otherwise the return waits here for the next. Metres, base frame;
+// seconds.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ class SecondSweep {
 public:
   SecondSweep();
 
-  // A flagged return; true: it may go into the maps.
+  // A return that is in doubt; true: it may go into the maps.
   bool confirms(const TerrainMap& terrain, double x, double y, double z, double time_s);
 
   static constexpr double same_height = 0.3;   // m: what a face of 56 degrees rises in a cell of the terrain map
@@ -24,7 +24,7 @@ public:
 private:
   static constexpr int side = static_cast<int>(2.0 * TerrainMap::half_side / TerrainMap::cell);
   struct Waiting { float z = 0.0F; double time_s = -1.0; };
-  std::vector<Waiting> waiting_;  // by cell: the first flagged return of a passage
+  std::vector<Waiting> waiting_;  // by cell: the first return in doubt of a passage
 };
 
 }  // namespace berm::app
