@@ -19,10 +19,17 @@ bool send_tick(int fd, const Tick& tick) {
   }
 }
 
+void tell(const ProjectionCheck::Disagreement& d, const ProgressLog& log) {
+  log.event("projection_disagrees", {{"time_s", d.time_s}, {"scanner", d.scanner == 0 ? "left" : "right"}, {"distance_m", d.distance()},
+                                     {"x_m", d.here[0]}, {"y_m", d.here[1]}, {"z_m", d.here[2]},
+                                     {"kernel_x_m", d.kernel[0]}, {"kernel_y_m", d.kernel[1]}, {"kernel_z_m", d.kernel[2]}});
+}
+
 }  // namespace
 
-LoopEnd run_loop(const MachineModel& machine, KernelLink& link, Sequencer& sequencer, int tick_fd, const volatile std::sig_atomic_t& stop) {
-  ScanIntake intake;
+LoopEnd run_loop(const MachineModel& machine, KernelLink& link, ScanIntake& intake, Sequencer& sequencer, const ProgressLog& log, int tick_fd,
+                 const volatile std::sig_atomic_t& stop) {
+  bool told = false;
   std::uint64_t handled = 0;
   bool any = false;
   std::uint32_t sequence = 0;
@@ -37,6 +44,10 @@ LoopEnd run_loop(const MachineModel& machine, KernelLink& link, Sequencer& seque
     handled = state.cycle;
     any = true;
     intake.take(link.segment(), sequencer.terrain(), sequencer.bed(), sequencer.sweep());
+    if (!told && intake.check().first()) {
+      tell(*intake.check().first(), log);
+      told = true;
+    }
     if (state.cycle % map_every == 0) sequencer.kernel_map().take(link.segment());
     const Answer answer = sequencer.step(observe(state));
     link.write(make_request(machine, answer, ++sequence, state.time_us));

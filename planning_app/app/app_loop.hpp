@@ -20,7 +20,9 @@ inline constexpr std::uint32_t tick_finished = 1u;
 
 enum class LoopEnd { stopped, kernel_gone, tick_peer_gone };
 
-// Runs until stop is set, or the kernel or the tick's reader is gone. tick_fd -1: no tick.
-LoopEnd run_loop(const MachineModel& machine, KernelLink& link, Sequencer& sequencer, int tick_fd, const volatile std::sig_atomic_t& stop);
+// Runs until stop is set, or the kernel or the tick's reader is gone. tick_fd -1: no tick. Where the app's points and the kernel's disagree it is
+// told once.
+LoopEnd run_loop(const MachineModel& machine, KernelLink& link, ScanIntake& intake, Sequencer& sequencer, const ProgressLog& log, int tick_fd,
+                 const volatile std::sig_atomic_t& stop);
 
 }  // namespace berm::app

@@ -32,6 +32,10 @@ MachineModel machine_model(const config::MachineFile& file) {
   m.margin = file.kernel.margin;
   m.fresh = file.kernel.fresh;
   m.dig_swing_limit = file.kernel.dig_swing_limit;
+  m.range_min = file.kernel.range_min;
+  m.range_max = file.kernel.range_max;
+  m.spurious_range = file.kernel.spurious_range;
+  m.self_margin = file.kernel.self_margin;
   return m;
 }
 

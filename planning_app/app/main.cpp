@@ -45,10 +45,15 @@ int run(const Options& options) {
   close_all_but(keep);
   enter_sandbox(link.socket_fd(), options.tick_fd);
   log.event("connected", {{"trucks", options.trucks}, {"machine", options.machine}, {"site", options.site}});
-  const LoopEnd end = run_loop(machine, link, sequencer, options.tick_fd, stop_requested);
+  ScanIntake intake(machine);
+  const LoopEnd end = run_loop(machine, link, intake, sequencer, log, options.tick_fd, stop_requested);
   const char* why = end == LoopEnd::stopped ? "signal" : end == LoopEnd::kernel_gone ? "kernel gone" : "tick peer gone";
   const SlowDown& slowed = sequencer.slow_down();
-  log.event("exit", {{"why", why}, {"finished", sequencer.finished()}, {"slowed_s", slowed.seconds()}, {"slowed_spans", slowed.spans()}, {"least_share", slowed.least_share()}});
+  log.event("exit", {{"why", why}, {"finished", sequencer.finished()}, {"slowed_s", slowed.seconds()}, {"slowed_spans", slowed.spans()},
+                     {"least_share", slowed.least_share()},
+                     {"points_compared", intake.check().compared()}, {"points_disagreeing", intake.check().disagreeing()},
+                     {"blocks_missed", intake.counts().blocks_missed}, {"blocks_refused", intake.counts().blocks_refused},
+                     {"returns", intake.counts().returns}, {"flagged", intake.counts().flagged}, {"confirmed", intake.counts().confirmed}});
   return end == LoopEnd::stopped || sequencer.finished() ? 0 : 1;
 }
 

@@ -108,7 +108,11 @@ Joints Sequencer::look_for_truck(const Observation& o) {
 void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
   site_.bed = bed;
   bed_.emplace(bed);
-  for (const ScanPoint& p : look_.sweep().points()) bed_->insert(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), p.time_s);
+  const std::vector<ScanPoint>& seen = look_.sweep().points();
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const ScanPoint& p = seen[i];
+    if (!look_.sweep().flagged(i)) bed_->insert(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), p.time_s);
+  }
   skyline_.reset();
   look(o);
   fill_ = TruckFill(site_.place.target_kg, full_bucket_kg);

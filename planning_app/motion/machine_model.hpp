@@ -50,6 +50,9 @@ struct MachineModel {
   double margin = 0.0;                  // the kernel's, on every column
   double fresh = 0.0;                   // the kernel's limit for the age of a cell
   double dig_swing_limit = 0.0;
+  double range_min = 0.0, range_max = 0.0; // of a scanner's return that is used, m
+  double spurious_range = 0.0;          // m: a return that differs by more from what is beside it is doubted
+  double self_margin = 0.0;             // m: returns nearer to the implements are their own
 };
 
 }  // namespace berm::app

@@ -1,7 +1,5 @@
 #include "perception/truck_sweep.hpp"
 
-#include <algorithm>
-
 namespace berm::app {
 
 void TruckSweep::begin(std::size_t scanner) {
@@ -10,19 +8,19 @@ void TruckSweep::begin(std::size_t scanner) {
   recording_ = true;
 }
 
-void TruckSweep::take(const berm_scan_block& block) {
-  if (!recording_ || block.scanner != scanner_) return;
-  if (any_ && block.scanline != line_) ++lines_;
+void TruckSweep::take(const ScanlinePart& part) {
+  if (!recording_ || part.scanner != scanner_) return;
+  if (any_ && part.scanline != line_) ++lines_;
   any_ = true;
-  line_ = block.scanline;
-  const int count = std::min<int>(block.count, BERM_SCAN_BLOCK_SAMPLES);
-  for (int i = 0; i < count && points_.size() < most_points; ++i) {
-    returns_ += block.echoes[i] > 0 ? 1 : 0;
-    several_ += block.echoes[i] > 1 ? 1 : 0;
-    if (block.used[i] != 1) continue;
-    const double time_s = static_cast<double>(block.time_us) * 1e-6 + i * static_cast<double>(block.sample_period_ns) * 1e-9;
-    points_.push_back({static_cast<float>(block.point_mm[i][0]) * 1e-3F, static_cast<float>(block.point_mm[i][1]) * 1e-3F,
-                       static_cast<float>(block.point_mm[i][2]) * 1e-3F, lines_, time_s});
+  line_ = part.scanline;
+  for (const ScanReturn& s : part.samples()) {
+    if (points_.size() >= most_points) break;
+    if (s.range <= 0.0) continue;
+    ++returns_;
+    several_ += s.several_echoes ? 1 : 0;
+    if (s.own || s.lone) continue;
+    points_.push_back({static_cast<float>(s.x), static_cast<float>(s.y), static_cast<float>(s.z), lines_, s.time_s});
+    flagged_.push_back(s.several_echoes);
   }
 }
 

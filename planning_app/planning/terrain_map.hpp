@@ -1,4 +1,4 @@
-// The app's own height map: newest height in each 0.2 m cell, from the points the kernel took into its map.
+// The app's own height map: newest height in each 0.2 m cell, from the app's own scan points (perception/scanline_processor.hpp).
 #pragma once
 
 #include <cstddef>

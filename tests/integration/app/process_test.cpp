@@ -107,6 +107,8 @@ protected:
   void publish(const berm_state_segment& from) {
     ++state_->state_guard;
     state_->state = from.state;
+    std::memcpy(state_->decision, from.decision, sizeof from.decision);
+    state_->decision_head = from.decision_head;
     std::memcpy(state_->scan, from.scan, sizeof from.scan);
     state_->scan_head = from.scan_head;
     ++state_->state_guard;
@@ -177,6 +179,36 @@ TEST_F(AppProcess, AnswersEachCycleOnceWithAValidRequest) {
   ::kill(child_, SIGTERM);
   EXPECT_EQ(wait_for_end(), 0);
   EXPECT_NE(text("out").find("\"event\":\"truck\""), std::string::npos);
+  EXPECT_EQ(text("out").find("projection_disagrees"), std::string::npos);
+  EXPECT_NE(text("out").find("\"points_disagreeing\":0,"), std::string::npos);
+}
+
+TEST_F(AppProcess, TellsOnceThatTheKernelPutsPointsElsewhere) {
+  start();
+  app_bench::BenchMachine plant(app_bench::zx200(), {0.0, radians(45.0), radians(-100.0), radians(-100.0)}, 3);
+  for (int k = 1; k <= 200; ++k) {
+    plant.step(request_->request);
+    berm_state_segment& segment = plant.mutable_segment();
+    for (std::uint32_t n = segment.scan_head - 2; k > 100 && n != segment.scan_head; ++n)
+      for (auto& point : segment.scan[n % BERM_SCAN_RING].point_mm) point[1] += point[2] != 0 ? 20 : 0;
+    publish(segment);
+    Tick tick{};
+    ASSERT_EQ(::recv(tick_, &tick, sizeof tick, 0), static_cast<ssize_t>(sizeof tick)) << "cycle " << k;
+  }
+  ::kill(child_, SIGTERM);
+  EXPECT_EQ(wait_for_end(), 0);
+  const std::string out = text("out");
+  const auto told = out.find("{\"event\":\"projection_disagrees\"");
+  ASSERT_NE(told, std::string::npos);
+  EXPECT_EQ(out.find("projection_disagrees", told + 20), std::string::npos) << "once";
+  const auto event = nlohmann::json::parse(out.substr(told, out.find('\n', told) - told));
+  EXPECT_NEAR(event["distance_m"].get<double>(), 0.02, 0.003);
+  EXPECT_NEAR(event["time_s"].get<double>(), 1.03, 0.03);
+  const auto end = out.find("{\"event\":\"exit\"");
+  ASSERT_NE(end, std::string::npos);
+  const auto last = nlohmann::json::parse(out.substr(end, out.find('\n', end) - end));
+  EXPECT_GT(last["points_disagreeing"].get<int>(), 1000);
+  EXPECT_GT(last["points_compared"].get<int>(), last["points_disagreeing"].get<int>());
 }
 
 TEST_F(AppProcess, EndsWhenTheKernelIsGone) {

@@ -55,6 +55,7 @@ BenchMachine::BenchMachine(const MachineModel& machine, const Joints& start, std
     permitted_high_[j] = largest_urad_s(machine, j);
     permitted_low_[j] = -permitted_high_[j];
   }
+  measure();
   publish();
 }
 
@@ -63,6 +64,7 @@ void BenchMachine::step(const berm_request& request) {
   decide(request);
   move();
   work_soil();
+  measure();
   scan(request);
   check();
   publish();
@@ -79,6 +81,15 @@ void BenchMachine::decide(const berm_request& request) {
     const bool whole = commanded_[j] == cut(wanted, largest);
     permitted_low_[j] = !kernel_runs ? 0 : whole ? -largest : std::min(0, commanded_[j]);
     permitted_high_[j] = !kernel_runs ? 0 : whole ? largest : std::max(0, commanded_[j]);
+  }
+}
+
+double BenchMachine::noise() { return std::uniform_real_distribution<double>(-1.0, 1.0)(random_); }
+
+void BenchMachine::measure() {
+  for (std::size_t j = 0; j < joints; ++j) {
+    measured_angle_[j] = static_cast<std::int32_t>(std::lround((angle_[j] + radians(0.02) * noise()) * 1e6));
+    measured_velocity_[j] = static_cast<std::int32_t>(std::lround((velocity_[j] + radians(0.05) * noise()) * 1e6));
   }
 }
 
@@ -147,8 +158,8 @@ BenchMachine::Outline BenchMachine::implements(const Joints& q) const {
 }
 
 void BenchMachine::scan(const berm_request& request) {
-  constexpr int samples = 120, revolution = 400;
-  constexpr double march = 0.1, farthest = 14.0;
+  constexpr int samples = 100, revolution = 400;  // no block spans two turns of the mirror
+  constexpr double march = 0.1, farthest = 14.0, to_surface = 0.001;
   const double time_s = static_cast<double>(cycle_) * machine_.cycle;
   for (std::size_t i = 0; i < 2; ++i) {
     const ScannerMount& mount = machine_.scanner[i];
@@ -161,24 +172,39 @@ void BenchMachine::scan(const berm_request& request) {
     block.sequence = 2 * n + 1;
     block.scanner = static_cast<std::uint8_t>(i);
     block.count = samples;
+    block.scanline = scanline_[i];
     block.time_us = static_cast<std::int64_t>(cycle_) * 10000;
+    block.sample_period_ns = 1;  // all at once
+    block.first_index = static_cast<std::uint16_t>(mirror_[i]);
+    block.samples_per_revolution = revolution;
+    block.pan_start_urad = static_cast<std::int32_t>(std::lround(pan_before_[i] * 1e6));
+    block.pan_end_urad = static_cast<std::int32_t>(std::lround(pan_[i] * 1e6));
     const double c = std::cos(angle_[swing]), s = std::sin(angle_[swing]);
     const double x0 = mount.x * c - mount.y * s, y0 = mount.x * s + mount.y * c;
     for (int k = 0; k < samples; ++k) {
       const double e = 2.0 * std::numbers::pi * ((mirror_[i] + static_cast<std::uint32_t>(k)) % revolution) / revolution;
       block.used[k] = 0;
+      block.range_mm[k] = 0;
+      block.echoes[k] = 0;
+      std::fill_n(block.point_mm[k], 3, 0);
       if (std::sin(e) > -0.05) continue;
-      const double azimuth = angle_[swing] + pan_before_[i] + (pan_[i] - pan_before_[i]) * k / samples;
+      const double azimuth = angle_[swing] + pan_before_[i] + (pan_[i] - pan_before_[i]) * k / (samples - 1);
       const double dx = std::cos(e) * std::cos(azimuth), dy = std::cos(e) * std::sin(azimuth), dz = std::sin(e);
+      const auto below = [&](double range) { return mount.z + range * dz <= site_.height(x0 + range * dx, y0 + range * dy); };
       for (double range = 0.5; range < farthest; range += march) {
-        const double x = x0 + range * dx, y = y0 + range * dy, z = mount.z + range * dz;
-        const double h = site_.height(x, y);
         // Every cell that the ray passes in free space or meets counts as seen, as after the kernel's interpolation.
-        if (z > h) continue;
+        if (!below(range)) continue;
+        double above = range - march;
+        while (range - above > to_surface) (below(0.5 * (above + range)) ? range : above) = 0.5 * (above + range);
         block.used[k] = 1;
-        block.point_mm[k][0] = static_cast<std::int32_t>(std::lround(x * 1e3));
-        block.point_mm[k][1] = static_cast<std::int32_t>(std::lround(y * 1e3));
-        block.point_mm[k][2] = static_cast<std::int32_t>(std::lround(h * 1e3));
+        block.echoes[k] = 1;
+        block.range_mm[k] = static_cast<std::uint32_t>(std::lround(range * 1e3));
+        // As the kernel projects it: by the swing angle as measured.
+        const double exact = block.range_mm[k] * 1e-3, off = measured_angle_[swing] * 1e-6 - angle_[swing];
+        const double x = x0 + exact * dx, y = y0 + exact * dy;
+        block.point_mm[k][0] = static_cast<std::int32_t>(std::lround((x * std::cos(off) - y * std::sin(off)) * 1e3));
+        block.point_mm[k][1] = static_cast<std::int32_t>(std::lround((x * std::sin(off) + y * std::cos(off)) * 1e3));
+        block.point_mm[k][2] = static_cast<std::int32_t>(std::ceil((mount.z + exact * dz) * 1e3));
         break;
       }
     }
@@ -190,6 +216,7 @@ void BenchMachine::scan(const berm_request& request) {
         if (ix >= 0 && iy >= 0 && ix < kernel_side && iy < kernel_side) seen_[static_cast<std::size_t>(iy * kernel_side + ix)] = time_s;
       }
     mirror_[i] = (mirror_[i] + samples) % revolution;
+    scanline_[i] += mirror_[i] == 0 ? 1 : 0;
     block.sequence = 2 * n + 2;
     segment_->scan_head = n + 1;
   }
@@ -248,16 +275,15 @@ void BenchMachine::publish() {
   ++segment_->state_guard;
   state.cycle = cycle_;
   state.time_us = static_cast<std::int64_t>(cycle_) * 10000;
-  std::uniform_real_distribution<double> noise(-1.0, 1.0);
   for (std::size_t j = 0; j < joints; ++j) {
-    state.joint_angle_urad[j] = static_cast<std::int32_t>(std::lround((angle_[j] + radians(0.02) * noise(random_)) * 1e6));
-    state.joint_velocity_urad_s[j] = static_cast<std::int32_t>(std::lround((velocity_[j] + radians(0.05) * noise(random_)) * 1e6));
+    state.joint_angle_urad[j] = measured_angle_[j];
+    state.joint_velocity_urad_s[j] = measured_velocity_[j];
     state.commanded_urad_s[j] = commanded_[j];
     state.permitted_low_urad_s[j] = permitted_low_[j];
     state.permitted_high_urad_s[j] = permitted_high_[j];
   }
   for (std::size_t i = 0; i < 2; ++i) state.pan_angle_urad[i] = static_cast<std::int32_t>(std::lround(pan_[i] * 1e6));
-  state.payload_kg = digging_ || !weighs ? -1 : static_cast<std::int32_t>(std::lround(payload_ * (1.0 + 0.03 * noise(random_))));
+  state.payload_kg = digging_ || !weighs ? -1 : static_cast<std::int32_t>(std::lround(payload_ * (1.0 + 0.03 * noise())));
   state.kernel_state = kernel_runs ? BERM_STATE_RUN : BERM_STATE_STOPPED;
   state.stop_reason = kernel_runs ? std::uint8_t{BERM_STOP_NONE} : stop_reason;
   state.stop_category = kernel_runs ? 255 : 2;
@@ -265,6 +291,13 @@ void BenchMachine::publish() {
     for (int ix = 0; ix < kernel_side; ++ix) publish_cell(ix, next_row_);
   state.panel = BERM_PANEL_OPERATOR_RUN | (truck_parked ? BERM_PANEL_TRUCK_PARKED : 0u);
   ++segment_->state_guard;
+  berm_decision& decision = segment_->decision[segment_->decision_head % BERM_DECISION_RING];
+  decision = {};
+  decision.cycle = state.cycle;
+  decision.time_us = state.time_us;
+  std::copy_n(state.joint_angle_urad, joints, decision.joint_angle_urad);
+  std::copy_n(state.joint_velocity_urad_s, joints, decision.joint_velocity_urad_s);
+  ++segment_->decision_head;
   ++segment_->wake;
 }
 

@@ -56,6 +56,8 @@ private:
   struct Outline { std::vector<std::array<double, 3>> points; };  // r, z, lateral
   Outline implements(const app::Joints& q) const;
   void decide(const berm_request& request);
+  double noise();  // -1 to 1
+  void measure();
   void move();
   void work_soil();
   void scan(const berm_request& request);
@@ -69,12 +71,13 @@ private:
   std::mt19937_64 random_;
   app::Joints angle_, velocity_{};
   std::array<std::deque<double>, 4> under_way_;
+  std::array<std::int32_t, 4> measured_angle_{}, measured_velocity_{};  // urad, urad/s
   std::array<std::int32_t, 4> commanded_{}, permitted_low_{}, permitted_high_{};  // urad/s
   std::array<double, 2> pan_{}, pan_before_{};
   double payload_ = 0.0;
   bool digging_ = false;                // the weighing is blind
   std::uint64_t cycle_ = 0;
-  std::array<std::uint32_t, 2> mirror_{};
+  std::array<std::uint32_t, 2> mirror_{}, scanline_{};
   std::vector<double> seen_;  // s, by 0.3 m cell
   int next_row_ = 0;
   Findings findings_;
