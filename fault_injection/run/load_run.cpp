@@ -84,6 +84,7 @@ class LoadRun {
     const auto names = scenario_names(scenario);
     machine_ = find_machine(names.machine);
     site_ = find_site(names.site);
+    check_scenario(scenario);
     prepare_out();
     begin_ = Clock::now();
     start_processes(scenario);
@@ -93,6 +94,17 @@ class LoadRun {
   }
 
  private:
+  // What is wrong with a scenario the plant says, in one line: before anything starts or is written.
+  void check_scenario(const std::string& scenario) {
+    ChildProcess plant;
+    ChildOptions check;
+    check.program = program_folder() + "/berm_plant";
+    check.arguments = {"--scenario", scenario, "--can", can_, "--scan-port", std::to_string(scan_port_), "--out", folder_.file("out"), "--check"};
+    plant.start(check);
+    if (!plant.wait_ended(kConnectPatience_s)) throw std::runtime_error("the plant does not end its check of the scenario");
+    if (plant.exit_status() != 0) throw ToldAlready();
+  }
+
   void prepare_out() {
     if (options_.out.empty()) {
       out_ = folder_.file("out");

@@ -48,7 +48,7 @@ void check_start(const std::string& file, const Scenario& scenario, const PlantP
 int run(int argc, char** argv) {
   std::string scenario_file, profiles = BERM_PLANT_PROFILES;
   RunOptions options;
-  bool lockstep = false;
+  bool lockstep = false, check_only = false;
   CLI::App app{"The simulated excavator and its site. Writes trace.csv, truth.json, terrain_start.csv and terrain_end.csv to the folder --out; "
                "prints events as JSON lines.",
                "berm_plant"};
@@ -68,13 +68,14 @@ int run(int argc, char** argv) {
   app.add_option("--kernel-fd", options.peers.kernel, "inherited read end of the kernel's lifeline pipe")->check(CLI::Range(0, 1 << 20));
   app.add_option("--journal-fd", options.peers.journal, "inherited SOCK_SEQPACKET descriptor with the cycles that the journal's writer has taken")
       ->check(CLI::Range(0, 1 << 20));
+  app.add_flag("--check", check_only, "reads scenario and profile, says what is wrong with them, and ends: nothing runs, nothing is written");
   if (const auto status = berm::config::parse_options(app, argc, argv)) return *status;
   options.stop_fd = stop_descriptor();
   try {
     const Scenario scenario = load_scenario(scenario_file, profiles);
     const PlantProfile profile = load_plant_profile(scenario.machine_file);
     check_start(scenario_file, scenario, profile);
-    PlantRun(scenario, profile, options).run();
+    if (!check_only) PlantRun(scenario, profile, options).run();
   } catch (const ConfigError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return kBadInput;
