@@ -84,6 +84,7 @@ class LoadRun {
     const auto names = scenario_names(scenario);
     machine_ = find_machine(names.machine);
     site_ = find_site(names.site);
+    if (!options_.soil.empty()) soil_ = find_soil(options_.soil);
     check_scenario(scenario);
     prepare_out();
     begin_ = Clock::now();
@@ -100,9 +101,14 @@ class LoadRun {
     ChildOptions check;
     check.program = program_folder() + "/berm_plant";
     check.arguments = {"--scenario", scenario, "--can", can_, "--scan-port", std::to_string(scan_port_), "--out", folder_.file("out"), "--check"};
+    append_soil(check);
     plant.start(check);
     if (!plant.wait_ended(kConnectPatience_s)) throw std::runtime_error("the plant does not end its check of the scenario");
     if (plant.exit_status() != 0) throw ToldAlready();
+  }
+
+  void append_soil(ChildOptions& plant) const {
+    if (!soil_.empty()) plant.arguments.insert(plant.arguments.end(), {"--soil", soil_});
   }
 
   void prepare_out() {
@@ -154,6 +160,7 @@ class LoadRun {
     plant.program = program_folder() + "/berm_plant";
     plant.arguments = {"--scenario", scenario, "--seed", std::to_string(options_.seed), "--trucks", std::to_string(options_.trucks), "--can", can_,
                        "--scan-port", port, "--out", out_, mode, "--tick-fd", std::to_string(kTickDescriptor), "--kernel-fd", std::to_string(kKernelDescriptor)};
+    append_soil(plant);
     plant.arguments.insert(plant.arguments.end(), lidar_options.begin(), lidar_options.end());
     plant.descriptors = {{ticks.first(), kTickDescriptor}, {lifeline.first(), kKernelDescriptor}};
     if (!options_.realtime) {
@@ -366,7 +373,7 @@ class LoadRun {
   std::string can_;
   std::uint16_t scan_port_;
   RunFolder folder_;
-  std::string out_, machine_, site_;
+  std::string out_, machine_, site_, soil_;
   Clock::time_point begin_;
   ChildProcess kernel_, app_, plant_, journal_;
   Recorder recorder_;

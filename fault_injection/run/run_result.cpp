@@ -132,6 +132,7 @@ std::string operator_needed_for(const json& event) {
 json flat_json(const RunResult& r) {
   json out;
   out["scenario"] = r.options.scenario;
+  out["soil"] = r.options.soil.empty() ? json(nullptr) : json(r.options.soil);
   out["seed"] = r.options.seed;
   out["trucks_loaded"] = trucks_loaded(r);
   const auto passes = pass_seconds(r);
@@ -189,7 +190,8 @@ std::string summary_text(const RunResult& r) {
   std::sort(sorted.begin(), sorted.end());
   const auto kg = loads(r);
   const double target = j["target_kg"].get<double>();
-  std::string text = fmt::format("\nSummary ({}, seed {}; a simulation)\n", r.options.scenario, r.options.seed);
+  const std::string soil = r.options.soil.empty() ? "" : ", soil " + r.options.soil;
+  std::string text = fmt::format("\nSummary ({}{}, seed {}; a simulation)\n", r.options.scenario, soil, r.options.seed);
   const auto row = [&text](const std::string& name, const std::string& value) { text += fmt::format("  {:<22}{}\n", name, value); };
   std::vector<std::string> trucks;
   for (const double load : kg) trucks.push_back(fmt::format("{:.2f} t ({:.1f} %)", load / 1000, target > 0 ? 100 * load / target : 0.0));

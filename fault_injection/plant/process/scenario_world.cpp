@@ -208,6 +208,15 @@ CloudConfig read_cloud(StrictTable t) {
 
 }  // namespace
 
+SoilConfig load_soil(const std::string& path) {
+  StrictTable file = StrictTable::parse_file(path);
+  file.integer("schema", 1, 1);
+  file.text("name");
+  const SoilConfig soil = read_soil(file.table("soil"));
+  file.finish();
+  return soil;
+}
+
 WorldConfig read_world(StrictTable& file) {
   WorldConfig world;
   world.terrain = read_terrain(file.table("terrain"));

@@ -57,6 +57,10 @@ def ground_without_its_recording():
 
 def load_numbers():
     one_clear_line(run("berm_load", "--trucks", "0"), "trucks")
+    one_clear_line(run("berm_load", "--soil", "chocolate"), "soil 'chocolate'", "dry_sand", "frozen_crust", "sticky_clay")
+    soil = scratch / "soil.toml"
+    soil.write_text((ROOT / "fault_injection/soils/dry_sand.toml").read_text().replace("swell = 1.10", "swell = 0.5"))
+    one_clear_line(run("berm_load", "--soil", soil), "soil.toml", "soil.swell", "0.5")
     one_clear_line(run("berm_load", "--seed", "many"), "seed")
     one_clear_line(run("berm_load", "--fault", "kill-all@3"), "kill-all")
     one_clear_line(run("berm_load", "--fault", "kill-app"), "kill-app")

@@ -2,11 +2,13 @@
 
 #include <fstream>
 #include <numbers>
+#include <set>
 #include <sstream>
 
 #include "plant/machine/kinematics.hpp"
 #include "plant/machine/strict_table.hpp"
 #include "plant/process/scenario.hpp"
+#include "plant/process/scenario_world.hpp"
 #include "scratch.hpp"
 
 namespace berm::plant::testing {
@@ -62,6 +64,34 @@ TEST(Scenario, BenchIsTheDocumentedSite) {
   EXPECT_NEAR(t.wall_top - t.height, -0.92, 1e-12);
   EXPECT_NEAR(w.soil.density_bank / w.soil.swell, 1340.0, 0.1);
   EXPECT_TRUE(w.movers.empty());
+}
+
+TEST(Soil, ShippedSoilsLoadUnderTheirNamesAndDiffer) {
+  std::set<std::pair<double, double>> seen;
+  for (const char* name : {"sandy_clay", "dry_sand", "sticky_clay", "frozen_crust"}) {
+    const std::string file = std::string(BERM_SOILS) + "/" + name + ".toml";
+    const SoilConfig soil = load_soil(file);
+    StrictTable table = StrictTable::parse_file(file);
+    EXPECT_EQ(table.text("name"), name);
+    EXPECT_GE(soil.bank_slope, soil.repose) << name;
+    EXPECT_TRUE(seen.insert({soil.repose, soil.resistance}).second) << name;
+  }
+  const SoilConfig bench = loaded(text_of("bench.toml")).world.soil, clay = load_soil(std::string(BERM_SOILS) + "/sandy_clay.toml");
+  EXPECT_EQ(clay.density_bank, bench.density_bank);
+  EXPECT_EQ(clay.repose, bench.repose);
+  EXPECT_EQ(clay.bank_slope, bench.bank_slope);
+  EXPECT_EQ(clay.resistance, bench.resistance);
+}
+
+TEST(Soil, WhatIsWrongIsNamed) {
+  const test::Scratch scratch;
+  const std::string path = scratch.write("mud.toml", "schema = 1\nname = \"mud\"\n[soil]\nswell = 1.1\n");
+  try {
+    load_soil(path);
+    ADD_FAILURE() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(std::string(error.what()), path + ": soil.density_bank_kg_m3: is missing");
+  }
 }
 
 // What app and kernel are told of the site is what the plant's site is.
