@@ -339,6 +339,7 @@ class LoadRun {
     result_.stop_events = recorder_.stop_events();
     result_.kernel_faults = recorder_.faults();
     result_.first_fault = recorder_.first_fault();
+    result_.measures = measure_shift(out_, machine_, options_, result_.truth, result_.app_events, result_.stop_events);
     if (recorder_.lost() > 0) result_.notes.push_back(fmt::format("the launcher missed {} decisions: stops and the picture may lack some", recorder_.lost()));
     if (options_.fault && !injected_) result_.notes.emplace_back("the run ended before the fault was due");
     if (!options_.out.empty()) write_out();

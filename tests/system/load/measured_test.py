@@ -8,7 +8,7 @@ def loads_a_truck():
     status, result, out, text = load("--scenario", "measured", "--seed", 1)
     assert status == 0, text[-500:]
     assert result["contacts"] == 0 and result["trucks_loaded"] == 1
-    assert result["kernel_stops"] == {}, result["kernel_stops"]
+    assert result["kernel_stops"] == {} and result["own_motion_stops"] == {}, result["kernel_stops"]
     heights = [float(h) for row in (out / "terrain_start.csv").read_text().splitlines()[1:] for h in row.split(",")]
     assert min(heights) < -4.0 and max(heights) > 0.4, "no levee"
 

@@ -7,6 +7,7 @@
 
 #include "plant/machine/kinematics.hpp"
 #include "plant/machine/strict_table.hpp"
+#include "plant/process/disturbances.hpp"
 #include "plant/process/scenario.hpp"
 #include "plant/process/scenario_world.hpp"
 #include "scratch.hpp"
@@ -220,6 +221,24 @@ TEST(Scenario, MachineFaultsAreReadAndChecked) {
   EXPECT_EQ(refusal(good + table + "kind = \"weak_brake\"\njoint = \"boom\"\nat_s = 1\nfactor = 0\n"), "machine_fault[0].factor: 0 is outside 0.05 .. 1");
   EXPECT_EQ(refusal(good + table + "kind = \"runaway\"\njoint = \"boom\"\nat_s = 1\n"), "machine_fault[0].factor: is missing");
   EXPECT_EQ(refusal(good + table + "kind = \"stuck_valve\"\njoint = \"boom\"\nat_s = 1\nfactor = 0.5\n"), "machine_fault[0].factor: is not a known key");
+}
+
+TEST(Scenario, TellsWhenSomethingIsWrong) {
+  EXPECT_TRUE(disturbances(loaded(text_of("bench.toml"))).empty());
+  EXPECT_TRUE(disturbances(loaded(text_of("person.toml"))).empty()) << "people are in the trace";
+  const auto dust = disturbances(loaded(text_of("dust.toml")));
+  ASSERT_EQ(dust.size(), 2u);
+  EXPECT_EQ(dust[1].what, "dust");
+  EXPECT_EQ(dust[1].from_s, 45.0);
+  EXPECT_EQ(dust[1].to_s.value(), 57.0);
+  const std::string fault = "\n[[machine_fault]]\nkind = \"stuck_valve\"\njoint = \"boom\"\nat_s = 3\n";
+  const std::string panel = "\n[[panel]]\naction = \"reset\"\nat_s = 1\nfor_s = 1\n[[panel]]\naction = \"stop\"\nat_s = 5\nfor_s = 2\n";
+  const auto both = disturbances(loaded(text_of("bench.toml") + fault + panel));
+  ASSERT_EQ(both.size(), 2u) << "a reset is no disturbance";
+  EXPECT_EQ(both[0].what, "panel");
+  EXPECT_EQ(both[0].to_s.value(), 7.0);
+  EXPECT_EQ(both[1].what, "machine");
+  EXPECT_FALSE(both[1].to_s.has_value());
 }
 
 TEST(Scenario, MachineIsAProfilesNameOrAPathBesideTheScenario) {
