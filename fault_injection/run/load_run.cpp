@@ -84,6 +84,8 @@ class LoadRun {
     const auto names = scenario_names(scenario);
     machine_ = find_machine(names.machine);
     site_ = find_site(names.site);
+    if (!options_.soil.empty()) soil_ = find_soil(options_.soil);
+    check_scenario(scenario);
     prepare_out();
     begin_ = Clock::now();
     start_processes(scenario);
@@ -93,6 +95,22 @@ class LoadRun {
   }
 
  private:
+  // What is wrong with a scenario the plant says, in one line: before anything starts or is written.
+  void check_scenario(const std::string& scenario) {
+    ChildProcess plant;
+    ChildOptions check;
+    check.program = program_folder() + "/berm_plant";
+    check.arguments = {"--scenario", scenario, "--can", can_, "--scan-port", std::to_string(scan_port_), "--out", folder_.file("out"), "--check"};
+    append_soil(check);
+    plant.start(check);
+    if (!plant.wait_ended(kConnectPatience_s)) throw std::runtime_error("the plant does not end its check of the scenario");
+    if (plant.exit_status() != 0) throw ToldAlready();
+  }
+
+  void append_soil(ChildOptions& plant) const {
+    if (!soil_.empty()) plant.arguments.insert(plant.arguments.end(), {"--soil", soil_});
+  }
+
   void prepare_out() {
     if (options_.out.empty()) {
       out_ = folder_.file("out");
@@ -142,6 +160,7 @@ class LoadRun {
     plant.program = program_folder() + "/berm_plant";
     plant.arguments = {"--scenario", scenario, "--seed", std::to_string(options_.seed), "--trucks", std::to_string(options_.trucks), "--can", can_,
                        "--scan-port", port, "--out", out_, mode, "--tick-fd", std::to_string(kTickDescriptor), "--kernel-fd", std::to_string(kKernelDescriptor)};
+    append_soil(plant);
     plant.arguments.insert(plant.arguments.end(), lidar_options.begin(), lidar_options.end());
     plant.descriptors = {{ticks.first(), kTickDescriptor}, {lifeline.first(), kKernelDescriptor}};
     if (!options_.realtime) {
@@ -320,6 +339,7 @@ class LoadRun {
     result_.stop_events = recorder_.stop_events();
     result_.kernel_faults = recorder_.faults();
     result_.first_fault = recorder_.first_fault();
+    result_.measures = measure_shift(out_, machine_, options_, result_.truth, result_.app_events, result_.stop_events);
     if (recorder_.lost() > 0) result_.notes.push_back(fmt::format("the launcher missed {} decisions: stops and the picture may lack some", recorder_.lost()));
     if (options_.fault && !injected_) result_.notes.emplace_back("the run ended before the fault was due");
     if (!options_.out.empty()) write_out();
@@ -354,7 +374,7 @@ class LoadRun {
   std::string can_;
   std::uint16_t scan_port_;
   RunFolder folder_;
-  std::string out_, machine_, site_;
+  std::string out_, machine_, site_, soil_;
   Clock::time_point begin_;
   ChildProcess kernel_, app_, plant_, journal_;
   Recorder recorder_;

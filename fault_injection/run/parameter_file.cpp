@@ -35,6 +35,7 @@ std::string find_machine(const std::string& name) { return find_file("machine", 
 std::string find_site(const std::string& name) { return find_file("site", "interface_spec/config/sites", name); }
 std::string truck_classes_file() { return find_file("truck classes", "interface_spec/config", "truck_classes"); }
 std::string find_scenario(const std::string& name) { return find_file("scenario", "fault_injection/scenarios", name); }
+std::string find_soil(const std::string& name) { return find_file("soil", "fault_injection/soils", name); }
 
 void compile_parameter_file(const std::string& machine, const std::string& site, const std::string& path) {
   ChildProcess compiler;

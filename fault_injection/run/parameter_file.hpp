@@ -10,6 +10,7 @@ namespace berm::run {
 std::string find_machine(const std::string& name);
 std::string find_site(const std::string& name);
 std::string find_scenario(const std::string& name);
+std::string find_soil(const std::string& name);
 // The classes of trucks that the app recognises.
 std::string truck_classes_file();
 

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
+#include "run/percentile.hpp"
 #include "run/recognised_truck.hpp"
 
 namespace berm::run {
@@ -39,6 +41,10 @@ json standstill_after_fault(const RunResult& r) {
   return still->get<double>() - fault->get<double>();
 }
 
+// null of nothing
+json share_of(const std::vector<double>& values, double share) { return values.empty() ? json(nullptr) : json(percentile_of(values, share)); }
+json maybe(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+
 std::string place(const StopEvent& stop) {
   if (!stop.has_place) return fmt::format("{:.1f} s", stop.time_s);
   return fmt::format("{:.1f} s at ({:.1f}, {:.1f}) height {:.1f} m", stop.time_s, stop.x_m, stop.y_m, stop.height_m);
@@ -55,6 +61,13 @@ std::string stops_text(const RunResult& r) {
     text += fmt::format(" ({}{})", fmt::join(where, ", "), count > 3 ? ", ..." : "");
   }
   return text;
+}
+
+std::string own_stops_text(const RunResult& r) {
+  if (r.measures.own_motion_stops.empty()) return "none";
+  std::vector<std::string> each;
+  for (const auto& [reason, count] : r.measures.own_motion_stops) each.push_back(fmt::format("{} {}", reason, count));
+  return fmt::format("{}", fmt::join(each, "; "));
 }
 
 // The app's own holds, each over when it says "released" or the run ends.
@@ -132,11 +145,17 @@ std::string operator_needed_for(const json& event) {
 json flat_json(const RunResult& r) {
   json out;
   out["scenario"] = r.options.scenario;
+  out["soil"] = r.options.soil.empty() ? json(nullptr) : json(r.options.soil);
   out["seed"] = r.options.seed;
   out["trucks_loaded"] = trucks_loaded(r);
   const auto passes = pass_seconds(r);
   out["passes"] = passes.size();
   out["pass_seconds"] = passes;
+  out["pass_seconds_median"] = share_of(passes, 0.5);
+  out["pass_seconds_p95"] = share_of(passes, 0.95);
+  out["kinematic_ratio_median"] = share_of(r.measures.kinematic_ratios, 0.5);
+  out["dig_surface_error_m"] = maybe(r.measures.dig_surface_error_m);
+  out["plan_ms_max"] = maybe(longest_planning_ms(r.app_events));
   out["target_kg"] = r.truth.value("target_kg", 0.0);
   out["payload_kg"] = loads(r);
   out["spill_fraction"] = r.truth.value("spill_fraction", 0.0);
@@ -146,6 +165,7 @@ json flat_json(const RunResult& r) {
   out["contacts"] = r.contacts;
   out["closest_approach_m"] = r.truth.contains("closest_approach_m") ? r.truth["closest_approach_m"] : json(nullptr);
   out["kernel_stops"] = r.stops;
+  out["own_motion_stops"] = r.measures.own_motion_stops;
   std::vector<double> hold_seconds;
   for (const auto& hold : app_holds(r)) hold_seconds.push_back(hold.seconds);
   out["app_hold_seconds"] = hold_seconds;
@@ -185,19 +205,25 @@ std::vector<std::string> shortcomings(const RunResult& r) {
 std::string summary_text(const RunResult& r) {
   const auto j = flat_json(r);
   const auto passes = pass_seconds(r);
-  std::vector<double> sorted = passes;
-  std::sort(sorted.begin(), sorted.end());
   const auto kg = loads(r);
   const double target = j["target_kg"].get<double>();
-  std::string text = fmt::format("\nSummary ({}, seed {}; a simulation)\n", r.options.scenario, r.options.seed);
+  const std::string soil = r.options.soil.empty() ? "" : ", soil " + r.options.soil;
+  std::string text = fmt::format("\nSummary ({}{}, seed {}; a simulation)\n", r.options.scenario, soil, r.options.seed);
   const auto row = [&text](const std::string& name, const std::string& value) { text += fmt::format("  {:<22}{}\n", name, value); };
   std::vector<std::string> trucks;
   for (const double load : kg) trucks.push_back(fmt::format("{:.2f} t ({:.1f} %)", load / 1000, target > 0 ? 100 * load / target : 0.0));
   row("trucks loaded", fmt::format("{} of {}", j["trucks_loaded"].get<int>(), r.options.trucks));
   row("payload", fmt::format("{} of {:.2f} t target", fmt::join(trucks, ", "), target / 1000));
   row("passes", fmt::format("{}", passes.size()));
-  if (!sorted.empty())
-    row("seconds per pass", fmt::format("median {:.1f}, {:.1f} to {:.1f}", sorted[sorted.size() / 2], sorted.front(), sorted.back()));
+  if (!passes.empty()) {
+    const auto [shortest, longest] = std::minmax_element(passes.begin(), passes.end());
+    row("seconds per pass", fmt::format("median {:.1f}, p95 {:.1f}, {:.1f} to {:.1f}", j["pass_seconds_median"].get<double>(), j["pass_seconds_p95"].get<double>(),
+                                        *shortest, *longest));
+  }
+  if (j["kinematic_ratio_median"].is_number())
+    row("lift to next dig", fmt::format("median {:.2f} times what the joints' limits allow", j["kinematic_ratio_median"].get<double>()));
+  if (j["dig_surface_error_m"].is_number()) row("surface of the digs", fmt::format("{:.1f} cm from the plan on average", 100 * j["dig_surface_error_m"].get<double>()));
+  if (j["plan_ms_max"].is_number()) row("longest planning", fmt::format("{:.1f} ms", j["plan_ms_max"].get<double>()));
   row("spill", fmt::format("{:.2f} % of what was dug", 100 * j["spill_fraction"].get<double>()));
   row("load", fmt::format("centre {:.2f} m off the bed's, height standard deviation {:.2f} m", j["load_centre_offset_m"].get<double>(), j["load_height_stddev_m"].get<double>()));
   if (const auto errors = recognition_errors(r.app_events, r.truth); !errors.empty())
@@ -209,6 +235,7 @@ std::string summary_text(const RunResult& r) {
     row("closest approach", fmt::format("{:.2f} m{}", j["closest_approach_m"].get<double>(),
                                         r.truth.contains("closest_approach_what") && r.truth["closest_approach_what"].is_string() ? fmt::format(" ({})", r.truth["closest_approach_what"].get<std::string>()) : ""));
   row("kernel stops", stops_text(r));
+  row("by own motion", own_stops_text(r));
   row("slowed by the kernel", slowed_text(slowed_time(r)));
   row("held by the app", holds_text(app_holds(r)));
   if (r.kernel.contains("tail_watched") && r.kernel["tail_watched"] == 0) row("tail", "not watched by the kernel: the ground round it must be fenced");

@@ -8,6 +8,7 @@
 
 #include "run/recorder.hpp"
 #include "run/run_options.hpp"
+#include "run/shift_measures.hpp"
 
 namespace berm::run {
 
@@ -24,6 +25,7 @@ struct RunResult {
   int kernel_faults = 0;
   std::string first_fault;
   std::uint64_t journal_lost = 0;           // cycles whose record did not reach the journal
+  ShiftMeasures measures;
   std::vector<std::string> notes;           // things a person should know
 };
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "truck_world/percentile.hpp"
+#include "run/percentile.hpp"
 
 namespace berm::truck_world {
 namespace {
@@ -16,7 +16,7 @@ using Vector8d = Eigen::Matrix<double, 8, 1>;
 
 // Null without a value.
 Json percentile(std::vector<double> values, double share) {
-  return values.empty() ? Json(nullptr) : Json(percentile_of(std::move(values), share));
+  return values.empty() ? Json(nullptr) : Json(run::percentile_of(std::move(values), share));
 }
 
 app::BedPose pose_of(const TruckTruth& k) {

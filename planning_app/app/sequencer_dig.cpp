@@ -25,6 +25,14 @@ double bucket_width(const MachineModel& machine) {
   return 1.85 * half;  // the prism covers the bucket with some room
 }
 
+// The tip's planned way through the soil, [r, z] in millimetres' precision: without the entry above the surface and the lift at the end.
+nlohmann::ordered_json drag_points(const DigPlan& plan) {
+  const auto rounded = [](double metres) { return std::round(1000.0 * metres) / 1000.0; };
+  nlohmann::ordered_json points = nlohmann::ordered_json::array();
+  for (std::size_t i = 1; i + 1 < plan.drag.size(); ++i) points.push_back({rounded(plan.drag[i].r), rounded(plan.drag[i].z)});
+  return points;
+}
+
 }  // namespace
 
 DigNeeds Sequencer::needs_for(double kg) const {
@@ -54,7 +62,8 @@ void Sequencer::begin_dig(const Observation& o) {
     begin_approach(o, true);
     return;
   }
-  log_.event("dig", {{"bearing_deg", degrees(dig_.bearing)}, {"depth_m", dig_.depth}, {"volume_m3", dig_.volume}, {"goal_kg", goal_kg_}, {"yield", yield_}, {"path_m", path->length()}});
+  log_.event("dig", {{"bearing_deg", degrees(dig_.bearing)}, {"depth_m", dig_.depth}, {"volume_m3", dig_.volume}, {"goal_kg", goal_kg_}, {"yield", yield_},
+                     {"path_m", path->length()}, {"drag", drag_points(dig_)}});
   follower_.begin(std::move(*path));
   pass_began_s_ = pass_ == 0 || pass_began_s_ == 0.0 ? o.time_s : pass_began_s_;
   enter_phase(BERM_PHASE_DIG, o);
@@ -99,6 +108,7 @@ Joints Sequencer::dig(const Observation& o) {
 void Sequencer::begin_curl(const Observation& o) {
   constexpr double curled_within = 6.35, over_surface = 0.15, lift = 0.45;
   const ArmPoints now = forward(machine_, o.angle);
+  log_.event("dug", {{"time_s", o.time_s}, {"r_m", now.tip.r}, {"z_m", now.tip.z}});
   const double r = std::min(now.tip.r - 0.05, curled_within);
   const double z = std::max(now.tip.z, cut_->surface().at(r) + over_surface);
   const double halfway = std::min(now.bucket_attitude, 0.5 * (now.bucket_attitude + curled));

@@ -12,7 +12,7 @@
 #include "planes_parties.hpp"
 #include "planes_tally.hpp"
 #include "timing.hpp"
-#include "truck_world/percentile.hpp"
+#include "run/percentile.hpp"
 #include "truck_world/truck_class.hpp"
 
 namespace {
@@ -74,7 +74,7 @@ Density measure(const PlaneOptions& o, int samples, int scenes) {
     }
   }
   fmt::print("planes, seed {}: {} sweeps of {} samples, {:.0f} returns each, {} faces of walls in them\n", o.seed, scenes, samples,
-             truck_world::percentile_of(out.returns, 0.5), out.parties[0].faces.size());
+             run::percentile_of(out.returns, 0.5), out.parties[0].faces.size());
   for (const PlaneTally& t : out.parties) print_tally(t);
   return out;
 }
@@ -90,10 +90,10 @@ int run(const PlaneOptions& o) {
     const Density& now = measured[i] = measure(o, kSamples[i], scenes);
     for (std::size_t stage = 0; stage < kStages.size(); ++stage)
       for (std::size_t k = kStages.size(); k < now.parties.size(); ++k)
-        add_rows(rows, kStages[stage], kSamples[i], truck_world::percentile_of(now.returns, 0.5), now.parties[stage], now.parties[k], o.name);
+        add_rows(rows, kStages[stage], kSamples[i], run::percentile_of(now.returns, 0.5), now.parties[stage], now.parties[k], o.name);
   }
   if (!measured[0].parties.empty() && !measured[1].parties.empty()) {
-    const double returns = truck_world::percentile_of(measured[1].returns, 0.5) / truck_world::percentile_of(measured[0].returns, 0.5);
+    const double returns = run::percentile_of(measured[1].returns, 0.5) / run::percentile_of(measured[0].returns, 0.5);
     const auto both = [&](std::size_t k) { return std::array{measured[0].parties[k], measured[1].parties[k]}; };
     for (std::size_t stage = 0; stage < kStages.size(); ++stage)
       for (std::size_t k = kStages.size(); k < measured[0].parties.size(); ++k)

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "truck_world/percentile.hpp"
+#include "run/percentile.hpp"
 
 namespace berm::bench {
 namespace {
 
-using truck_world::percentile_of;
+using run::percentile_of;
 
 constexpr double kDegrees = 180.0 / truck_world::pi;
 

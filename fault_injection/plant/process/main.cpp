@@ -13,6 +13,7 @@
 #include "plant/machine/kinematics.hpp"
 #include "plant/machine/strict_table.hpp"
 #include "plant/process/plant_run.hpp"
+#include "plant/process/scenario_world.hpp"
 
 namespace {
 
@@ -46,13 +47,14 @@ void check_start(const std::string& file, const Scenario& scenario, const PlantP
 }
 
 int run(int argc, char** argv) {
-  std::string scenario_file, profiles = BERM_PLANT_PROFILES;
+  std::string scenario_file, soil_file, profiles = BERM_PLANT_PROFILES;
   RunOptions options;
-  bool lockstep = false;
+  bool lockstep = false, check_only = false;
   CLI::App app{"The simulated excavator and its site. Writes trace.csv, truth.json, terrain_start.csv and terrain_end.csv to the folder --out; "
                "prints events as JSON lines.",
                "berm_plant"};
   app.add_option("--scenario", scenario_file, "scenario file (TOML)")->required();
+  app.add_option("--soil", soil_file, "soil file (TOML) that takes the place of the scenario's soil");
   app.add_option("--profiles", profiles, "folder of the machine profiles that scenarios name")->capture_default_str();
   app.add_option("--seed", options.seed, "seed of everything random")->capture_default_str();
   app.add_option("--trucks", options.trucks, "trucks to come, one after another")->check(CLI::Range(1, 1000))->capture_default_str();
@@ -68,13 +70,15 @@ int run(int argc, char** argv) {
   app.add_option("--kernel-fd", options.peers.kernel, "inherited read end of the kernel's lifeline pipe")->check(CLI::Range(0, 1 << 20));
   app.add_option("--journal-fd", options.peers.journal, "inherited SOCK_SEQPACKET descriptor with the cycles that the journal's writer has taken")
       ->check(CLI::Range(0, 1 << 20));
+  app.add_flag("--check", check_only, "reads scenario, soil and profile, says what is wrong with them, and ends: nothing runs, nothing is written");
   if (const auto status = berm::config::parse_options(app, argc, argv)) return *status;
   options.stop_fd = stop_descriptor();
   try {
-    const Scenario scenario = load_scenario(scenario_file, profiles);
+    Scenario scenario = load_scenario(scenario_file, profiles);
+    if (!soil_file.empty()) scenario.world.soil = load_soil(soil_file);
     const PlantProfile profile = load_plant_profile(scenario.machine_file);
     check_start(scenario_file, scenario, profile);
-    PlantRun(scenario, profile, options).run();
+    if (!check_only) PlantRun(scenario, profile, options).run();
   } catch (const ConfigError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return kBadInput;

@@ -239,6 +239,7 @@ void PlantRun::write_end(double t, const std::string& reason) {
   end.refused_frames = controller_.refused_frames();
   end.scan_packets = datagrams();
   end.truth = world_.truth();
+  end.disturbances = disturbances(scenario_);
   trace_.finish();
   world_.write_terrain(options_.out + "/terrain_end.csv");
   record_.write(options_.out + "/truth.json", end);

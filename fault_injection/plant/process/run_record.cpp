@@ -66,6 +66,8 @@ void RunRecord::write(const std::string& path, const End& end) const {
     trucks.push_back({{"left_s", rounded(d.time_s)}, {"load_kg", rounded(d.load_kg)}, {"load_centre_offset_m", rounded(d.centre_offset_m)},
                       {"load_height_stddev_m", rounded(d.height_stddev_m)}});
   }
+  Json disturbed = Json::array();
+  for (const Disturbance& d : end.disturbances) disturbed.push_back({{"what", d.what}, {"from_s", rounded(d.from_s)}, {"to_s", maybe(d.to_s)}});
   Json truth;
   truth["schema"] = 1;
   truth["scenario"] = end.scenario;
@@ -91,6 +93,7 @@ void RunRecord::write(const std::string& path, const End& end) const {
   truth["fault"] = fault_s_ ? Json(fault_what_) : Json(nullptr);
   truth["fault_s"] = maybe(fault_s_);
   truth["first_standstill_after_fault_s"] = maybe(standstill_s_);
+  truth["disturbances"] = disturbed;
   truth["refused_frames"] = end.refused_frames;
   truth["scan_packets"] = end.scan_packets;
   OutputFile file(path);

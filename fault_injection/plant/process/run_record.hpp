@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "plant/process/disturbances.hpp"
 #include "plant/world/world.hpp"
 
 namespace berm::plant {
@@ -28,6 +29,7 @@ class RunRecord {
     std::uint64_t refused_frames = 0;
     std::uint32_t scan_packets = 0;
     Truth truth;
+    std::vector<Disturbance> disturbances;
   };
   void write(const std::string& path, const End& end) const;  // throws std::runtime_error
 

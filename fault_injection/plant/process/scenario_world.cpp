@@ -6,6 +6,7 @@
 #include <set>
 
 #include "plant/machine/implement_shape.hpp"
+#include "plant/process/measured_ground.hpp"
 
 namespace berm::plant {
 
@@ -22,6 +23,12 @@ TerrainConfig read_terrain(StrictTable t) {
   terrain.x_low = x[0], terrain.x_high = x[1], terrain.y_low = y[0], terrain.y_high = y[1];
   terrain.cell = t.number("cell", 0.02, 1.0);
   if ((x[1] - x[0]) * (y[1] - y[0]) / (terrain.cell * terrain.cell) > 4e6) t.fail("cell", "gives more than four million cells");
+  terrain.roughness = t.number("roughness", 0.0, 0.2);
+  if (t.has("measured")) {  // it is the whole ground: a bench or a mound beside it is an unknown key
+    terrain.measured = read_measured_ground(t.table("measured"), terrain);
+    t.finish();
+    return terrain;
+  }
   terrain.crest_x = t.number("crest_x", 2.5, kSite);
   terrain.toe_x = t.number("toe_x", 2.5, kSite);
   terrain.crest_y = t.number("crest_y", 1.5, kSite);
@@ -29,7 +36,6 @@ TerrainConfig read_terrain(StrictTable t) {
   if (terrain.toe_x <= terrain.crest_x) t.fail("toe_x", "must be beyond crest_x");
   if (terrain.toe_y <= terrain.crest_y) t.fail("toe_y", "must be beyond crest_y");
   terrain.lower_z = t.number("lower_z", -10.0, 0.0);
-  terrain.roughness = t.number("roughness", 0.0, 0.2);
   for (StrictTable& m : t.tables("mound")) {
     MoundConfig mound;
     mound.from = m.array<2>("from", -kSite, kSite);
@@ -201,6 +207,15 @@ CloudConfig read_cloud(StrictTable t) {
 }
 
 }  // namespace
+
+SoilConfig load_soil(const std::string& path) {
+  StrictTable file = StrictTable::parse_file(path);
+  file.integer("schema", 1, 1);
+  file.text("name");
+  const SoilConfig soil = read_soil(file.table("soil"));
+  file.finish();
+  return soil;
+}
 
 WorldConfig read_world(StrictTable& file) {
   WorldConfig world;

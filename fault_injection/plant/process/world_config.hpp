@@ -2,7 +2,9 @@
 // The file format is fault_injection/scenarios/FORMAT.md.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <optional>
@@ -18,7 +20,13 @@ struct MoundConfig {
   double slope = 0.0;
 };
 
-// A bench of height 0 with a crest in front and one at the left; beyond each crest a plane falls to the lower ground.
+// Ground that was measured: heights at the centres of the terrain's cells, row by row, x fastest.
+struct MeasuredGround {
+  std::vector<double> height;
+  double beyond = 0.0;                    // taken to be level outside the terrain: the rim's median height
+};
+
+// A bench of height 0 with a crest in front and one at the left; beyond each crest a plane falls to the lower ground. Or measured ground instead.
 struct TerrainConfig {
   double x_low = -16.0, y_low = -16.0, x_high = 16.0, y_high = 16.0, cell = 0.1;
   double crest_x = 6.0, toe_x = 7.5;      // front slope: bench for x < crest_x, lower ground for x > toe_x
@@ -26,6 +34,13 @@ struct TerrainConfig {
   double lower_z = -2.2;
   double roughness = 0.0;                 // standard deviation of the surface, seeded
   std::vector<MoundConfig> mounds;
+  std::optional<MeasuredGround> measured;
+
+  [[nodiscard]] int count_x() const { return cells(x_low, x_high); }
+  [[nodiscard]] int count_y() const { return cells(y_low, y_high); }
+
+ private:
+  [[nodiscard]] int cells(double low, double high) const { return std::max(2, static_cast<int>(std::lround((high - low) / cell))); }
 };
 
 struct SoilConfig {

@@ -90,9 +90,7 @@ double Scene::cast_truck(const TruckSolid& truck, const Ray& world, double range
 double Scene::cast_beyond(const Ray& world, double range) const {
   if (world.direction.z >= 0) return range;
   const HeightGrid& g = terrain_->grid();
-  const double far_x = g.x_low() + g.count_x() * g.cell_x(), far_y = g.y_low() + g.count_y() * g.cell_y();
-  const double levels[] = {0.0, terrain_->as_built(far_x + 1000, far_y + 1000)};
-  for (const double level : levels) {
+  for (const double level : terrain_->levels_beyond()) {
     const double t = (level - world.origin.z) / world.direction.z;
     if (t <= 0 || t >= range) continue;
     const Vec3 p = world.at(t);

@@ -14,8 +14,6 @@ constexpr double rest_step = 0.002;
 // The plane that volumes are counted from.
 constexpr double volume_floor = -20.0;
 
-int cells(double low, double high, double cell) { return std::max(2, static_cast<int>(std::lround((high - low) / cell))); }
-
 // Smooth noise of mean 0 and standard deviation about 1: random values on a lattice, interpolated.
 class Noise {
  public:
@@ -52,10 +50,13 @@ double to_segment(double x, double y, const MoundConfig& m) {
 
 Terrain::Terrain(const TerrainConfig& config, const SoilConfig& soil, uint64_t seed)
     : config_(config), soil_(soil),
-      grid_(config.x_low, config.y_low, config.cell, config.cell, cells(config.x_low, config.x_high, config.cell),
-            cells(config.y_low, config.y_high, config.cell), 0.0),
+      grid_(config.x_low, config.y_low, config.cell, config.cell, config.count_x(), config.count_y(), 0.0), shape_(grid_),
       bank_(static_cast<size_t>(grid_.count_x()) * static_cast<size_t>(grid_.count_y()), 0.0), loose_(bank_.size(), 0.0), cut_(bank_.size(), 0),
       settling_(grid_.count_x(), grid_.count_y()) {
+  if (config.measured) {
+    for (int iy = 0; iy < grid_.count_y(); ++iy)
+      for (int ix = 0; ix < grid_.count_x(); ++ix) shape_.set(ix, iy, config.measured->height.at(index(ix, iy)));
+  }
   Random random(seed);
   const double width = config.x_high - config.x_low, depth = config.y_high - config.y_low;
   const Noise coarse(random, config.x_low, config.y_low, width, depth, 1.5), fine(random, config.x_low, config.y_low, width, depth, 0.4);
@@ -71,12 +72,18 @@ Terrain::Terrain(const TerrainConfig& config, const SoilConfig& soil, uint64_t s
 }
 
 double Terrain::as_built(double x, double y) const {
+  if (config_.measured) return shape_.contains(x, y) ? shape_.surface(x, y) : config_.measured->beyond;
   const auto fall = [this](double p, double crest, double toe) {
     return p <= crest ? 0.0 : toe > crest ? std::max(config_.lower_z, config_.lower_z * (p - crest) / (toe - crest)) : config_.lower_z;
   };
   double z = std::min(fall(x, config_.crest_x, config_.toe_x), fall(y, config_.crest_y, config_.toe_y));
   for (const MoundConfig& m : config_.mounds) z = std::max(z, m.top - m.slope * to_segment(x, y, m));
   return z;
+}
+
+std::array<double, 2> Terrain::levels_beyond() const {
+  if (config_.measured) return {config_.measured->beyond, config_.measured->beyond};
+  return {0.0, config_.lower_z};
 }
 
 double Terrain::height(int ix, int iy) const {

@@ -2,6 +2,7 @@
 // a steeper one, and bank that was never cut stands steeper still. Soil is neither made nor lost: bank * swell = loose.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,8 +21,10 @@ class Terrain {
 
   [[nodiscard]] const HeightGrid& grid() const { return grid_; }
   [[nodiscard]] double height(int ix, int iy) const;
-  // The shape the site was made with, without roughness; also beyond the grid.
+  // The shape the site was made with, or that was measured, without roughness; also beyond the grid.
   [[nodiscard]] double as_built(double x, double y) const;
+  // The heights of the level ground beyond the grid.
+  [[nodiscard]] std::array<double, 2> levels_beyond() const;
   [[nodiscard]] double loose_thickness(int ix, int iy) const { return loose_[index(ix, iy)]; }
 
   // Lowers a column to z if it is higher. Returns the loose volume of what was taken, m3; loose soil goes before bank.
@@ -47,6 +50,7 @@ class Terrain {
   TerrainConfig config_;
   SoilConfig soil_;
   HeightGrid grid_;            // bank + loose
+  HeightGrid shape_;           // measured ground as it was at the start
   std::vector<double> bank_;   // z of the bank's surface
   std::vector<double> loose_;  // thickness on it
   std::vector<uint8_t> cut_;   // the bank was cut here

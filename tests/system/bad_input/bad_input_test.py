@@ -47,8 +47,20 @@ def scenario_fields():
                        "--out", scratch / "plant-out", "--realtime", timeout=60), "field.toml", "no_such_key")
 
 
+def ground_without_its_recording():
+    out = scratch / "measured-out"
+    environment = {**os.environ, "BERM_REAL_DATA": str(scratch / "nowhere")}
+    one_clear_line(run("berm_load", "--scenario", "measured", "--out", out, "--json", scratch / "result.json", env=environment), "measured.toml", "terrain.measured.file",
+                   "nowhere/site_terrain/terrain_xyz.pcd")
+    assert not out.exists() and not (scratch / "result.json").exists(), "left behind by a run that never was"
+
+
 def load_numbers():
     one_clear_line(run("berm_load", "--trucks", "0"), "trucks")
+    one_clear_line(run("berm_load", "--soil", "chocolate"), "soil 'chocolate'", "dry_sand", "frozen_crust", "sticky_clay")
+    soil = scratch / "soil.toml"
+    soil.write_text((ROOT / "fault_injection/soils/dry_sand.toml").read_text().replace("swell = 1.10", "swell = 0.5"))
+    one_clear_line(run("berm_load", "--soil", soil), "soil.toml", "soil.swell", "0.5")
     one_clear_line(run("berm_load", "--seed", "many"), "seed")
     one_clear_line(run("berm_load", "--fault", "kill-all@3"), "kill-all")
     one_clear_line(run("berm_load", "--fault", "kill-app"), "kill-app")
@@ -94,6 +106,6 @@ def captures():
 
 
 try:
-    main([unknown_options, help_is_no_error, scenarios, scenario_fields, load_numbers, parameter_block, compile_leaves_nothing, captures])
+    main([unknown_options, help_is_no_error, scenarios, scenario_fields, ground_without_its_recording, load_numbers, parameter_block, compile_leaves_nothing, captures])
 finally:
     shutil.rmtree(scratch)

@@ -14,7 +14,8 @@ from berm_command import BIN, ROOT, check_slowed, load, main
 
 FIELDS = {"seed", "trucks_loaded", "passes", "pass_seconds", "target_kg", "payload_kg", "spill_fraction", "load_centre_offset_m",
           "load_height_stddev_m", "contacts", "closest_approach_m", "kernel_stops", "kernel_faults", "cycle_us_p50", "cycle_us_p99",
-          "cycle_us_max", "simulated_seconds", "wall_seconds", "slowed_seconds", "slowed_spans", "recognition_error_m"}
+          "cycle_us_max", "simulated_seconds", "wall_seconds", "slowed_seconds", "slowed_spans", "recognition_error_m",
+          "soil", "pass_seconds_median", "pass_seconds_p95", "kinematic_ratio_median", "own_motion_stops", "dig_surface_error_m", "plan_ms_max"}
 TRACE = ["time_s", "swing_rad", "boom_rad", "stick_rad", "bucket_rad", "swing_rad_s", "boom_rad_s", "stick_rad_s", "bucket_rad_s", "stop_state"]
 seen = {}
 
@@ -63,6 +64,11 @@ def loads_one_truck():
     assert result["load_centre_offset_m"] <= 0.15 and result["load_height_stddev_m"] <= 0.30, result
     assert result["contacts"] == 0 and result["kernel_faults"] == 0
     assert result["passes"] == len(result["pass_seconds"]) >= 6
+    assert result["pass_seconds_median"] in result["pass_seconds"] and min(result["pass_seconds"]) <= result["pass_seconds_median"] <= result["pass_seconds_p95"]
+    assert 1.0 < result["kinematic_ratio_median"] < 5.0, f"below the joints' limits, or far off them: {result['kinematic_ratio_median']}"
+    assert 0.0 < result["dig_surface_error_m"] < 1.0, result["dig_surface_error_m"]
+    assert result["own_motion_stops"] == result["kernel_stops"], "nobody is there and nothing breaks: every stop is by the app's own motion"
+    assert result["soil"] is None
     assert result["journal_lost"] == 0
     assert len(result["recognition_error_m"]) == 1 and result["recognition_error_m"][0] < 0.05, result["recognition_error_m"]
     events = [json.loads(line) for line in (out / "app.jsonl").read_text().splitlines()]

@@ -34,6 +34,8 @@ def stands_for_a_person():
         assert result["closest_approach_m"] >= MARGIN_M, f"seed {seed}: only {result['closest_approach_m']:.2f} m"
         assert sum(result["kernel_stops"].get(why, 0) for why in WHY) >= 1, f"seed {seed}: the kernel did not stop for the person: {result['kernel_stops']}"
         spans += check_slowed(result, out, text)
+        own = sum(result["own_motion_stops"].values())
+        assert own < sum(result["kernel_stops"].values()), f"seed {seed}: the stop for the person counts as the app's own: {result['own_motion_stops']}"
         line = [row for row in text.splitlines() if row.strip().startswith("kernel stops")]
         assert len(line) == 1 and any(why in line[0] for why in WHY), f"seed {seed}: the summary does not say why: {line}"
         stood = seconds_of_standstill(out / "trace.csv")

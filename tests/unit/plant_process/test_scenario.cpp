@@ -2,11 +2,14 @@
 
 #include <fstream>
 #include <numbers>
+#include <set>
 #include <sstream>
 
 #include "plant/machine/kinematics.hpp"
 #include "plant/machine/strict_table.hpp"
+#include "plant/process/disturbances.hpp"
 #include "plant/process/scenario.hpp"
+#include "plant/process/scenario_world.hpp"
 #include "scratch.hpp"
 
 namespace berm::plant::testing {
@@ -62,6 +65,34 @@ TEST(Scenario, BenchIsTheDocumentedSite) {
   EXPECT_NEAR(t.wall_top - t.height, -0.92, 1e-12);
   EXPECT_NEAR(w.soil.density_bank / w.soil.swell, 1340.0, 0.1);
   EXPECT_TRUE(w.movers.empty());
+}
+
+TEST(Soil, ShippedSoilsLoadUnderTheirNamesAndDiffer) {
+  std::set<std::pair<double, double>> seen;
+  for (const char* name : {"sandy_clay", "dry_sand", "sticky_clay", "frozen_crust"}) {
+    const std::string file = std::string(BERM_SOILS) + "/" + name + ".toml";
+    const SoilConfig soil = load_soil(file);
+    StrictTable table = StrictTable::parse_file(file);
+    EXPECT_EQ(table.text("name"), name);
+    EXPECT_GE(soil.bank_slope, soil.repose) << name;
+    EXPECT_TRUE(seen.insert({soil.repose, soil.resistance}).second) << name;
+  }
+  const SoilConfig bench = loaded(text_of("bench.toml")).world.soil, clay = load_soil(std::string(BERM_SOILS) + "/sandy_clay.toml");
+  EXPECT_EQ(clay.density_bank, bench.density_bank);
+  EXPECT_EQ(clay.repose, bench.repose);
+  EXPECT_EQ(clay.bank_slope, bench.bank_slope);
+  EXPECT_EQ(clay.resistance, bench.resistance);
+}
+
+TEST(Soil, WhatIsWrongIsNamed) {
+  const test::Scratch scratch;
+  const std::string path = scratch.write("mud.toml", "schema = 1\nname = \"mud\"\n[soil]\nswell = 1.1\n");
+  try {
+    load_soil(path);
+    ADD_FAILURE() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(std::string(error.what()), path + ": soil.density_bank_kg_m3: is missing");
+  }
 }
 
 // What app and kernel are told of the site is what the plant's site is.
@@ -190,6 +221,24 @@ TEST(Scenario, MachineFaultsAreReadAndChecked) {
   EXPECT_EQ(refusal(good + table + "kind = \"weak_brake\"\njoint = \"boom\"\nat_s = 1\nfactor = 0\n"), "machine_fault[0].factor: 0 is outside 0.05 .. 1");
   EXPECT_EQ(refusal(good + table + "kind = \"runaway\"\njoint = \"boom\"\nat_s = 1\n"), "machine_fault[0].factor: is missing");
   EXPECT_EQ(refusal(good + table + "kind = \"stuck_valve\"\njoint = \"boom\"\nat_s = 1\nfactor = 0.5\n"), "machine_fault[0].factor: is not a known key");
+}
+
+TEST(Scenario, TellsWhenSomethingIsWrong) {
+  EXPECT_TRUE(disturbances(loaded(text_of("bench.toml"))).empty());
+  EXPECT_TRUE(disturbances(loaded(text_of("person.toml"))).empty()) << "people are in the trace";
+  const auto dust = disturbances(loaded(text_of("dust.toml")));
+  ASSERT_EQ(dust.size(), 2u);
+  EXPECT_EQ(dust[1].what, "dust");
+  EXPECT_EQ(dust[1].from_s, 45.0);
+  EXPECT_EQ(dust[1].to_s.value(), 57.0);
+  const std::string fault = "\n[[machine_fault]]\nkind = \"stuck_valve\"\njoint = \"boom\"\nat_s = 3\n";
+  const std::string panel = "\n[[panel]]\naction = \"reset\"\nat_s = 1\nfor_s = 1\n[[panel]]\naction = \"stop\"\nat_s = 5\nfor_s = 2\n";
+  const auto both = disturbances(loaded(text_of("bench.toml") + fault + panel));
+  ASSERT_EQ(both.size(), 2u) << "a reset is no disturbance";
+  EXPECT_EQ(both[0].what, "panel");
+  EXPECT_EQ(both[0].to_s.value(), 7.0);
+  EXPECT_EQ(both[1].what, "machine");
+  EXPECT_FALSE(both[1].to_s.has_value());
 }
 
 TEST(Scenario, MachineIsAProfilesNameOrAPathBesideTheScenario) {

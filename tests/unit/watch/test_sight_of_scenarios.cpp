@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <set>
 
 #include "config/compile_parameters.hpp"
@@ -11,6 +12,7 @@
 #include "config/site_file.hpp"
 #include "io/sight_watch.hpp"
 #include "plant/machine/plant_profile.hpp"
+#include "plant/process/measured_ground.hpp"
 #include "plant/process/scenario.hpp"
 #include "plant/world/spinning_lidar.hpp"
 #include "run/scenario_names.hpp"
@@ -77,6 +79,10 @@ TEST(SightOfScenarios, NoNoiseOfTheShippedScenariosBlocksASensorOrIsDust) {
   std::set<std::string> plants;
   for (const auto& entry : std::filesystem::directory_iterator(BERM_SCENARIOS)) {
     if (entry.path().extension() != ".toml") continue;
+    if (entry.path().stem() == "measured" && !std::filesystem::exists(plant::recording_path("site_terrain/terrain_xyz.pcd"))) {
+      std::cout << "SKIPPED: " << entry.path() << ": its recording is not there (BERM_REAL_DATA)\n";
+      continue;
+    }
     ++seen;
     // All of the swing, once with each machine; elsewhere a part, for time.
     const bool first = plants.insert(plant::load_scenario(entry.path(), BERM_PLANT_PROFILES).machine_file).second;

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace berm::truck_world {
+namespace berm::run {
 
 // 0 without values.
 inline double percentile_of(std::vector<double> values, double share) {
@@ -14,4 +14,4 @@ inline double percentile_of(std::vector<double> values, double share) {
   return values[std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())))];
 }
 
-}  // namespace berm::truck_world
+}  // namespace berm::run

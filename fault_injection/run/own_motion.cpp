@@ -1,0 +1,43 @@
+#include "run/own_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace berm::run {
+
+namespace {
+
+bool somebody_near(const std::vector<TraceRow>& rows, double from_s, double to_s, double radius_m) {
+  return std::any_of(rows.begin(), rows.end(), [&](const TraceRow& row) {
+    if (row.time_s < from_s || row.time_s > to_s) return false;
+    return std::any_of(row.intruder.begin(), row.intruder.end(), [&](const auto& at) { return std::hypot(at[0], at[1]) < radius_m; });
+  });
+}
+
+}  // namespace
+
+std::vector<Disturbance> disturbances_of(const nlohmann::json& truth, const RunOptions& options) {
+  constexpr double kForGood = std::numeric_limits<double>::infinity();
+  std::vector<Disturbance> all;
+  if (options.fault) all.push_back({options.fault->at_s, kForGood});
+  if (!truth.contains("disturbances")) return all;
+  for (const auto& one : truth["disturbances"]) {
+    const bool ends = one.contains("to_s") && one["to_s"].is_number();
+    all.push_back({one.value("from_s", 0.0), ends ? one["to_s"].get<double>() : kForGood});
+  }
+  return all;
+}
+
+std::map<std::string, int> own_motion_stops(const std::vector<StopEvent>& stops, const std::vector<Disturbance>& disturbances,
+                                            const std::vector<TraceRow>& rows, double radius_m, double memory_s) {
+  std::map<std::string, int> own;
+  for (const StopEvent& stop : stops) {
+    const bool disturbed = std::any_of(disturbances.begin(), disturbances.end(),
+                                       [&](const Disturbance& d) { return d.from_s <= stop.time_s && stop.time_s <= d.to_s + memory_s; });
+    if (!disturbed && !somebody_near(rows, stop.time_s - memory_s, stop.time_s, radius_m)) ++own[stop.reason];
+  }
+  return own;
+}
+
+}  // namespace berm::run
