@@ -17,6 +17,7 @@ constexpr double stall_patience = 1.0;            // s
 constexpr double curled = radians(-174.0);        // absolute bucket angle with the mouth up
 constexpr double near_truck = radians(20.0);      // either side of the dump's bearing
 constexpr double bed_points_age = 12.0;           // s, for the bed map
+constexpr double stretched = 0.4;                 // m: a load may be spilled so much short where a bed's end is far; else the other end gets all
 
 double bucket_width(const MachineModel& machine) {
   double half = 0.0;
@@ -132,7 +133,7 @@ void Sequencer::plan_dump(const Observation& o) {
   needs.dump_kg = goal_kg_;
   needs.most_kg = fill_.must_weigh(heaped_kg) ? goal_kg_ : heaped_kg;
   needs.rest_kg = std::max(0.0, TruckFill::aim_share * site_.place.target_kg - fill_.loaded_kg() - goal_kg_);
-  needs.farthest_radius = farthest_dump(machine_, site_.bed->wall_top);
+  needs.farthest_radius = farthest_dump(machine_, site_.bed->wall_top) + stretched;
   dump_ = choose_dump_point(*bed_, needs);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - began;
   log_.event("dump", {{"time_s", o.time_s}, {"u_m", dump_.at.u}, {"v_m", dump_.at.v}, {"height_m", dump_.height}, {"bed_observed", dump_.observed},
