@@ -4,11 +4,14 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <toml.hpp>
+
+#include "run/trace_reader.hpp"
 
 namespace berm::run {
 
@@ -69,24 +72,13 @@ void describe_site(const std::string& machine, const std::string& site, SitePict
 std::vector<MoverPath> mover_paths(const std::string& trace) {
   constexpr double kMoved_m = 0.5;
   constexpr int kEvery = 10;
-  std::ifstream file(trace);
-  std::string line, cell;
-  if (!std::getline(file, line)) return {};
-  std::vector<std::string> names;
-  for (std::istringstream header(line); std::getline(header, cell, ',');) names.push_back(cell);
   std::vector<MoverPath> paths;
-  std::vector<std::array<std::size_t, 2>> columns;
-  for (std::size_t i = 0; i + 1 < names.size(); ++i) {
-    if (!names[i].ends_with("_x_m")) continue;
-    paths.push_back({names[i].substr(0, names[i].size() - 4), {}});
-    columns.push_back({i, i + 1});
-  }
-  for (int row = 0; std::getline(file, line); ++row) {
+  if (!std::filesystem::exists(trace)) return paths;
+  TraceReader rows(trace);
+  for (std::string& name : rows.movers()) paths.push_back({std::move(name), {}});
+  for (int row = 0; rows.next(); ++row) {
     if (row % kEvery != 0) continue;
-    std::vector<double> values;
-    for (std::istringstream cells(line); std::getline(cells, cell, ',');) values.push_back(std::strtod(cell.c_str(), nullptr));
-    for (std::size_t i = 0; i < paths.size(); ++i)
-      if (columns[i][1] < values.size()) paths[i].points.emplace_back(values[columns[i][0]], values[columns[i][1]]);
+    for (MoverPath& path : paths) path.points.emplace_back(rows.value(path.name + "_x_m"), rows.value(path.name + "_y_m"));
   }
   std::erase_if(paths, [](const MoverPath& path) {
     for (const auto& point : path.points)

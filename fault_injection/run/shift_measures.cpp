@@ -41,7 +41,7 @@ std::optional<double> longest_planning_ms(const std::vector<nlohmann::json>& app
   std::optional<double> longest;
   for (const auto& event : app_events) {
     const std::string name = event.value("event", "");
-    if (name != "script" && name != "dig" && name != "dump") continue;
+    if (name != "next_dig" && name != "dump") continue;
     const auto plan = event.find("plan_ms");
     if (plan != event.end() && plan->is_number()) longest = std::max(longest.value_or(0.0), plan->get<double>());
   }

@@ -22,7 +22,7 @@ struct ShiftMeasures {
 ShiftMeasures measure_shift(const std::string& out, const std::string& machine, const RunOptions& options, const nlohmann::json& truth,
                             const std::vector<nlohmann::json>& app_events, const std::vector<StopEvent>& stops);
 
-// The longest planning that the app told of: the largest plan_ms of its events script, dig and dump. None when it told of none.
+// The longest planning that the app told of: the largest plan_ms of its events next_dig and dump. None when it told of none.
 std::optional<double> longest_planning_ms(const std::vector<nlohmann::json>& app_events);
 
 }  // namespace berm::run

@@ -16,10 +16,11 @@
 #include "run/kernel_session.hpp"
 #include "run/load_run.hpp"
 #include "run/parameter_file.hpp"
+#include "run/trace_reader.hpp"
 #include "watch/intrusion.hpp"
 #include "watch/journal_walk.hpp"
 #include "watch/swept_reach.hpp"
-#include "watch/trace_reader.hpp"
+#include "watch/traced_world.hpp"
 #include "watch/watched_files.hpp"
 
 namespace berm::watch {
@@ -54,19 +55,19 @@ void account(const std::string& journal, QuietRun& run) {
 }
 
 // What is within a metre of the alarm's cell at its time: the truck (its outline from above), else the implements (over or in the cell's column).
-std::string what_stands(const QuietAlarm& alarm, const plant::WorldConfig& world, const SweptReach& reach, TraceReader& trace) {
+std::string what_stands(const QuietAlarm& alarm, const plant::WorldConfig& world, const SweptReach& reach, run::TraceReader& trace) {
   if (!trace.seek(alarm.time_s)) return "unknown";
   std::vector<std::string> found;
   const auto names = trace.movers();
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const plant::MoverPose pose = trace.pose(names[i]);
+    const plant::MoverPose pose = pose_of(trace, names[i]);
     plant::TruckConfig truck = world.trucks[i % world.trucks.size()];
     truck.x = pose.x, truck.y = pose.y, truck.yaw = pose.yaw;
     const double away = distance_from_truck(truck, alarm.x, alarm.y);
     if (away <= near_m) found.push_back(away > 0.0 ? fmt::format("{:.2f} m beside {}", away, names[i]) : names[i]);
   }
   const auto column = plant::oracle::Body::cylinder({alarm.x, alarm.y, column_low}, column_radius, column_high - column_low);
-  const double implements_m = reach.distance(trace.joints().angle, column);
+  const double implements_m = reach.distance(joints_of(trace).angle, column);
   if (implements_m <= near_m)
     found.push_back(implements_m > 0.0 ? fmt::format("an implement {:.2f} m beside it", implements_m) : "an implement over it");
   if (found.empty()) return "nothing but ground";
@@ -93,7 +94,7 @@ QuietRun one_run(const QuietOptions& options, std::uint64_t seed, double max_tim
   result.trucks_loaded = run::flat_json(done).value("trucks_loaded", 0);
   for (const auto& [reason, count] : done.stops) result.other_stops += reason == run::stop_reason_name(BERM_STOP_INTRUDER) ? 0 : count;
   account(load.out + "/journal.mcap", result);
-  TraceReader trace(load.out + "/trace.csv");
+  run::TraceReader trace(load.out + "/trace.csv");
   const SweptReach reach(plant::load_plant_profile(scenario.machine_file).shape);
   for (QuietAlarm& alarm : result.alarms) alarm.what = what_stands(alarm, scenario.world, reach, trace);
   return result;

@@ -13,10 +13,11 @@
 #include "run/load_run.hpp"
 #include "run/recognised_truck.hpp"
 #include "run/scenario_names.hpp"
+#include "run/trace_reader.hpp"
 #include "watch/journal_walk.hpp"
 #include "watch/monitor_picture.hpp"
 #include "watch/swept_reach.hpp"
-#include "watch/trace_reader.hpp"
+#include "watch/traced_world.hpp"
 #include "watch/watched_files.hpp"
 
 namespace berm::watch {
@@ -37,10 +38,10 @@ class Follower {
     const berm_state& s = out.state;
     const double t = static_cast<double>(s.time_us) * 1e-6;
     if (!trace_.seek(t)) return;
-    const plant::JointState joints = trace_.joints();
+    const plant::JointState joints = joints_of(trace_);
     presences_.clear();
     for (const auto& mover : movers_) {
-      const plant::MoverPose pose = trace_.pose(mover.name);
+      const plant::MoverPose pose = pose_of(trace_, mover.name);
       presences_.push_back({true, footprint_of(mover, pose.x, pose.y, pose.yaw), reach_.distance(joints.angle, body_of(mover, pose))});
     }
     const bool still = std::all_of(joints.velocity.begin(), joints.velocity.end(), [](double v) { return std::fabs(v) < standstill_rad_s; });
@@ -75,7 +76,7 @@ class Follower {
     for (const Presence& p : presences_) picture_->now.push_back(p.footprint);
   }
 
-  TraceReader trace_;
+  run::TraceReader trace_;
   SweptReach reach_;
   const std::vector<plant::MoverConfig>& movers_;
   IntruderWatch watch_;

@@ -56,7 +56,7 @@ void Sequencer::begin_script(const Script& script) {
 
 void Sequencer::begin_approach(const Observation& o, bool lower) {
   goal_kg_ = fill_.next_goal_kg();
-  plan_next_dig();
+  plan_next_dig(o);
   std::optional<PlanePoint> entry;
   if (lower) entry = PlanePoint{dig_.drag.front().r, dig_.drag.front().z};
   const auto script = approach_script(machine_, {o.angle, dig_.bearing, site_.bed->wall_top, entry});

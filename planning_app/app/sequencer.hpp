@@ -55,7 +55,7 @@ private:
   Joints dig(const Observation& o);
   Joints curl(const Observation& o);
   Joints pass(const Observation& o);
-  void plan_next_dig();
+  void plan_next_dig(const Observation& o);
   DigNeeds needs_for(double kg) const;
   void note_cut(const Observation& o);
   void learn_yield(double weighed_kg);

@@ -17,13 +17,17 @@ constexpr double stall_patience = 1.0;            // s
 constexpr double curled = radians(-174.0);        // absolute bucket angle with the mouth up
 constexpr double near_truck = radians(20.0);      // either side of the dump's bearing
 constexpr double bed_points_age = 12.0;           // s, for the bed map
-constexpr double stretched = 0.4;                 // m: a load may be spilled so much short where a bed's end is far; else the other end gets all
 
 double bucket_width(const MachineModel& machine) {
   double half = 0.0;
   for (const Prism& part : machine.parts)
     if (part.link == bucket) half = std::max(half, part.half_width);
   return 1.85 * half;  // the prism covers the bucket with some room
+}
+
+// Of wall clock: what of a cycle it took.
+double milliseconds_since(std::chrono::steady_clock::time_point began) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
 }
 
 // The tip's planned way through the soil, [r, z] in millimetres' precision: without the entry above the surface and the lift at the end.
@@ -43,8 +47,10 @@ DigNeeds Sequencer::needs_for(double kg) const {
   return needs;
 }
 
-void Sequencer::plan_next_dig() {
+void Sequencer::plan_next_dig(const Observation& o) {
+  const auto began = std::chrono::steady_clock::now();
   dig_ = choose_dig(machine_, site_, terrain_, needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg), dig_.bearing);
+  log_.event("next_dig", {{"time_s", o.time_s}, {"bearing_deg", degrees(dig_.bearing)}, {"volume_m3", dig_.volume}, {"plan_ms", milliseconds_since(began)}});
 }
 
 void Sequencer::begin_dig(const Observation& o) {
@@ -132,13 +138,12 @@ void Sequencer::plan_dump(const Observation& o) {
   needs.since_s = o.time_s - bed_points_age;
   needs.dump_kg = goal_kg_;
   needs.most_kg = fill_.must_weigh(heaped_kg) ? goal_kg_ : heaped_kg;
-  needs.rest_kg = std::max(0.0, TruckFill::aim_share * site_.place.target_kg - fill_.loaded_kg() - goal_kg_);
-  needs.farthest_radius = farthest_dump(machine_, site_.bed->wall_top) + stretched;
+  needs.rest_kg = std::max(0.0, fill_.rest_kg() - goal_kg_);
+  needs.farthest_radius = farthest_dump(machine_, site_.bed->wall_top);
   dump_ = choose_dump_point(*bed_, needs);
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - began;
   log_.event("dump", {{"time_s", o.time_s}, {"u_m", dump_.at.u}, {"v_m", dump_.at.v}, {"height_m", dump_.height}, {"bed_observed", dump_.observed},
                       {"seen_share", dump_.seen_share}, {"load_centre_u_m", dump_.load_centre.u}, {"load_centre_v_m", dump_.load_centre.v},
-                      {"passes_left", fill_.passes_left()}, {"plan_ms", took.count()}});
+                      {"passes_left", fill_.passes_left()}, {"plan_ms", milliseconds_since(began)}});
 }
 
 void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_from) {
@@ -146,7 +151,7 @@ void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_fro
   const bool more = !fill_.full_with(goal_kg_);
   const double here = o.angle[swing];
   dig_.bearing = here;
-  plan_next_dig();
+  plan_next_dig(o);
   task_ = PassTask{lifted_from, dump_.bearing, dump_.radius, dig_.bearing, {dig_.drag.front().r, dig_.drag.front().z}, site_.bed->wall_top, site_.bed->wall_top, more};
   task_.lifted_from[swing] = here;
   const Skyline skyline(machine_, site_, kernel_map_.ground(KernelMap::Unseen::level));

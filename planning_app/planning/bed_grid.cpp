@@ -48,12 +48,6 @@ BedGrid smoothed(const BedGrid& grid, double sigma) {
   return out;
 }
 
-BedGrid filled(const BedGrid& grid) {
-  BedGrid even = grid;
-  std::fill(even.height.begin(), even.height.end(), 0.0);
-  return filled(grid, even);
-}
-
 BedGrid filled(const BedGrid& grid, const BedGrid& noted) {
   BedGrid out = grid, noted_where_known = noted;
   noted_where_known.known = grid.known;

@@ -33,10 +33,8 @@ struct BedGrid {
 // Known cells become the Gaussian mean of the known cells about them; the others stay unknown. sigma in m.
 BedGrid smoothed(const BedGrid& grid, double sigma);
 
-// Unknown cells get the mean of the known ones (stentz-1999, 4.3); afterwards all are known.
-BedGrid filled(const BedGrid& grid);
-// ... higher or lower than that by as much as the cell lies above the known ones by the books (of the same size, all known). A side that the walls hide is
-// then no lower for being hidden, nor is what was seen empty beside it worth more.
+// Unknown cells get the mean of the known ones (stentz-1999, 4.3), higher or lower by as much as the cell lies above these by the books (of the same size,
+// all known); afterwards all are known. A side that the walls hide is then no lower for being hidden, nor is what was seen empty beside it worth more.
 BedGrid filled(const BedGrid& grid, const BedGrid& noted);
 
 // Soil slides from cell to cell until no step is steeper than the slope (rise over run), or nearly; the walls hold it.

@@ -13,6 +13,7 @@ constexpr double range_guard = radians(7.5);      // a standing joint's stop tra
 constexpr double pin_over_top = 2.90;             // bucket pin above what it passes over: the bucket's circle, the spread of a stop, the margin
 constexpr double highest_top = 1.2;               // z; over anything higher the pass is not tried higher
 constexpr double reach_step = 0.05;               // m, of the search for a reach
+constexpr double most_short = 0.4;                // m, that a load is spilled short of where it is meant to be: else a bed's far end gets none
 constexpr double carry_radius = 6.4;              // of the bucket pin, m
 constexpr double back_radius = 6.3;
 constexpr double attitude_carry = radians(-178.0);
@@ -69,7 +70,7 @@ std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask&
 double farthest_dump(const MachineModel& machine, double wall_top) {
   double radius = carry_radius;
   while (pose_at(machine, {radius + reach_step + spill_ahead, wall_top + pin_over_top}, attitude_carry)) radius += reach_step;
-  return radius;
+  return radius + most_short;
 }
 
 Script pass_script(const MachineModel& machine, const PassTask& task, const PassPoses& p, const PassThresholds& t) {

@@ -39,7 +39,7 @@ struct PassThresholds {
 // Nothing when the dump point is out of reach.
 std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask& task);
 
-// The farthest dump point from the swing axis, m, at which the load is spilled where it is meant to be: beyond it the arm is stretched.
+// The farthest dump point from the swing axis, m: from there the stretched arm spills the load 0.4 m short of where it is meant to be.
 double farthest_dump(const MachineModel& machine, double wall_top);
 
 // The bucket's rule that opens it over the bed.

@@ -11,6 +11,7 @@ public:
   void add_pass(double before_kg, double after_kg);
   double loaded_kg() const { return loaded_; }
   int passes() const { return passes_; }
+  double rest_kg() const { return aim_share * target_ - loaded_; }
   bool full() const { return full_with(0.0); }
   // Whether a bucket of this much makes the truck full.
   bool full_with(double kg) const { return loaded_ + kg >= full_share * target_ || rest_kg() - kg < worth_share * full_bucket_; }
@@ -31,7 +32,6 @@ public:
   static constexpr double worth_share = 0.06;    // ... and for less than this not worth its time
 
 private:
-  double rest_kg() const { return aim_share * target_ - loaded_; }
   double handful_kg() const { return handful_share * full_bucket_; }
 
   double target_, full_bucket_;

@@ -24,8 +24,8 @@ struct BedInterpretation {
 // Beds of which the largest regions may be faces, before any fit.
 std::vector<BedEnds> rough_beds(const FanSweep& sweep, const std::vector<UprightRegion>& regions, const TruckRangeSet& ranges);
 
-// Of these the best interpretations by their evidence with the cab, at most kInterpretations, the best first. What is like one that was refused is left
-// out, and what is weak is weak beside the others that remain: a container does not keep the truck beside it from being looked at.
+// Of these the best interpretations by their evidence with the cab, at most kInterpretations, the best first. None begins where one
+// was refused, and what is weak is weak beside the others that remain: a container does not keep the truck beside it from being looked at.
 constexpr std::size_t kInterpretations = 6;
 std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vector<BedEnds>& rough_ones, const TruckRangeSet& ranges,
                                          const std::vector<BedPose>& refused);

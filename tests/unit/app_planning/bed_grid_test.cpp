@@ -69,13 +69,13 @@ TEST(BedGrid, UnknownCellsGetTheMeanOfTheKnown) {
     for (int column = 0; column < grid.columns; ++column) grid.known[grid.index(column, row)] = 0;
   for (int column = 0; column < grid.columns; ++column) grid.height[grid.index(column, 8)] = 0.9 + 0.2;
   EXPECT_NEAR(grid.known_share(), 9.0 / 17.0, 1e-12);
-  const BedGrid full = filled(grid);
+  const BedGrid full = filled(grid, level(0.0));
   EXPECT_EQ(full.known_share(), 1.0);
   EXPECT_NEAR(full.at(5, 2), 0.2 + 0.9 / 9.0, 1e-12);
   EXPECT_NEAR(full.at(5, 12), 0.2, 1e-12);
   BedGrid dark = level(0.7);
   std::fill(dark.known.begin(), dark.known.end(), char{0});
-  EXPECT_EQ(filled(dark).at(3, 3), 0.0) << "nothing is known at all";
+  EXPECT_EQ(filled(dark, level(0.0)).at(3, 3), 0.0) << "nothing is known at all";
 }
 
 TEST(BedGrid, TheBooksRaiseAndLowerWhatIsHidden) {

@@ -161,7 +161,7 @@ TEST(ShiftMeasures, AreInResultAndSummaryAndNullWhereThereIsNothing) {
   EXPECT_EQ(flat_json(r).at("own_motion_stops"), json::object());
   r.options.soil = "dry_sand";
   for (const double s : {20.0, 30.0, 22.0}) r.app_events.push_back({{"event", "pass"}, {"seconds", s}});
-  r.app_events.push_back({{"event", "script"}, {"plan_ms", 3.5}});
+  r.app_events.push_back({{"event", "next_dig"}, {"plan_ms", 3.5}});
   r.app_events.push_back({{"event", "dump"}, {"plan_ms", 7.25}});
   r.app_events.push_back({{"event", "phase"}, {"plan_ms", 99.0}});
   r.measures.kinematic_ratios = {2.0, 1.5, 1.75};

@@ -1,26 +1,23 @@
-// A run's trace.csv, a row at a time.
+// A run's trace.csv, a row at a time. SI units, radians; columns as in scenarios/FORMAT.md.
 #pragma once
 
-#include <array>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "plant/world/world.hpp"
-
-namespace berm::watch {
+namespace berm::run {
 
 class TraceReader {
  public:
   // Throws std::runtime_error naming the file when it cannot be read.
   explicit TraceReader(const std::string& path);
-  // Goes on to the first row at or after a time; false when there is none any more.
+  // The next row at or after a time; false when there is none any more. Throws std::runtime_error when it has not a number for every column.
+  bool next(double from_s = -std::numeric_limits<double>::infinity());
+  // The row that stands, when it is at or after the time already, or the next that is.
   bool seek(double time_s);
   double time_s() const { return value("time_s"); }
-  plant::JointState joints() const;
-  // Of a person, vehicle or truck.
-  plant::MoverPose pose(const std::string& name) const;
   // Of all people, vehicles and trucks, in the order of the columns.
   std::vector<std::string> movers() const;
   // Throws std::runtime_error naming file and column when there is none of that name.
@@ -34,4 +31,4 @@ class TraceReader {
   std::vector<double> row_;
 };
 
-}  // namespace berm::watch
+}  // namespace berm::run

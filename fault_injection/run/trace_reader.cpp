@@ -1,15 +1,14 @@
-#include "watch/trace_reader.hpp"
+#include "run/trace_reader.hpp"
 
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 
-namespace berm::watch {
+namespace berm::run {
 
 namespace {
-constexpr double rounding_s = 1e-6;
-constexpr std::array<const char*, 4> joint_names{"swing", "boom", "stick", "bucket"};
-const std::string place_ending = "_x_m";
+constexpr double kTraceRounding_s = 1e-6;
+const std::string kPlaceEnding = "_x_m";
 }  // namespace
 
 TraceReader::TraceReader(const std::string& path) : path_(path), file_(path) {
@@ -21,11 +20,10 @@ TraceReader::TraceReader(const std::string& path) : path_(path), file_(path) {
   }
 }
 
-bool TraceReader::seek(double time_s) {
-  if (!row_.empty() && this->time_s() > time_s - rounding_s) return true;
+bool TraceReader::next(double from_s) {
   std::string line;
   while (std::getline(file_, line)) {
-    if (std::strtod(line.c_str(), nullptr) < time_s - rounding_s) continue;
+    if (std::strtod(line.c_str(), nullptr) < from_s - kTraceRounding_s) continue;
     row_.clear();
     const char* at = line.c_str();
     for (char* end = nullptr; row_.size() < names_.size(); at = *end == ',' ? end + 1 : end) {
@@ -37,30 +35,19 @@ bool TraceReader::seek(double time_s) {
   return false;
 }
 
+bool TraceReader::seek(double time_s) { return (!row_.empty() && this->time_s() > time_s - kTraceRounding_s) || next(time_s); }
+
 double TraceReader::value(const std::string& column) const {
   const auto found = column_.find(column);
   if (found == column_.end() || found->second >= row_.size()) throw std::runtime_error(path_ + ": no column " + column);
   return row_[found->second];
 }
 
-plant::JointState TraceReader::joints() const {
-  plant::JointState state;
-  for (std::size_t j = 0; j < joint_names.size(); ++j) {
-    state.angle[j] = value(std::string(joint_names[j]) + "_rad");
-    state.velocity[j] = value(std::string(joint_names[j]) + "_rad_s");
-  }
-  return state;
-}
-
-plant::MoverPose TraceReader::pose(const std::string& name) const {
-  return {name, value(name + "_x_m"), value(name + "_y_m"), value(name + "_z_m"), value(name + "_yaw_rad"), false};
-}
-
 std::vector<std::string> TraceReader::movers() const {
   std::vector<std::string> all;
   for (const auto& name : names_)
-    if (name.ends_with(place_ending)) all.push_back(name.substr(0, name.size() - place_ending.size()));
+    if (name.ends_with(kPlaceEnding)) all.push_back(name.substr(0, name.size() - kPlaceEnding.size()));
   return all;
 }
 
-}  // namespace berm::watch
+}  // namespace berm::run
