@@ -40,7 +40,6 @@ void MachineController::receive(const berm_can_frame& frame, double t) {
   if (setting_guard_.accept(frame, t)) {
     berm_machine_setting setting;
     if (berm_decode_machine_setting(&frame, &setting)) {
-      horn_edge_ = horn_edge_ || (setting.horn && !horn_);
       horn_ = setting.horn;
     }
   }
@@ -67,12 +66,6 @@ void MachineController::decide(double t, bool standstill) {
 PanGoal MachineController::pan(std::size_t scanner, double t, double present) const {
   if (silent(pan_time_[scanner], profile_.controller.pan_silence, t)) return {present, 0.0};
   return pan_[scanner];
-}
-
-bool MachineController::take_horn() {
-  const bool edge = horn_edge_;
-  horn_edge_ = false;
-  return edge;
 }
 
 std::uint64_t MachineController::refused_frames() const {

@@ -27,7 +27,7 @@ class MachineController {
   std::array<double, 4> command() const { return command_; }  // rad/s; zero when silent or braking
   PanGoal pan(std::size_t scanner, double t, double present) const;
   bool pilot_unlocked() const { return pilot_unlocked_; }
-  bool take_horn();                                            // a rising edge since the last call
+  bool horn() const { return horn_; }                          // sounds now
   // From the newest valid heartbeat.
   bool heartbeat_heard() const { return heartbeat_heard_; }
   const berm_heartbeat& heartbeat() const { return heartbeat_; }
@@ -46,7 +46,7 @@ class MachineController {
   std::array<double, 2> pan_time_{-1e9, -1e9};
   berm_heartbeat heartbeat_{};
   bool heartbeat_heard_ = false;
-  bool horn_ = false, horn_edge_ = false;
+  bool horn_ = false;
   bool pilot_unlocked_ = false;
   Drive drive_ = Drive::brake;
   std::uint64_t out_of_range_ = 0;

@@ -32,6 +32,14 @@ void EventLines::peer(double t, const char* who, const char* state) const {
   line(fmt::format(R"({{"event":"peer","t":{:.2f},"who":"{}","state":"{}"}})", t, who, state));
 }
 
+void EventLines::bench_move(double t, double distance_m, double x_m) const {
+  line(fmt::format(R"({{"event":"bench_move","t":{:.2f},"distance_m":{:.2f},"x_m":{:.2f}}})", t, distance_m, x_m));
+}
+
+void EventLines::press(double t, const char* keys, int stop_reason) const {
+  line(fmt::format(R"({{"event":"press","t":{:.2f},"keys":"{}","stop_reason":{}}})", t, keys, stop_reason));
+}
+
 void EventLines::finished(double t, const std::string& reason) const {
   line(fmt::format(R"({{"event":"finished","t":{:.2f},"reason":{}}})", t, quoted(reason)));
 }

@@ -11,6 +11,8 @@ class EventLines {
   void truck(const char* event, double t, int truck, double load_kg) const;  // truck_arrived, truck_left; trucks count from 1
   void contact(double t, const std::string& what) const;
   void peer(double t, const char* who, const char* state) const;      // kernel or app: gone, absent, back
+  void bench_move(double t, double distance_m, double x_m) const;  // ended; where the base stands
+  void press(double t, const char* keys, int stop_reason) const;   // the operator, after a stop
   void finished(double t, const std::string& reason) const;
 };
 

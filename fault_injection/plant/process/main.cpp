@@ -63,6 +63,8 @@ int run(int argc, char** argv) {
   app.add_option("--lidar-port", options.lidar_port, "UDP port on loopback of a lidar on the upper body; once for each that the profile has")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--silence", options.peers.silence_s, "seconds of wall clock after which a peer that says nothing is absent")->check(CLI::Range(1, 3600))->capture_default_str();
+  app.add_option("--trace-every", options.trace_every, "cycles from one row of trace.csv to the next")->check(CLI::Range(1, 6000))->capture_default_str();
   app.add_option("--out", options.out, "folder for the results, made when missing")->required();
   auto* step = app.add_flag("--lockstep", lockstep, "virtual time, in step with kernel and app (default)");
   app.add_flag("--realtime", options.realtime, "wall-clock time")->excludes(step);

@@ -14,7 +14,6 @@ namespace berm::plant {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::seconds kSilence{5};
 constexpr std::chrono::seconds kFirstContact{30};  // a peer that is still starting
 constexpr std::uint32_t kKernelSource = 0x0A;
 constexpr std::uint32_t kFinishedFlag = 1;
@@ -120,7 +119,7 @@ void Peers::wait_for(std::uint64_t cycle, int stop_fd) {
     if (peer == nullptr) return;
     if (peer != waited_for) begin = Clock::now();  // each peer has its own time
     waited_for = peer;
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>((was_heard(peer) ? kSilence : kFirstContact) - (Clock::now() - begin)).count();
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>((was_heard(peer) ? std::chrono::seconds(fd_.silence_s) : kFirstContact) - (Clock::now() - begin)).count();
     if (left <= 0) {
       *peer = PeerState::absent;
       continue;

@@ -20,6 +20,7 @@ class Peers {
     int kernel = -1;    // read end of its lifeline
     int tick = -1;      // the app's ticks
     int journal = -1;   // the cycles that the journal's writer has taken
+    int silence_s = 5;  // of wall clock: who was heard before and says nothing for so long is absent
   };
   // Cycles that the writer may be behind: with four lidars a cycle is 37 kB of journal, so this is a quarter of the kernel's ring.
   static constexpr std::uint64_t kUnreadMost = 100;

@@ -60,9 +60,9 @@ void sleep_to(timespec& next) {
 PlantRun::PlantRun(const Scenario& scenario, const PlantProfile& profile, const RunOptions& options)
     : scenario_(scenario), profile_(profile), options_(options), scans_(options.scan_port),
       world_(scenario.world, profile_.shape, options.seed, options.trucks), dynamics_(profile.dynamics, profile.shape, options.seed, scenario.start),
-      controller_(profile), base_(scenario.base_motions), frames_(profile, options.seed), servo_{PanServo(profile.shape.scanner[0]), PanServo(profile.shape.scanner[1])},
+      controller_(profile), base_(scenario.base_motions), operator_(scenario.operator_config ? std::optional<Operator>(std::in_place, *scenario.operator_config, options.seed) : std::nullopt), frames_(profile, options.seed), servo_{PanServo(profile.shape.scanner[0]), PanServo(profile.shape.scanner[1])},
       peers_(opened(bus_, options.can_address), options.peers, [this](const berm_can_frame& frame) { controller_.receive(frame, now_); }),
-      trace_(made_folder(options.out) + "/trace.csv", world_.movers()), kernel_seen_(peers_.kernel()), app_seen_(peers_.app()) {
+      trace_(made_folder(options.out) + "/trace.csv", world_.movers(), scenario.operator_config.has_value()), kernel_seen_(peers_.kernel()), app_seen_(peers_.app()) {
   if (options.lidar_port.size() != profile.shape.lidar.size())
     throw ConfigError(fmt::format("--lidar-port: given {} times, {} has {} lidars", options.lidar_port.size(), scenario.machine_file, profile.shape.lidar.size()));
   for (const std::uint16_t port : options.lidar_port) lidars_.push_back(std::make_unique<ScanSender>(port));
@@ -93,7 +93,9 @@ void PlantRun::advance(double t) {
   }
   base_.step(t, dynamics_.state().angle[0]);
   if (base_.moving()) record_.fault(t, "base motion");
-  world_.stand(base_.pose());
+  attend(t);
+  change_weather(t);
+  world_.stand(base_pose());
   soil_ = world_.step(t, kCycle, dynamics_.state(), before);
   std::vector<berm_scan_packet> packets;
   world_.scan(t, kCycle, before, dynamics_.state(), pan_before, pan_, packets);
@@ -112,15 +114,58 @@ std::uint32_t PlantRun::datagrams() const {
   return sent;
 }
 
+// A move of the machine on its tracks, and what moves it against the operator's will.
+BasePose PlantRun::base_pose() const {
+  BasePose pose = base_.pose();
+  if (!operator_) return pose;
+  const BasePose& tram = operator_->base();
+  pose.x += tram.x;
+  pose.y += tram.y;
+  pose.pitch += tram.pitch;
+  return pose;
+}
+
+void PlantRun::attend(double t) {
+  const HornSignal signal = horn_.step(now_, controller_.horn());
+  if (signal.what == HornSignal::What::truck_full && world_.truck_parked()) world_.release_truck(t);
+  if (!operator_) return;
+  Operator::Sees sees;
+  sees.standing = standing_cycles_ >= kStandstillCycles;
+  sees.truck_about = world_.truck_about();
+  sees.panel = controller_.heartbeat_heard() ? &controller_.heartbeat() : nullptr;
+  sees.base_yaw = base_.pose().yaw;
+  operator_->step(t, signal, sees);
+  if (operator_->wants_place()) world_.make_way(t);
+  if (const BenchMove* move = operator_->moved()) {
+    const double x = -move->distance_m * std::cos(sees.base_yaw), y = -move->distance_m * std::sin(sees.base_yaw);
+    world_.machine_stands(t, x, y);
+    events_.bench_move(t, move->distance_m, operator_->base().x);
+  }
+  for (; presses_told_ < operator_->presses().size(); ++presses_told_) {
+    const Operator::Press& press = operator_->presses()[presses_told_];
+    events_.press(t, press.reset ? "relearn and reset" : "relearn", press.reason);
+  }
+}
+
+void PlantRun::change_weather(double t) {
+  const std::vector<SoilChange>& changes = scenario_.world.soil_changes;
+  for (; soil_changes_ < changes.size() && t >= changes[soil_changes_].at_s; ++soil_changes_) world_.change_soil(changes[soil_changes_]);
+}
+
 void PlantRun::send(double t) {
   MachineSnapshot snapshot;
   snapshot.joints = dynamics_.state();
-  snapshot.base = base_.pose();
+  snapshot.base = base_pose();
   snapshot.payload_kg = world_.payload_kg();
   const auto& factor = soil_.resist_speed_factor;
   snapshot.digging = std::any_of(factor.begin(), factor.end(), [](double f) { return f < 1.0; });
   snapshot.pilot_unlocked = controller_.pilot_unlocked();
   snapshot.panel = panel_at(scenario_, t);
+  if (operator_) {
+    snapshot.panel.run = snapshot.panel.run && operator_->run();
+    snapshot.panel.reset = snapshot.panel.reset || operator_->reset();
+    snapshot.panel.relearn = snapshot.panel.relearn || operator_->relearn();
+  }
   snapshot.truck_parked = world_.truck_parked();
   snapshot.truck_leaving = world_.truck_leaving();
   const bool stop = snapshot.panel.stop || snapshot.panel.emergency;
@@ -143,14 +188,15 @@ void PlantRun::keep_step() {
 }
 
 void PlantRun::observe_trucks(double t) {
-  if (controller_.take_horn() && world_.truck_parked()) world_.release_truck(t);
-  const bool parked = world_.truck_parked(), leaving = world_.truck_leaving();
+  const bool parked = world_.truck_parked(), leaving = world_.truck_leaving() && !world_.truck_makes_way();
+  if (world_.truck_makes_way()) comes_back_ = true;
   const auto load = [&](const Truth& truth) {
     const auto i = static_cast<std::size_t>(std::max(truck_ - 1, 0));
     return i < truth.truck_load_kg.size() ? truth.truck_load_kg[i] : 0.0;
   };
   if (parked && !parked_) {
-    ++truck_;
+    if (!comes_back_) ++truck_;
+    comes_back_ = false;
     events_.truck("truck_arrived", t, truck_, load(world_.truth()));
   }
   if (leaving && !leaving_) {
@@ -179,8 +225,8 @@ void PlantRun::observe(double t) {
   const OracleVerdict verdict = world_.judge(t, dynamics_.state());
   if (record_.judge(t, verdict)) events_.contact(t, verdict.what);
   record_.standstill(t, standing_cycles_ >= kStandstillCycles);
-  trace_.row(t, dynamics_.state(), controller_.heartbeat(), world_.payload_kg(), std::min(verdict.closest_m, kFarthestClearance),
-             world_.movers());
+  if (cycle_ % static_cast<std::uint64_t>(options_.trace_every) == 0)
+    trace_.row(t, dynamics_.state(), controller_.heartbeat(), world_.payload_kg(), std::min(verdict.closest_m, kFarthestClearance), world_.movers(), base_pose());
   if (cycle_ % 100 == 0) events_.time(t);
 }
 
@@ -202,6 +248,7 @@ std::string PlantRun::end_reason(double t) {
     const bool kernel = lost(peers_.kernel());
     return fmt::format("{} {}", kernel ? "kernel" : "app", state_name(kernel ? peers_.kernel() : peers_.app()));
   }
+  if (operator_ && operator_->refuses() && t - operator_->asked_s() >= kAfterFinish) return "bench ends";
   if (t + kRounding >= scenario_.max_time_s) return "time limit";
   return {};
 }
@@ -240,6 +287,11 @@ void PlantRun::write_end(double t, const std::string& reason) {
   end.scan_packets = datagrams();
   end.truth = world_.truth();
   end.disturbances = disturbances(scenario_);
+  if (operator_) {
+    end.moves = operator_->moves();
+    for (const BenchMove& move : end.moves) end.disturbances.push_back({"tram", move.from_s, move.to_s});
+    for (const Operator::Press& press : operator_->presses()) end.presses.push_back(press);
+  }
   trace_.finish();
   world_.write_terrain(options_.out + "/terrain_end.csv");
   record_.write(options_.out + "/truth.json", end);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@
 #include "plant/machine/state_frames.hpp"
 #include "plant/process/base_motion.hpp"
 #include "plant/process/event_lines.hpp"
+#include "plant/process/horn_listener.hpp"
+#include "plant/process/operator.hpp"
 #include "plant/process/peers.hpp"
 #include "plant/process/run_record.hpp"
 #include "plant/process/scan_sender.hpp"
@@ -30,6 +33,7 @@ struct RunOptions {
   std::vector<std::uint16_t> lidar_port;  // one for each lidar of the profile
   std::string out;          // folder, made when missing
   bool realtime = false;
+  int trace_every = 1;      // cycles
   Peers::Descriptors peers;
   int stop_fd = -1;         // readable: end the run
 };
@@ -46,6 +50,9 @@ class PlantRun {
  private:
   void advance(double t);
   void break_machine();
+  void attend(double t);    // the people round the machine: spotter and operator
+  BasePose base_pose() const;
+  void change_weather(double t);
   void send(double t);
   std::uint32_t datagrams() const;  // to all sensor ports
   void keep_step();
@@ -67,6 +74,10 @@ class PlantRun {
   JointDynamics dynamics_;
   MachineController controller_;
   BaseMotion base_;
+  HornListener horn_;
+  std::optional<Operator> operator_;
+  std::size_t soil_changes_ = 0;      // that have happened
+  std::size_t presses_told_ = 0;
   StateFrames frames_;
   std::array<PanServo, 2> servo_;
   Peers peers_;
@@ -79,7 +90,7 @@ class PlantRun {
   std::uint64_t epoch_us_ = 0;        // in real time: the monotonic clock, which the kernel reads too, when the run began
   PanState pan_;
   DigForces soil_;
-  bool parked_ = false, leaving_ = false;
+  bool parked_ = false, leaving_ = false, comes_back_ = false;  // comes_back_: the truck that made way for a tram is not another
   int truck_ = 0;                     // the newest that arrived, from 1
   int standing_cycles_ = 0;
   PeerState kernel_seen_, app_seen_;

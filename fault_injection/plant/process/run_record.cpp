@@ -94,6 +94,14 @@ void RunRecord::write(const std::string& path, const End& end) const {
   truth["fault_s"] = maybe(fault_s_);
   truth["first_standstill_after_fault_s"] = maybe(standstill_s_);
   truth["disturbances"] = disturbed;
+  Json moves = Json::array();
+  for (const BenchMove& m : end.moves)
+    moves.push_back({{"from_s", rounded(m.from_s)}, {"to_s", rounded(m.to_s)}, {"distance_m", rounded(m.distance_m)}, {"x_m", rounded(m.x_m)}, {"y_m", rounded(m.y_m)}});
+  truth["bench_moves"] = moves;
+  Json presses = Json::array();
+  for (const Operator::Press& p : end.presses)
+    presses.push_back({{"time_s", rounded(p.time_s)}, {"keys", p.reset ? "relearn and reset" : "relearn"}, {"stop_reason", p.reason}});
+  truth["operator_presses"] = presses;
   truth["refused_frames"] = end.refused_frames;
   truth["scan_packets"] = end.scan_packets;
   OutputFile file(path);

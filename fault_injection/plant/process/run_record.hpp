@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "plant/process/disturbances.hpp"
+#include "plant/process/operator.hpp"
 #include "plant/world/world.hpp"
 
 namespace berm::plant {
@@ -30,6 +31,8 @@ class RunRecord {
     std::uint32_t scan_packets = 0;
     Truth truth;
     std::vector<Disturbance> disturbances;
+    std::vector<BenchMove> moves;
+    std::vector<Operator::Press> presses;
   };
   void write(const std::string& path, const End& end) const;  // throws std::runtime_error
 

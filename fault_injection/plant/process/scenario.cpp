@@ -79,6 +79,7 @@ Scenario load_scenario(const std::string& path, const std::string& profiles) {
   for (StrictTable& t : file.tables("panel")) scenario.panel.push_back(read_panel(t));
   for (StrictTable& t : file.tables("machine_fault")) scenario.machine_fault.push_back(read_machine_fault(t));
   scenario.base_motions = read_base_motions(file);
+  scenario.operator_config = read_operator(file);
   scenario.world = read_world(file);
   scenario.world.ballast_kg = ballast_kg;
   file.finish();

@@ -7,6 +7,7 @@
 #include "plant/machine/machine_fault.hpp"
 #include "plant/machine/state_frames.hpp"
 #include "plant/process/base_motion.hpp"
+#include "plant/process/operator.hpp"
 #include "plant/process/world_config.hpp"
 #include "plant/world/world.hpp"
 
@@ -25,6 +26,7 @@ struct Scenario {
   std::vector<PanelEvent> panel;
   std::vector<MachineFault> machine_fault;
   std::vector<BaseMotionConfig> base_motions;
+  std::optional<OperatorConfig> operator_config;  // none: nobody reacts to the horn
   WorldConfig world;
 };
 

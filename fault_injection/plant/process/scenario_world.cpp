@@ -61,6 +61,17 @@ SoilConfig read_soil(StrictTable t) {
   return soil;
 }
 
+SoilChange read_soil_change(StrictTable t) {
+  SoilChange change;
+  change.at_s = t.number("at_s", 0.0, 36000.0);
+  change.repose = t.degrees("repose_deg", 10.0, 60.0);
+  change.bank_slope = t.degrees("bank_slope_deg", 20.0, 89.0);
+  change.resistance = t.number("resistance", 0.0, 1.0);
+  change.stick_fraction = t.number("stick_fraction", 0.0, 0.9);
+  t.finish();
+  return change;
+}
+
 TruckConfig read_truck(StrictTable t) {
   TruckConfig truck;
   const auto centre = t.array<2>("centre", -kSite, kSite);
@@ -108,6 +119,7 @@ MoverConfig read_mover(StrictTable t, bool vehicle, std::set<std::string>& names
   mover.speed = t.number("speed", 0.05, 20.0);
   mover.start_s = t.number("start_s", 0.0, 36000.0);
   if (t.has("start_swing_above_deg")) mover.start_swing_above = t.degrees("start_swing_above_deg", -180.0, 180.0);
+  mover.beside_machine = t.has("beside_machine") && t.flag("beside_machine");
   for (StrictTable& w : t.tables("waypoint")) {
     const auto at = w.array<2>("at", -kSite, kSite);
     mover.waypoints.push_back({at[0], at[1], w.number("wait_s", 0.0, 36000.0)});
@@ -221,6 +233,11 @@ WorldConfig read_world(StrictTable& file) {
   WorldConfig world;
   world.terrain = read_terrain(file.table("terrain"));
   world.soil = read_soil(file.table("soil"));
+  for (StrictTable& t : file.tables("soil_change")) {
+    const SoilChange change = read_soil_change(t);
+    if (!world.soil_changes.empty() && change.at_s <= world.soil_changes.back().at_s) file.fail("soil_change", "at_s must rise from one to the next");
+    world.soil_changes.push_back(change);
+  }
   for (StrictTable& t : file.tables("truck")) world.trucks.push_back(read_truck(t));
   if (world.trucks.empty()) file.fail("truck", "is missing");
   std::set<std::string> names;

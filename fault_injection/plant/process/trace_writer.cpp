@@ -18,16 +18,20 @@ void put(std::string& out, double x) {
 
 }  // namespace
 
-TraceWriter::TraceWriter(const std::string& path, const std::vector<MoverPose>& movers) : file_(path), movers_(movers.size()) {
+TraceWriter::TraceWriter(const std::string& path, const std::vector<MoverPose>& movers, bool trams) : file_(path), movers_(movers.size()), trams_(trams) {
+  std::size_t trucks = 0;
+  for (const MoverPose& m : movers) traced_.push_back(!m.name.starts_with("truck") || ++trucks <= most_trucks);
   std::string header =
       "time_s,swing_rad,boom_rad,stick_rad,bucket_rad,swing_rad_s,boom_rad_s,stick_rad_s,bucket_rad_s,"
       "stop_state,stop_reason,payload_kg,clearance_m";
-  for (const MoverPose& m : movers) header += fmt::format(",{0}_x_m,{0}_y_m,{0}_z_m,{0}_yaw_rad", m.name);
+  if (trams_) header += ",base_x_m,base_y_m";
+  for (std::size_t i = 0; i < movers.size(); ++i)
+    if (const MoverPose& m = movers[i]; traced_[i]) header += fmt::format(",{0}_x_m,{0}_y_m,{0}_z_m,{0}_yaw_rad", m.name);
   file_.write(header + "\n");
 }
 
 void TraceWriter::row(double t, const JointState& joints, const berm_heartbeat& heartbeat, double payload_kg, double clearance_m,
-                      const std::vector<MoverPose>& movers) {
+                      const std::vector<MoverPose>& movers, const BasePose& base) {
   if (movers.size() != movers_) throw std::runtime_error("trace: the number of movers changed");
   std::string line;
   put(line, t);
@@ -36,7 +40,11 @@ void TraceWriter::row(double t, const JointState& joints, const berm_heartbeat& 
   line += fmt::format(",{},{}", heartbeat.kernel_state, heartbeat.stop_reason);
   put(line += ',', payload_kg);
   put(line += ',', clearance_m);
-  for (const MoverPose& m : movers) {
+  if (trams_)
+    for (const double x : {base.x, base.y}) put(line += ',', x);
+  for (std::size_t i = 0; i < movers.size(); ++i) {
+    if (!traced_[i]) continue;
+    const MoverPose& m = movers[i];
     for (const double x : {m.x, m.y, m.z, m.yaw}) put(line += ',', x);
   }
   file_.write(line += '\n');

@@ -52,6 +52,9 @@ struct SoilConfig {
   double stick_fraction = 0.0;            // share of the payload that stays in the bucket when dumped
 };
 
+// Rain or sun: from at_s on the soil stands and resists otherwise.
+struct SoilChange { double at_s = 0.0, repose = 0.63, bank_slope = 1.05, resistance = 0.5, stick_fraction = 0.0; };
+
 // A truck by the inside of its bed when parked. Truck i of a run uses entry i modulo the list's size.
 struct TruckConfig {
   double x = 0.0, y = 0.0, yaw = 0.0;     // centre of the bed; yaw of the bed's long axis, which points to the cab
@@ -79,6 +82,7 @@ struct MoverConfig {
   double start_s = 0.0;                   // leaves the first waypoint at this time ...
   std::optional<double> start_swing_above;  // ... and not before the swing angle first exceeds this at or after start_s
   std::vector<WaypointConfig> waypoints;  // stands at the first until it starts, at the last for ever
+  bool beside_machine = false;            // its waypoints move along when the operator trams the machine
   double appears_s = 0.0;                 // is nowhere before: comes out of a place that no sensor sees. Not part of the file format
 };
 
@@ -131,6 +135,7 @@ struct WorldConfig {
   double ballast_kg = 0.0;                // a test weight fixed in the bucket: weighs and takes room as soil would, and never falls out
   TerrainConfig terrain;
   SoilConfig soil;
+  std::vector<SoilChange> soil_changes;   // in the order of time
   std::vector<TruckConfig> trucks;
   std::vector<MoverConfig> movers;        // people and vehicles
   std::vector<BoxConfig> boxes;

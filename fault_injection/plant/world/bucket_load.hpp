@@ -22,6 +22,7 @@ class BucketLoad {
   double take(double loose_volume);
   // Soil that leaves in dt at a tilt; nothing while the ground before the mouth holds it.
   double release(double tilt, double dt, bool held_by_ground);
+  void change_soil(const SoilConfig& soil) { stick_ = soil.stick_fraction; }
 
  private:
   double heaped_, stick_;

@@ -15,8 +15,8 @@ Movers::Mover Movers::made(const MoverConfig& c) {
   m.pose.name = c.name;
   m.pose.vehicle = c.vehicle;
   if (!c.waypoints.empty()) {
-    m.pose.x = c.waypoints[0].x;
-    m.pose.y = c.waypoints[0].y;
+    m.x = m.pose.x = c.waypoints[0].x;
+    m.y = m.pose.y = c.waypoints[0].y;
   }
   if (c.waypoints.size() > 1) m.pose.yaw = std::atan2(c.waypoints[1].y - m.pose.y, c.waypoints[1].x - m.pose.x);
   return m;
@@ -27,11 +27,13 @@ void Movers::send(size_t i, const MoverConfig& config, double t) {
   mover_[i].config.appears_s = mover_[i].config.start_s = t;
 }
 
-void Movers::step(double t, double dt, double swing_angle, const Terrain& terrain) {
+void Movers::step(double t, double dt, double swing_angle, const Terrain& terrain, double base_x, double base_y) {
   for (Mover& m : mover_) {
     m.present = t >= m.config.appears_s;
     if (!m.started && t >= m.config.start_s) m.started = !m.config.start_swing_above || swing_angle > *m.config.start_swing_above;
     if (m.started) advance(m, std::min(dt, std::max(0.0, t - m.config.start_s)));
+    m.pose.x = m.x + (m.config.beside_machine ? base_x : 0.0);
+    m.pose.y = m.y + (m.config.beside_machine ? base_y : 0.0);
     m.pose.z = terrain.grid().surface(m.pose.x, m.pose.y);
   }
 }
@@ -53,12 +55,12 @@ void Movers::advance(Mover& m, double dt) {
     dt -= walk / m.config.speed;
     if (leg > 0) {
       m.pose.yaw = std::atan2(to.y - from.y, to.x - from.x);
-      m.pose.x = from.x + (to.x - from.x) * m.walked / leg;
-      m.pose.y = from.y + (to.y - from.y) * m.walked / leg;
+      m.x = from.x + (to.x - from.x) * m.walked / leg;
+      m.y = from.y + (to.y - from.y) * m.walked / leg;
     }
     if (m.walked >= leg - 1e-12) {
-      m.pose.x = to.x;
-      m.pose.y = to.y;
+      m.x = to.x;
+      m.y = to.y;
       ++m.at;
       m.walked = m.waited = 0;
     }

@@ -12,8 +12,8 @@ namespace berm::plant {
 class Movers {
  public:
   explicit Movers(const std::vector<MoverConfig>& config);
-  // From t - dt to t. swing_angle starts those that wait for it.
-  void step(double t, double dt, double swing_angle, const Terrain& terrain);
+  // From t - dt to t. swing_angle starts those that wait for it; those beside the machine go along with where it stands, base_x and base_y.
+  void step(double t, double dt, double swing_angle, const Terrain& terrain, double base_x = 0.0, double base_y = 0.0);
 
   // Another takes the place of mover i: it appears at t, and sets out.
   void send(size_t i, const MoverConfig& config, double t);
@@ -27,6 +27,7 @@ class Movers {
   struct Mover {
     MoverConfig config;
     MoverPose pose;
+    double x = 0, y = 0;  // among its waypoints
     bool present = false, started = false;
     size_t at = 0;        // the waypoint it stands at or comes from
     double waited = 0;    // at that waypoint

@@ -31,6 +31,7 @@ class SoilCut {
   void empty(const BucketPose& now, double dt, const Terrain& terrain, BucketLoad& load, Landing& landing, SoilBook& book) const;
   // What the soil leaves of the joints' speeds after this step's cut.
   double speed_factor(double cut_volume, double dt);
+  void change_soil(const SoilConfig& soil) { resistance_ = soil.resistance; }
 
  private:
   [[nodiscard]] Vec3 motion(const BucketPose& before, const BucketPose& now, double dt) const;

@@ -41,6 +41,8 @@ class Terrain {
   [[nodiscard]] int count_y() const { return grid_.count_y(); }
   [[nodiscard]] double distance(int dx, int dy) const { return dx != 0 && dy != 0 ? grid_.cell_x() * 1.4142135623730951 : grid_.cell_x(); }
   double give(int ix, int iy, int jx, int jy);
+  // Slopes at which it stands from now on; what stands too steep for them slides where it is next touched.
+  void change_soil(const SoilConfig& soil) { soil_ = soil; }
 
  private:
   [[nodiscard]] size_t index(int ix, int iy) const { return static_cast<size_t>(iy) * static_cast<size_t>(grid_.count_x()) + static_cast<size_t>(ix); }

@@ -58,6 +58,23 @@ void Truck::release(double t) {
   leave_at_ = t;
 }
 
+void Truck::make_way(double t) {
+  if (phase_ == Phase::waiting) called_ = false;
+  if (phase_ != Phase::parked) return;
+  makes_way_ = true;
+  release(t);
+}
+
+void Truck::shift(double x, double y) {
+  parked_x_ += x;
+  parked_y_ += y;
+  shifted_x_ += x;
+  shifted_y_ += y;
+  const double ahead = ahead_;
+  ahead_ = -1;
+  place(ahead);
+}
+
 void Truck::place(double ahead) {
   if (ahead == ahead_) return;
   ahead_ = ahead;
@@ -72,7 +89,10 @@ void Truck::step(double t, int settle_budget, std::vector<Overflow>& over) {
     place(left <= 0 ? 0.0 : std::min(config_.approach_m, way(left)));
   } else if (phase_ == Phase::leaving) {
     place(std::min(config_.approach_m, way(t - leave_at_)));
-    if (t >= gone_at()) phase_ = Phase::gone;
+    if (t >= gone_at()) {
+      phase_ = makes_way_ ? Phase::waiting : Phase::gone;
+      called_ = makes_way_ = false;
+    }
   }
   heap_.settle(settle_budget, over);
 }

@@ -23,6 +23,11 @@ class Truck {
   // The truck before it is gone (or the run begins): it stands config.wait_s later, or as soon as it can be there.
   void call(double t);
   void release(double t);
+  // Out of the way of a machine that trams: where it is parked it drives off, with its load, and waits to be called again; where it only waits it goes on
+  // waiting. One that is arriving parks first.
+  void make_way(double t);
+  // The machine stands elsewhere: the spotter brings the truck as far from it as before.
+  void shift(double x, double y);
   // Position at t, and the load settles; what runs over the walls goes to `over` (bed's frame).
   void step(double t, int settle_budget, std::vector<Overflow>& over);
 
@@ -35,6 +40,10 @@ class Truck {
   [[nodiscard]] double yaw() const { return yaw_; }
   [[nodiscard]] double parked_x() const { return parked_x_; }
   [[nodiscard]] double parked_y() const { return parked_y_; }
+  // By how much shift moved its place.
+  [[nodiscard]] double shifted_x() const { return shifted_x_; }
+  [[nodiscard]] double shifted_y() const { return shifted_y_; }
+  [[nodiscard]] bool makes_way() const { return makes_way_; }
   [[nodiscard]] const TruckConfig& config() const { return config_; }
   [[nodiscard]] const std::vector<TruckPart>& parts() const { return part_; }
   [[nodiscard]] const TruckPart& hull() const { return hull_; }
@@ -54,9 +63,9 @@ class Truck {
   TruckConfig config_;
   std::string name_;
   double loose_density_, yaw_, parked_x_, parked_y_, ahead_ = -1;
-  double stand_at_ = 0, leave_at_ = 0;
+  double stand_at_ = 0, leave_at_ = 0, shifted_x_ = 0, shifted_y_ = 0;
   Phase phase_ = Phase::waiting;
-  bool called_ = false;
+  bool called_ = false, makes_way_ = false;
   std::vector<TruckPart> part_;
   TruckPart hull_;
   BedHeap heap_;

@@ -126,7 +126,7 @@ void World::stand(const BasePose& base) { state_->base = base; }
 
 DigForces World::step(double t, double dt, const JointState& now, const JointState& previous) {
   State& w = *state_;
-  w.movers.step(t, dt, now.angle[0], w.terrain);
+  w.movers.step(t, dt, now.angle[0], w.terrain, w.base.x, w.base.y);
   w.move_trucks(t);
   const BucketPose before = w.cut.pose(link_frames(w.shape, previous), w.base), here = w.cut.pose(link_frames(w.shape, now), w.base);
   const double taken = w.cut.cut(before, here, dt, w.terrain, w.load, w.book);
@@ -200,7 +200,7 @@ Truth World::truth() const {
   out.payload_kg = payload_kg();
   for (const Truck& t : w.truck) {
     out.truck_load_kg.push_back(t.load_kg());
-    out.truck_bed.push_back({t.parked_x(), t.parked_y(), t.yaw(), t.config().length, t.config().width, t.config().wall_top});
+    out.truck_bed.push_back({t.parked_x() - t.shifted_x(), t.parked_y() - t.shifted_y(), t.yaw(), t.config().length, t.config().width, t.config().wall_top});
   }
   out.spilled_kg = w.book.spilled * density;
   out.dug_kg = w.book.dug * density;
@@ -232,6 +232,40 @@ const std::vector<MoverReturn>& World::mover_returns() const { return state_->mo
 
 void World::release_truck(double t) {
   if (state_->current < state_->truck.size()) state_->truck[state_->current].release(t);
+}
+
+void World::make_way(double t) {
+  State& w = *state_;
+  if (w.current < w.truck.size()) w.truck[w.current].make_way(t);
+}
+
+bool World::truck_about() const { return std::any_of(state_->truck.begin(), state_->truck.end(), [](const Truck& t) { return t.present(); }); }
+
+void World::machine_stands(double t, double x, double y) {
+  State& w = *state_;
+  for (DigZoneConfig& z : w.config.dig_zones) {
+    z.x_low += x, z.x_high += x;
+    z.y_low += y, z.y_high += y;
+  }
+  for (size_t i = w.current; i < w.truck.size(); ++i) w.truck[i].shift(x, y);
+  if (w.current < w.truck.size()) w.truck[w.current].call(t);
+}
+
+void World::change_soil(const SoilChange& change) {
+  State& w = *state_;
+  SoilConfig& soil = w.config.soil;
+  soil.repose = change.repose;
+  soil.bank_slope = change.bank_slope;
+  soil.resistance = change.resistance;
+  soil.stick_fraction = change.stick_fraction;
+  w.terrain.change_soil(soil);
+  w.cut.change_soil(soil);
+  w.load.change_soil(soil);
+}
+
+bool World::truck_makes_way() const {
+  const Truck* t = state_->shown();
+  return t != nullptr && t->makes_way();
 }
 
 bool World::truck_parked() const {

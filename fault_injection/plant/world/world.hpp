@@ -18,6 +18,7 @@ struct PanState { std::array<double, 2> angle{}; std::array<double, 2> velocity{
 struct ImplementShape;  // machine/implement_shape.hpp
 struct MoverConfig;
 struct WorldConfig;     // process/world_config.hpp
+struct SoilChange;
 struct BasePose;        // world/base_pose.hpp
 
 struct DigForces { std::array<double, 4> resist_speed_factor{1.0, 1.0, 1.0, 1.0}; };  // 0..1: what the soil leaves of each joint's speed
@@ -75,8 +76,16 @@ class World {
   void draw_sensors_anew(uint64_t seed);  // what the sensors draw from now on
   bool mover_present(std::size_t mover) const;  // of people and vehicles: whether it is on the site yet
   void release_truck(double t);           // the horn: the full truck drives off, the next one comes if there is one
+  // The machine is about to tram: the truck that is here makes way, and none comes before machine_stands.
+  void make_way(double t);
+  bool truck_about() const;               // one stands or drives at the machine
+  // The machine trammed by so much: dig zones and the places of the trucks to come are moved along with it, and the next truck is called.
+  void machine_stands(double t, double x, double y);
+  // Weather: from now on the ground has this soil's slopes, resistance and stickiness; its densities are those it had.
+  void change_soil(const SoilChange& change);
   bool truck_parked() const;
   bool truck_leaving() const;
+  bool truck_makes_way() const;           // it leaves with what it has, and will be back
   bool all_trucks_done() const;
   // CSV grid: header line x0,y0,cell,nx,ny, then rows of heights; truck beds included as a second layer, file path + ".truck".
   void write_terrain(const std::string& path) const;
