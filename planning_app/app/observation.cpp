@@ -43,6 +43,7 @@ Observation observe(const berm_state& state) {
   o.blocked_x = state.blocked_x_mm * 1e-3;
   o.blocked_y = state.blocked_y_mm * 1e-3;
   o.blocked_height = state.blocked_height_mm * 1e-3;
+  o.run_switch = (state.panel & BERM_PANEL_OPERATOR_RUN) != 0;
   o.truck_parked = (state.panel & BERM_PANEL_TRUCK_PARKED) != 0;
   return o;
 }

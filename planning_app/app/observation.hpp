@@ -27,6 +27,7 @@ struct Observation {
   double blocked_bearing = 0.0; // at which the arm points when the blocking link is over the blocking cell, for the ground's stop reasons
   double blocked_x = 0.0, blocked_y = 0.0, blocked_height = 0.0;
   bool truck_parked = false;
+  bool run_switch = false;      // the operator's
 
   // Whether blocked_x and blocked_y are those of a cell.
   bool has_place() const { return BERM_STOP_HAS_CELL(stop_reason) && (blocked_x != 0.0 || blocked_y != 0.0); }

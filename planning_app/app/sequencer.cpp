@@ -115,9 +115,16 @@ void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
   }
   skyline_.reset();
   look(o);
-  fill_ = TruckFill(site_.place.target_kg, full_bucket_kg);
-  pass_ = 0;
-  pass_began_s_ = truck_began_s_ = o.time_s;
+  if (part_filled_) {
+    for (const Dump& dump : dumps_) bed_->note_dump(dump.at, dump.kg);
+  } else {
+    fill_ = TruckFill(site_.place.target_kg, full_bucket_kg);
+    dumps_.clear();
+    pass_ = 0;
+    truck_began_s_ = o.time_s;
+  }
+  part_filled_ = false;
+  pass_began_s_ = o.time_s;
   begin_approach(o, true);
 }
 
@@ -204,15 +211,17 @@ void Sequencer::end_pass(const Observation& o) {
   const double payload = fill_.loaded_kg() - had;
   if (weighed) learn_yield(std::max(before, load_check_.lifted_kg()));
   poor_passes_ = payload < poor_share * goal_kg_ ? poor_passes_ + 1 : 0;
-  bed_->note_dump(landing(*site_.bed, dump_.at, payload), payload);
+  face_yield_.add(payload / goal_kg_);
+  loaded_here_kg_ += payload;
+  dumps_.push_back({landing(*site_.bed, dump_.at, payload), payload});
+  bed_->note_dump(dumps_.back().at, payload);
   ++pass_;
   log_.event("pass", {{"pass", pass_}, {"truck", truck_}, {"seconds", o.time_s - pass_began_s_}, {"payload_kg", payload}, {"loaded_kg", fill_.loaded_kg()},
                       {"dump_u_m", dump_.at.u}, {"dump_v_m", dump_.at.v}, {"dig_bearing_deg", degrees(task_.lifted_from[swing])}, {"time_s", o.time_s}});
   pass_began_s_ = o.time_s;
-  if (poor_passes_ >= most_poor_passes && !fill_.full()) {
-    log_.event("face_exhausted", {{"time_s", o.time_s}, {"truck", truck_}, {"loaded_kg", fill_.loaded_kg()}});
-    enter_phase(BERM_PHASE_WAIT, o);
-    enter(Stage::exhausted, o);
+  if ((poor_passes_ >= most_poor_passes || face_yield_.poor()) && !fill_.full()) {
+    part_filled_ = true;
+    begin_move_back(o, "the last passes found too little");
     return;
   }
   if (!fill_.full()) {
@@ -259,9 +268,13 @@ Joints Sequencer::plan(const Observation& o) {
         site_.bed.reset();
         bed_.reset();
         ++truck_;
-        enter(Stage::wait_truck, o);
+        if (face_too_poor_for_a_truck()) begin_move_back(o, "what is left within reach does not fill the next truck");
+        else enter(Stage::wait_truck, o);
       }
       return {};
+    case Stage::raise_for_move: return raise_for_move(o);
+    case Stage::ask_move:
+    case Stage::being_moved:  // await_move
     case Stage::exhausted:
     case Stage::finished: return {};
   }
@@ -303,7 +316,9 @@ Answer Sequencer::step(const Observation& o) {
   look(o);
   hear(o);
   Answer answer;
-  const Recovery::Advice advice = recovery_.step(o, log_);
+  if (stage_ == Stage::ask_move || stage_ == Stage::being_moved) await_move(o);
+  // While the operator trams the machine its stops are his.
+  const Recovery::Advice advice = stage_ == Stage::being_moved ? Recovery::Advice{} : recovery_.step(o, log_);
   if (advice.rescan) scanners_.begin_full_sweep();
   if (advice.resumed && advice.moved && (stage_ == Stage::dig || stage_ == Stage::settle || stage_ == Stage::approach)) begin_approach(o, true);
   if (advice.resumed && (stage_ == Stage::go_look || stage_ == Stage::look)) begin_look(o);
@@ -325,7 +340,7 @@ Answer Sequencer::step(const Observation& o) {
   const bool weighs = stage_ == Stage::pass && !load_check_.passed();
   answer.pan = scanners_.step(lifts_soon ? std::uint16_t{BERM_PHASE_LIFT} : weighs ? std::uint16_t{BERM_PHASE_DIG} : phase_, task_.next_bearing, truck_bearing, o.angle[swing], o.velocity[swing], o.pan);
   answer.phase = phase_;
-  answer.horn = stage_ == Stage::horn;
+  answer.horn = stage_ == Stage::horn || (stage_ == Stage::ask_move && sounds_move_back(o.time_s - stage_s_, back_m_));
   return answer;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "app/bench_move.hpp"
 #include "app/load_check.hpp"
 #include "app/observation.hpp"
 #include "app/progress_log.hpp"
@@ -16,6 +17,7 @@
 #include "planning/bed_map.hpp"
 #include "planning/dig_point.hpp"
 #include "planning/dump_point.hpp"
+#include "planning/face_reserve.hpp"
 #include "planning/pass_script.hpp"
 #include "planning/truck_fill.hpp"
 
@@ -42,7 +44,7 @@ public:
 private:
   static constexpr double full_bucket_kg = 1560.0;  // what a pass is planned to bring at most
 
-  enum class Stage { survey, wait_truck, go_look, look, approach, settle, dig, curl, pass, horn, wait_leave, exhausted, finished };
+  enum class Stage { survey, wait_truck, go_look, look, approach, settle, dig, curl, pass, horn, wait_leave, raise_for_move, ask_move, being_moved, exhausted, finished };
 
   void enter(Stage stage, const Observation& o);
   void enter_phase(std::uint16_t phase, const Observation& o);
@@ -71,6 +73,11 @@ private:
   void begin_pass_search(const Observation& o, const Joints& lifted_from);
   std::uint32_t pass_events(const Observation& o);
   void end_pass(const Observation& o);
+  bool face_too_poor_for_a_truck() const;
+  void begin_move_back(const Observation& o, const char* why);
+  Joints raise_for_move(const Observation& o);
+  void await_move(const Observation& o);
+  void begin_anew(const Observation& o);
   void look(const Observation& o);            // renews the skyline now and then
   void log_held(const Observation& o, const Joints& wanted) const;
   Joints slowed(const Observation& o, const Joints& wanted);
@@ -107,8 +114,15 @@ private:
   double held_since_s_ = -1.0;                // by the guard
   bool looked_ = false;
   int poor_passes_ = 0;
+  FaceYield face_yield_;
+  double back_m_ = 0.0;                       // asked for
+  double loaded_here_kg_ = 0.0;               // since the machine stands where it does
+  int vain_moves_ = 0;                        // in a row
+  bool saw_run_ = false, part_filled_ = false;  // part_filled_: this truck was left in the middle for a move
   LoadCheck load_check_;
   DumpPoint dump_;
+  struct Dump { BedPoint at; double kg; };
+  std::vector<Dump> dumps_;                   // into this truck
   int truck_ = 1;
   int pass_ = 0;
   TruckFill fill_;

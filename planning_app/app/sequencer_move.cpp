@@ -1,0 +1,90 @@
+// The sequencer between two stands of the machine: when the face is dug out, what the operator is told, and how work is taken up after the move.
+#include <cmath>
+
+#include "app/sequencer.hpp"
+#include "contract/horn_signals.h"
+
+namespace berm::app {
+
+namespace {
+
+constexpr double bank_kg_m3 = 1474.0;
+constexpr double reserve_share = 1.75;       // of a truck's soil: with less within reach the last passes of a truck find little
+constexpr double raising_patience = 20.0;    // s
+constexpr double worth_a_move_kg = 3000.0;   // two buckets
+constexpr int vain_moves = 2;
+
+}  // namespace
+
+// Between two trucks nobody waits for a bucket: the face is left before a truck would be filled from its rest.
+bool Sequencer::face_too_poor_for_a_truck() const {
+  const DigNeeds needs = needs_for(full_bucket_kg);
+  const FaceReserve face = face_reserve(site_, terrain_, needs.floor_guard, needs.bucket_width);
+  log_.event("face", {{"truck", truck_}, {"volume_m3", face.volume}, {"crest_m", face.crest}});
+  return face.volume < reserve_share * site_.place.target_kg / bank_kg_m3;
+}
+
+void Sequencer::begin_move_back(const Observation& o, const char* why) {
+  constexpr double over_heaps = 0.4;         // z, on the ground that it stands on
+  enter_phase(BERM_PHASE_WAIT, o);
+  vain_moves_ = loaded_here_kg_ < worth_a_move_kg ? vain_moves_ + 1 : 0;
+  if (vain_moves_ > vain_moves) {
+    log_.event("face_exhausted", {{"time_s", o.time_s}, {"truck", truck_}, {"loaded_kg", fill_.loaded_kg()}});
+    log_.event("operator_needed", {{"time_s", o.time_s}, {"reason", "face exhausted"},
+                                   {"advice", "moving back did not help: set the machine before another face, where there is soil over the dig zone's floor, and start anew"}});
+    enter(Stage::exhausted, o);
+    return;
+  }
+  const DigNeeds needs = needs_for(full_bucket_kg);
+  const FaceReserve face = face_reserve(site_, terrain_, needs.floor_guard, needs.bucket_width);
+  back_m_ = back_distance(site_, face, BERM_HORN_MOVE_BACK_STEP_M, BERM_HORN_MOVE_BACK_STEPS);
+  log_.event("move_back", {{"time_s", o.time_s}, {"truck", truck_}, {"distance_m", back_m_}, {"why", why}, {"face_m3", face.volume}, {"crest_m", face.crest}});
+  log_.event("operator_needed", {{"time_s", o.time_s}, {"reason", "move back"},
+                                 {"advice", "switch run off, have the truck make way, tram the machine straight back by the distance, press relearn and reset, switch run on"}});
+  if (const auto script = approach_script(machine_, {o.angle, 0.5 * (site_.dig_swing_left + site_.dig_swing_right), over_heaps, std::nullopt})) begin_script(*script);
+  else script_s_ = -1.0;
+  enter(Stage::raise_for_move, o);
+}
+
+// The implements go up and ahead, where they are in nobody's way.
+Joints Sequencer::raise_for_move(const Observation& o) {
+  if (o.time_s - stage_s_ < raising_patience) {
+    const Joints command = run_script(o, event_none);
+    const Joints goals = script_.goals();
+    const bool near = std::equal(goals.begin(), goals.end(), o.angle.begin(), [](double g, double a) { return std::fabs(g - a) < radians(4.0); });
+    if (!(script_.at_last() && near)) return command;
+  }
+  saw_run_ = false;
+  enter(Stage::ask_move, o);
+  return {};
+}
+
+// Until the operator takes over, or the base has moved without him.
+void Sequencer::await_move(const Observation& o) {
+  saw_run_ = saw_run_ || (o.run_switch && o.running());
+  const bool taken_over = saw_run_ && !o.run_switch, moves = o.stop_reason == BERM_STOP_BASE_MOVED;
+  if (stage_ == Stage::ask_move && (taken_over || moves)) enter(Stage::being_moved, o);
+  else if (stage_ == Stage::being_moved && o.running()) begin_anew(o);
+}
+
+// The machine stands elsewhere: nothing that was known of the ground holds, but what is in the truck does.
+void Sequencer::begin_anew(const Observation& o) {
+  log_.event("moved", {{"time_s", o.time_s}, {"truck", truck_}, {"distance_m", back_m_}});
+  terrain_ = TerrainMap();
+  kernel_map_ = KernelMap();
+  skyline_.reset();
+  cut_.reset();
+  search_.reset();
+  look(o);
+  site_.bed.reset();
+  bed_.reset();
+  poor_passes_ = 0;
+  face_yield_.clear();
+  yield_ = 1.0;  // what was learned last was of loose soil at the foot of the old face
+  loaded_here_kg_ = 0.0;
+  dig_.bearing = site_.dig_swing_right - radians(60.0);
+  scanners_.begin_full_sweep();
+  enter(Stage::survey, o);
+}
+
+}  // namespace berm::app
