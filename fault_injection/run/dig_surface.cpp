@@ -61,17 +61,29 @@ std::vector<PlannedDig> planned_digs(const std::vector<json>& app_events) {
   for (const json& event : app_events) {
     const std::string name = event.value("event", "");
     if (name == "dig" && event.contains("drag")) {
-      PlannedDig dig{event.value("bearing_deg", 0.0) * std::numbers::pi / 180, event["drag"].get<std::vector<std::array<double, 2>>>(), 0.0};
+      PlannedDig dig{event.value("bearing_deg", 0.0) * std::numbers::pi / 180, event["drag"].get<std::vector<std::array<double, 2>>>()};
       open = dig.drag.size() >= 2;
       if (!open) continue;
       dig.reached_r = dig.drag.back()[0];
       digs.push_back(std::move(dig));
     } else if (name == "dug" && open) {
       digs.back().reached_r = std::max(digs.back().reached_r, event.value("r_m", 0.0));
+      digs.back().time_s = event.value("time_s", 0.0);
       open = false;
     }
   }
   return digs;
+}
+
+void place_digs(std::vector<PlannedDig>& digs, const json& truth) {
+  const auto moves = truth.find("bench_moves");
+  if (moves == truth.end()) return;
+  for (PlannedDig& dig : digs)
+    for (const json& move : *moves) {
+      if (move.value("to_s", 0.0) > dig.time_s) break;
+      dig.base_x = move.value("x_m", 0.0);
+      dig.base_y = move.value("y_m", 0.0);
+    }
 }
 
 std::optional<double> dig_surface_error_m(const HeightField& surface, const std::vector<PlannedDig>& digs, double half_width) {
@@ -81,11 +93,11 @@ std::optional<double> dig_surface_error_m(const HeightField& surface, const std:
     for (int ix = 0; ix < surface.nx; ++ix) {
       const double x = surface.x0 + (ix + 0.5) * surface.cell, y = surface.y0 + (iy + 0.5) * surface.cell;
       const auto last = std::find_if(digs.rbegin(), digs.rend(), [&](const PlannedDig& dig) {
-        const double c = std::cos(dig.bearing), s = std::sin(dig.bearing), r = x * c + y * s;
-        return std::abs(y * c - x * s) <= half_width && r <= dig.drag.front()[0] && r >= dig.reached_r;
+        const double c = std::cos(dig.bearing), s = std::sin(dig.bearing), dx = x - dig.base_x, dy = y - dig.base_y, r = dx * c + dy * s;
+        return std::abs(dy * c - dx * s) <= half_width && r <= dig.drag.front()[0] && r >= dig.reached_r;
       });
       if (last == digs.rend()) continue;
-      const double r = x * std::cos(last->bearing) + y * std::sin(last->bearing);
+      const double r = (x - last->base_x) * std::cos(last->bearing) + (y - last->base_y) * std::sin(last->bearing);
       const double z = surface.height[static_cast<std::size_t>(iy) * static_cast<std::size_t>(surface.nx) + static_cast<std::size_t>(ix)];
       sum += to_drag(r, z, last->drag);
       ++cells;

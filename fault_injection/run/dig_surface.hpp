@@ -23,10 +23,15 @@ struct PlannedDig {
   double bearing = 0.0;                      // swing angle, rad
   std::vector<std::array<double, 2>> drag;   // r, z of the tip, from the start inward, m
   double reached_r = 0.0;                    // the drag ended here, m
+  double time_s = 0.0;                       // of its end
+  double base_x = 0.0, base_y = 0.0;         // where the machine stood in the world, m
 };
 
 // From the events "dig" (bearing_deg, drag) and "dug" (r_m).
 std::vector<PlannedDig> planned_digs(const std::vector<nlohmann::json>& app_events);
+
+// Where the machine stood at each dig: truth.json's bench_moves.
+void place_digs(std::vector<PlannedDig>& digs, const nlohmann::json& truth);
 
 // Mean distance, in the plane of the swing, between the surface and the planned drag: over the cells whose centres lie within half_width of a dig's
 // plane and beside that part of its drag that was followed; of several digs that passed a cell the last counts. None when there is no such cell.

@@ -19,6 +19,7 @@
 #include "run/child_process.hpp"
 #include "run/contract_text.hpp"
 #include "run/kernel_session.hpp"
+#include "run/memory_watch.hpp"
 #include "run/parameter_file.hpp"
 #include "run/recognised_truck.hpp"
 #include "run/recorder.hpp"
@@ -135,10 +136,10 @@ class LoadRun {
     for (std::size_t i = 0; i < lidar_count(machine_); ++i) lidar_options.insert(lidar_options.end(), {"--lidar-port", std::to_string(free_udp_port())});
     kernel_options.insert(kernel_options.end(), lidar_options.begin(), lidar_options.end());
     if (!options_.realtime) kernel_options.push_back("--lockstep");
-    kernel_options.insert(kernel_options.end(), {"--journal-uid", std::to_string(uids_.journal)});
+    if (options_.journal) kernel_options.insert(kernel_options.end(), {"--journal-uid", std::to_string(uids_.journal)});
     start_kernel(kernel_, folder_, uids_, parameters, kernel_options, {{lifeline.second(), kKernelDescriptor}});
 
-    start_journal(pace.second());
+    if (options_.journal) start_journal(pace.second());
 
     // The app runs as a stranger to this folder: it reads copies.
     std::filesystem::copy_file(machine_, folder_.file("machine.toml"));
@@ -163,7 +164,9 @@ class LoadRun {
     append_soil(plant);
     plant.arguments.insert(plant.arguments.end(), lidar_options.begin(), lidar_options.end());
     plant.descriptors = {{ticks.first(), kTickDescriptor}, {lifeline.first(), kKernelDescriptor}};
-    if (!options_.realtime) {
+    plant.arguments.insert(plant.arguments.end(), {"--silence", std::to_string(options_.silence_s)});
+    if (options_.trace_every > 1) plant.arguments.insert(plant.arguments.end(), {"--trace-every", std::to_string(options_.trace_every)});
+    if (!options_.realtime && options_.journal) {
       plant.arguments.insert(plant.arguments.end(), {"--journal-fd", std::to_string(kPaceDescriptor)});
       plant.descriptors.push_back({pace.first(), kPaceDescriptor});
     }
@@ -171,7 +174,8 @@ class LoadRun {
     result_.pids[0] = plant_.pid();
     result_.pids[1] = kernel_.pid();
     result_.pids[2] = app_.pid();
-    result_.pids[3] = journal_.pid();
+    result_.pids[3] = options_.journal ? journal_.pid() : 0;
+    memory_.watch(kernel_.pid(), app_.pid());
     say(fmt::format("plant {}, kernel {}, app {} on {}", plant_.pid(), kernel_.pid(), app_.pid(), can_));
     if (!uids_.separate) result_.notes.emplace_back("kernel and app share your uid; run as root to give each its own");
   }
@@ -205,6 +209,7 @@ class LoadRun {
 
   // After the kernel's end: the writer empties the ring and closes the file.
   void finish_journal() {
+    if (!options_.journal) return;
     if (!journal_.wait_ended(kEndPatience_s)) {
       journal_.signal(SIGKILL);
       journal_.wait_ended(kEndPatience_s);
@@ -239,6 +244,8 @@ class LoadRun {
       take_app_lines();
       take_plant_lines();
       tell_of_init();
+      memory_.sample(recorder_.time_s());
+      tell_progress();
       inject();
     }
     recorder_.poll(0.0);
@@ -258,6 +265,15 @@ class LoadRun {
     say(fmt::format("{:7.1f} s  the kernel still waits to hear every sensor, the machine and the panel", recorder_.time_s()));
   }
 
+  void tell_progress() {
+    if (options_.progress_every_s <= 0.0 || recorder_.time_s() < next_progress_s_) return;
+    next_progress_s_ = recorder_.time_s() + options_.progress_every_s;
+    const double wall_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+    fmt::print("{:5.2f} h  {} trucks away, {} passes, {} bench moves, {} stops; {:.1f} times real time\n", recorder_.time_s() / 3600, trucks_away_, passes_, bench_moves_,
+               recorder_.stop_events().size(), wall_s > 0 ? recorder_.time_s() / wall_s : 0.0);
+    std::fflush(stdout);
+  }
+
   void inject() {
     if (!options_.fault || injected_ || recorder_.time_s() < options_.fault->at_s) return;
     injected_ = true;
@@ -275,6 +291,7 @@ class LoadRun {
       auto event = json::parse(line, nullptr, false);
       if (!event.is_object()) continue;
       const std::string name = event.value("event", "");
+      if (name == "pass") ++passes_;
       if (name == "pass") {
         say(fmt::format("{:7.1f} s  truck {} pass {:2}: {:.2f} t in {:.1f} s", recorder_.time_s(), event.value("truck", 1), event.value("pass", 0),
                         event.value("payload_kg", 0.0) / 1000, event.value("seconds", 0.0)));
@@ -295,6 +312,10 @@ class LoadRun {
         say(fmt::format("{:7.1f} s  the app holds back: {}", recorder_.time_s(), held_by(event)));
       } else if (name == "operator_needed") {
         say(fmt::format("{:7.1f} s  operator needed, {}: {}", recorder_.time_s(), operator_needed_for(event), event.value("advice", "")));
+      } else if (name == "move_back") {
+        say(fmt::format("{:7.1f} s  the app asks for a bench move, {:.1f} m back: {}", recorder_.time_s(), event.value("distance_m", 0.0), event.value("why", "")));
+      } else if (name == "moved") {
+        say(fmt::format("{:7.1f} s  the machine was moved: the app looks round anew", recorder_.time_s()));
       } else if (name == "resumed" || name == "released") {
         say(fmt::format("{:7.1f} s  moving again", recorder_.time_s()));
       }
@@ -309,6 +330,12 @@ class LoadRun {
       const std::string name = event.value("event", "");
       if (name == "contact") say(fmt::format("{:7.1f} s  CONTACT: {}", event.value("t", 0.0), event.value("what", "?")));
       if (name == "truck_arrived") say(fmt::format("{:7.1f} s  a truck stands ready", event.value("t", 0.0)));
+      if (name == "bench_move") {
+        ++bench_moves_;
+        say(fmt::format("{:7.1f} s  the operator trammed the machine back by {:.1f} m", event.value("t", 0.0), event.value("distance_m", 0.0)));
+      }
+      if (name == "press") say(fmt::format("{:7.1f} s  the operator presses {}", event.value("t", 0.0), event.value("keys", "?")));
+      if (name == "truck_left") ++trucks_away_;
       if (name == "truck_left") say(fmt::format("{:7.1f} s  the truck has left", event.value("t", 0.0)));
     }
   }
@@ -339,6 +366,7 @@ class LoadRun {
     result_.stop_events = recorder_.stop_events();
     result_.kernel_faults = recorder_.faults();
     result_.first_fault = recorder_.first_fault();
+    result_.memory = memory_.growth();
     result_.measures = measure_shift(out_, machine_, options_, result_.truth, result_.app_events, result_.stop_events);
     if (recorder_.lost() > 0) result_.notes.push_back(fmt::format("the launcher missed {} decisions: stops and the picture may lack some", recorder_.lost()));
     if (options_.fault && !injected_) result_.notes.emplace_back("the run ended before the fault was due");
@@ -346,6 +374,15 @@ class LoadRun {
   }
 
   void write_out() {
+    if (options_.picture) write_picture();
+    config::write_whole_file(out_ + "/result.json", flat_json(result_).dump(2) + "\n");
+    std::string events;
+    for (const json& event : result_.app_events) events += event.dump() + "\n";
+    config::write_whole_file(out_ + "/app.jsonl", events);
+    result_.notes.push_back(fmt::format("trace.csv, truth.json,{} app.jsonl,{} and result.json are in {}", options_.journal ? " journal.mcap," : "", options_.picture ? " site.svg" : "", out_));
+  }
+
+  void write_picture() {
     SitePictureInput picture;
     picture.title = fmt::format("{}, seed {}, at the end of the run (simulation)", options_.scenario, options_.seed);
     picture.map = recorder_.map();
@@ -356,11 +393,6 @@ class LoadRun {
     picture.truck_bed = recognised_bed(result_.app_events);
     picture.movers = mover_paths(out_ + "/trace.csv");
     write_site_picture(out_ + "/site.svg", picture);
-    config::write_whole_file(out_ + "/result.json", flat_json(result_).dump(2) + "\n");
-    std::string events;
-    for (const json& event : result_.app_events) events += event.dump() + "\n";
-    config::write_whole_file(out_ + "/app.jsonl", events);
-    result_.notes.push_back(fmt::format("trace.csv, truth.json, journal.mcap, app.jsonl, site.svg and result.json are in {}", out_));
   }
 
   void say(const std::string& words) const {
@@ -379,6 +411,9 @@ class LoadRun {
   ChildProcess kernel_, app_, plant_, journal_;
   Recorder recorder_;
   RunResult result_;
+  MemoryWatch memory_;
+  int trucks_away_ = 0, passes_ = 0, bench_moves_ = 0;
+  double next_progress_s_ = 0.0;
   bool injected_ = false, init_told_ = false;
   double init_since_s_ = -1.0;
   bool journal_cut_off_ = false;

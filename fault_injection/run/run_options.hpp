@@ -25,6 +25,11 @@ struct RunOptions {
   std::string out;  // empty: a temporary folder, removed afterwards
   std::optional<ProcessFault> fault;
   bool quiet = false;
+  bool picture = true;       // site.svg
+  bool journal = true;       // else no journal is written: it grows by gigabytes an hour
+  int silence_s = 5;         // of wall clock, after which the plant goes on without kernel or app
+  int trace_every = 1;       // cycles from one row of the trace to the next
+  double progress_every_s = 0.0;  // simulated; a line instead of one for each pass; 0: none
 };
 
 // Reads the command line; the exit status when the program should end now.

@@ -161,6 +161,7 @@ json flat_json(const RunResult& r) {
   out["spill_fraction"] = r.truth.value("spill_fraction", 0.0);
   out["load_centre_offset_m"] = r.truth.value("load_centre_offset_m", 0.0);
   out["load_height_stddev_m"] = r.truth.value("load_height_stddev_m", 0.0);
+  out["bench_moves"] = r.truth.contains("bench_moves") ? r.truth["bench_moves"].size() : 0;
   out["recognition_error_m"] = recognition_errors(r.app_events, r.truth);
   out["contacts"] = r.contacts;
   out["closest_approach_m"] = r.truth.contains("closest_approach_m") ? r.truth["closest_approach_m"] : json(nullptr);

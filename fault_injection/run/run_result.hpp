@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "run/memory_watch.hpp"
 #include "run/recorder.hpp"
 #include "run/run_options.hpp"
 #include "run/shift_measures.hpp"
@@ -26,6 +27,7 @@ struct RunResult {
   std::string first_fault;
   std::uint64_t journal_lost = 0;           // cycles whose record did not reach the journal
   ShiftMeasures measures;
+  MemoryGrowth memory;
   std::vector<std::string> notes;           // things a person should know
 };
 

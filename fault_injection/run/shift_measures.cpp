@@ -33,7 +33,9 @@ ShiftMeasures measure_shift(const std::string& out, const std::string& machine_f
   ShiftMeasures measures;
   measures.kinematic_ratios = kinematic_ratios(app_events, rows, limits);
   measures.own_motion_stops = own_motion_stops(stops, disturbances_of(truth, options), rows, machine.workspace.radius, machine.kernel.fresh);
-  measures.dig_surface_error_m = dig_surface_error_m(read_height_field(out + "/terrain_end.csv"), planned_digs(app_events), cut_half_width(machine));
+  std::vector<PlannedDig> digs = planned_digs(app_events);
+  place_digs(digs, truth);
+  measures.dig_surface_error_m = dig_surface_error_m(read_height_field(out + "/terrain_end.csv"), digs, cut_half_width(machine));
   return measures;
 }
 

@@ -11,7 +11,7 @@ namespace berm::run {
 struct TraceRow {
   double time_s;
   std::array<double, 4> angle;                 // swing, boom, stick, bucket
-  std::vector<std::array<double, 2>> intruder; // x, y of each person and vehicle
+  std::vector<std::array<double, 2>> intruder; // x, y of each person and vehicle, from the swing axis
 };
 
 // Throws std::runtime_error with one line when the file is missing or has not the columns.

@@ -20,6 +20,7 @@ class TraceReader {
   double time_s() const { return value("time_s"); }
   // Of all people, vehicles and trucks, in the order of the columns.
   std::vector<std::string> movers() const;
+  bool has(const std::string& column) const { return column_.contains(column); }
   // Throws std::runtime_error naming file and column when there is none of that name.
   double value(const std::string& column) const;
 
