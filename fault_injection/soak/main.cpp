@@ -1,0 +1,77 @@
+// berm soak: a whole shift.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <filesystem>
+
+#include "config/command_line.hpp"
+#include "config/whole_file.hpp"
+#include "run/kernel_session.hpp"
+#include "run/load_run.hpp"
+#include "run/parameter_file.hpp"
+#include "soak/drawn_shift.hpp"
+#include "soak/shift_report.hpp"
+
+namespace {
+
+constexpr double kProgressEvery_s = 600.0;
+constexpr int kSilence_s = 120;               // a computer that is busy otherwise must not end a shift
+constexpr int kTraceEvery = 10;  // cycles: 288 000 rows in eight hours
+
+int run(int argc, char** argv) {
+  double hours = 8.0;
+  std::string json, out;
+  std::uint64_t seed = 1;
+  bool journal = false, picture = false;
+  CLI::App app{"A whole shift in lockstep: trucks, people, dust and soil as the seed draws them, and an operator who moves the machine back along the bench\n"
+               "and resets it after stops. Ends with a report. Exit status 0: the shift came to its end with no contact, and never a quarter of an hour without a pass.",
+               "berm soak"};
+  app.add_option("--hours", hours, "of simulated time")->capture_default_str()->check(CLI::Range(0.01, 10.0));
+  app.add_option("--seed", seed, "seed of every random draw")->capture_default_str();
+  app.add_option("--json", json, "write the report as one flat JSON object");
+  app.add_option("--out", out, "folder for scenario.toml (what was drawn), trace.csv (a row each 0.1 s), truth.json, app.jsonl and result.json");
+  app.add_flag("--picture", picture, "site.svg as well; needs --out");
+  app.add_flag("--journal", journal, "the kernel's journal as well; it grows by about a gigabyte an hour");
+  if (const auto status = berm::config::parse_options(app, argc, argv)) return *status;
+  if (picture && out.empty()) {
+    fmt::print(stderr, "berm soak: --picture: needs --out\n");
+    return 2;
+  }
+  berm::run::RunFolder own;
+  if (out.empty()) out = own.file("shift");
+  std::filesystem::create_directories(out);
+  const std::string scenario = out + "/scenario.toml";
+  berm::config::write_whole_file(scenario, berm::soak::scenario_text(berm::soak::draw_shift(hours, seed)));
+  berm::run::RunOptions options;
+  options.scenario = scenario;
+  options.trucks = berm::soak::trucks_enough(hours);
+  options.seed = seed;
+  options.out = out;
+  options.quiet = true;
+  options.journal = journal;
+  options.picture = picture;
+  options.silence_s = kSilence_s;
+  options.trace_every = kTraceEvery;
+  options.progress_every_s = kProgressEvery_s;
+  fmt::print("seed {}, {:.2f} h; run again: ./berm load --scenario {} --seed {} --trucks {}\n", seed, hours, scenario, seed, options.trucks);
+  const auto report = berm::soak::shift_json(berm::run::load_trucks(options), hours);
+  fmt::print("{}", berm::soak::shift_text(report));
+  if (!json.empty()) berm::config::write_whole_file(json, report.dump(2) + "\n");
+  const auto reasons = berm::soak::shortcomings(report);
+  for (const auto& reason : reasons) fmt::print(stderr, "berm soak: {}\n", reason);
+  return reasons.empty() ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const berm::run::ToldAlready&) {
+    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "berm soak: {}\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,17 @@
+// The report of a shift: all of a load's keys, and what only a shift has.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "run/run_result.hpp"
+
+namespace berm::soak {
+
+// Keys: SOAK.md.
+nlohmann::json shift_json(const run::RunResult& result, double hours);
+std::string shift_text(const nlohmann::json& report);
+// Why the shift was none, or not a safe one: contacts, an end before its time, hardly a truck loaded.
+std::vector<std::string> shortcomings(const nlohmann::json& report);
+
+}  // namespace berm::soak
