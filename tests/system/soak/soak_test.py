@@ -1,0 +1,48 @@
+"""A few minutes of a shift end with a whole report and a scenario that runs again; and a bench that is soon dug out is moved back from, the work goes on."""
+import json
+import pathlib
+import shutil
+import tempfile
+
+from berm_command import load, main, run
+
+KEYS = ("hours", "trucks", "tonnes_per_hour", "needless_stops", "memory_growth_kib_per_hour", "realtime_factor", "kernel_stops", "own_motion_stops", "soil",
+        "pass_seconds_median", "pass_seconds_p95", "kinematic_ratio_median", "dig_surface_error_m", "plan_ms_max", "closest_approach_m", "stuck")
+
+
+def short_shift():
+    out = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
+    done = run("berm_soak", "--hours", "0.05", "--seed", "1", "--out", out, "--json", out / "report.json", timeout=900)
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-1000:]
+    report = json.loads((out / "report.json").read_text())
+    for key in KEYS:
+        assert key in report, f"the report lacks {key}"
+    assert abs(report["hours"] - 0.05) < 1e-3 and report["contacts"] == 0, report
+    assert report["passes"] >= 3 and report["tonnes_per_hour"] > 10, report
+    checked = run("berm_plant", "--scenario", out / "scenario.toml", "--can", "udp:239.255.66.1:45000", "--scan-port", "45001", "--out", out / "again", "--check")
+    assert checked.returncode == 0, checked.stderr
+    shutil.rmtree(out)
+
+
+def bench_move():
+    """A dig zone that reaches hardly beyond the crest holds a few buckets: the machine is moved, and a truck that was part filled is filled."""
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
+    from berm_command import ROOT
+    text = (ROOT / "fault_injection/scenarios/shift.toml").read_text()
+    assert "crest_x = 6.0" in text and "toe_x = 7.5" in text
+    # The face begins farther in than the machine would want it: one truck's soil is hardly within reach.
+    (folder / "near.toml").write_text(text.replace("crest_x = 6.0", "crest_x = 5.3").replace("toe_x = 7.5", "toe_x = 6.3"))
+    status, result, out, words = load("--scenario", folder / "near.toml", "--seed", "1", "--trucks", "1", timeout=900)
+    assert status == 0, words[-1500:]
+    assert result["bench_moves"] >= 1 and result["contacts"] == 0 and result["trucks_loaded"] == 1, result
+    events = [json.loads(line) for line in (out / "app.jsonl").read_text().splitlines()]
+    asked = next(e for e in events if e["event"] == "move_back")
+    assert asked["why"] and asked["distance_m"] > 0
+    truth = json.loads((out / "truth.json").read_text())
+    assert truth["bench_moves"][0]["distance_m"] == asked["distance_m"], truth["bench_moves"]
+    assert any(e["event"] == "moved" for e in events)
+    shutil.rmtree(out)
+    shutil.rmtree(folder)
+
+
+main([short_shift, bench_move])
