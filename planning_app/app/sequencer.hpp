@@ -24,8 +24,8 @@ namespace berm::app {
 
 class Sequencer {
 public:
-  // finder must outlive it.
-  Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, TruckFinder& finder, const ProgressLog& log);
+  // scripts and finder must outlive it.
+  Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, const ScriptSet& scripts, TruckFinder& finder, const ProgressLog& log);
 
   Sequencer(const Sequencer&) = delete;  // parts of it point into it
   Sequencer& operator=(const Sequencer&) = delete;
@@ -79,6 +79,7 @@ private:
   void log_held(const Observation& o, const Joints& wanted) const;
   Joints slowed(const Observation& o, const Joints& wanted);
 
+  const ScriptSet& scripts_;
   MachineModel machine_;
   SiteModel site_;
   ProgressLog log_;

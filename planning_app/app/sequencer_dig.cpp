@@ -206,7 +206,7 @@ void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_fro
     return;
   }
   poses_ = *poses;
-  search_.emplace(machine_, skyline, task_, poses_);
+  search_.emplace(scripts_, machine_, skyline, task_, poses_);
 }
 
 Joints Sequencer::curl(const Observation& o) {
@@ -215,7 +215,7 @@ Joints Sequencer::curl(const Observation& o) {
   const bool done = !follower_.active() || follower_.finished() || o.time_s - stage_s_ > 5.0 || forward(machine_, o.angle).bucket_attitude < curled + radians(6.0);
   if (done && search_ && search_->done()) {
     note_cut(o);
-    begin_script(pass_script(machine_, task_, poses_, search_->thresholds()));
+    begin_script(pass_script(scripts_, machine_, task_, poses_, search_->thresholds()));
     emptied_ = false;
     open_since_s_ = -1.0;
     before_.reset();

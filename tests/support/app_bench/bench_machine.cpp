@@ -27,6 +27,7 @@ int kernel_index(double v) { return static_cast<int>(std::floor((v + kernel_half
 }  // namespace
 
 MachineModel zx200() { return machine_model(config::load_machine_file(BERM_CONFIG_DIR "/machines/zx200.toml")); }
+ScriptSet shipped_scripts() { return read_scripts(BERM_SCRIPTS); }
 SiteModel bench() { return site_model(config::load_site_file(BERM_CONFIG_DIR "/sites/bench.toml")); }
 
 TruckBed bench_bed() {
