@@ -15,7 +15,7 @@
 
 namespace {
 
-constexpr double kProgressEvery_s = 600.0;
+constexpr double kProgressEvery_s = 300.0;
 constexpr int kSilence_s = 120;               // a computer that is busy otherwise must not end a shift
 constexpr int kTraceEvery = 10;  // cycles: 288 000 rows in eight hours
 

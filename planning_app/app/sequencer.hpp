@@ -13,6 +13,7 @@
 #include "app/truck_look.hpp"
 #include "app/weighing.hpp"
 #include "motion/dig_path.hpp"
+#include "motion/soil_force.hpp"
 #include "perception/kernel_map.hpp"
 #include "planning/bed_map.hpp"
 #include "planning/dig_point.hpp"
@@ -25,8 +26,8 @@ namespace berm::app {
 
 class Sequencer {
 public:
-  // finder must outlive it.
-  Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, TruckFinder& finder, const ProgressLog& log);
+  // scripts and finder must outlive it.
+  Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, const ScriptSet& scripts, TruckFinder& finder, const ProgressLog& log);
 
   Sequencer(const Sequencer&) = delete;  // parts of it point into it
   Sequencer& operator=(const Sequencer&) = delete;
@@ -43,6 +44,7 @@ public:
 
 private:
   static constexpr double full_bucket_kg = 1560.0;  // what a pass is planned to bring at most
+  static constexpr double heaped_kg = 1600.0;       // what the bucket holds
 
   enum class Stage { survey, wait_truck, go_look, look, approach, settle, dig, curl, pass, horn, wait_leave, raise_for_move, ask_move, being_moved, exhausted, finished };
 
@@ -60,7 +62,9 @@ private:
   void plan_next_dig(const Observation& o);
   DigNeeds needs_for(double kg) const;
   void note_cut(const Observation& o);
+  void feel(const Observation& o);            // the implements' weight, or how hard the soil resists
   void learn_yield(double weighed_kg);
+  void hold_fill(double in_bucket_kg);
   void begin_script(const Script& script);
   void begin_approach(const Observation& o, bool lower);
   void begin_look(const Observation& o);
@@ -73,7 +77,7 @@ private:
   void begin_pass_search(const Observation& o, const Joints& lifted_from);
   std::uint32_t pass_events(const Observation& o);
   void end_pass(const Observation& o);
-  bool face_too_poor_for_a_truck() const;
+  bool face_too_poor_for_a_truck();
   void begin_move_back(const Observation& o, const char* why);
   Joints raise_for_move(const Observation& o);
   void await_move(const Observation& o);
@@ -82,6 +86,7 @@ private:
   void log_held(const Observation& o, const Joints& wanted) const;
   Joints slowed(const Observation& o, const Joints& wanted);
 
+  const ScriptSet& scripts_;
   MachineModel machine_;
   SiteModel site_;
   ProgressLog log_;
@@ -89,6 +94,7 @@ private:
 
   KernelMap kernel_map_;
   TerrainMap terrain_;
+  DigGround ground_;
   std::optional<BedMap> bed_;
   std::optional<Skyline> skyline_;
   double skyline_s_ = 0.0;
@@ -110,6 +116,10 @@ private:
   std::uint16_t phase_ = BERM_PHASE_WAIT;
   DigPlan dig_;
   std::optional<CutModel> cut_;               // of this dig
+  ImplementWeight weight_;
+  DigFill filled_;                            // of this dig, by force
+  std::vector<double> planned_fill_;          // of this dig: bank m3 in the bucket, evenly along its path
+  bool holds_nothing_ = true;
   double yield_ = 1.0;                        // what a modelled cubic metre brings, of what bank soil weighs
   double held_since_s_ = -1.0;                // by the guard
   bool looked_ = false;

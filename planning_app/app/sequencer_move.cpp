@@ -17,9 +17,10 @@ constexpr int vain_moves = 2;
 }  // namespace
 
 // Between two trucks nobody waits for a bucket: the face is left before a truck would be filled from its rest.
-bool Sequencer::face_too_poor_for_a_truck() const {
+bool Sequencer::face_too_poor_for_a_truck() {
+  ground_.observe(terrain_);
   const DigNeeds needs = needs_for(full_bucket_kg);
-  const FaceReserve face = face_reserve(site_, terrain_, needs.floor_guard, needs.bucket_width);
+  const FaceReserve face = face_reserve(site_, ground_, needs.floor_guard, needs.bucket_width);
   log_.event("face", {{"truck", truck_}, {"volume_m3", face.volume}, {"crest_m", face.crest}});
   return face.volume < reserve_share * site_.place.target_kg / bank_kg_m3;
 }
@@ -35,13 +36,14 @@ void Sequencer::begin_move_back(const Observation& o, const char* why) {
     enter(Stage::exhausted, o);
     return;
   }
+  ground_.observe(terrain_);
   const DigNeeds needs = needs_for(full_bucket_kg);
-  const FaceReserve face = face_reserve(site_, terrain_, needs.floor_guard, needs.bucket_width);
+  const FaceReserve face = face_reserve(site_, ground_, needs.floor_guard, needs.bucket_width);
   back_m_ = back_distance(site_, face, BERM_HORN_MOVE_BACK_STEP_M, BERM_HORN_MOVE_BACK_STEPS);
   log_.event("move_back", {{"time_s", o.time_s}, {"truck", truck_}, {"distance_m", back_m_}, {"why", why}, {"face_m3", face.volume}, {"crest_m", face.crest}});
   log_.event("operator_needed", {{"time_s", o.time_s}, {"reason", "move back"},
                                  {"advice", "switch run off, have the truck make way, tram the machine straight back by the distance, press relearn and reset, switch run on"}});
-  if (const auto script = approach_script(machine_, {o.angle, 0.5 * (site_.dig_swing_left + site_.dig_swing_right), over_heaps, std::nullopt})) begin_script(*script);
+  if (const auto script = approach_script(scripts_, machine_, {o.angle, 0.5 * (site_.dig_swing_left + site_.dig_swing_right), over_heaps, std::nullopt})) begin_script(*script);
   else script_s_ = -1.0;
   enter(Stage::raise_for_move, o);
 }
@@ -71,6 +73,7 @@ void Sequencer::await_move(const Observation& o) {
 void Sequencer::begin_anew(const Observation& o) {
   log_.event("moved", {{"time_s", o.time_s}, {"truck", truck_}, {"distance_m", back_m_}});
   terrain_ = TerrainMap();
+  ground_ = DigGround(site_);
   kernel_map_ = KernelMap();
   skyline_.reset();
   cut_.reset();

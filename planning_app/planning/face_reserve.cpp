@@ -17,13 +17,13 @@ constexpr double fallen = 0.6;                // m under the ground that the mac
 constexpr double crest_beyond_end = 0.9;      // m
 }  // namespace
 
-FaceReserve face_reserve(const SiteModel& site, const TerrainMap& terrain, double floor_guard, double width) {
+FaceReserve face_reserve(const SiteModel& site, const DigGround& ground, double floor_guard, double width) {
   double lowest = -1e9;
   for (const DigZone& z : site.dig_zones) lowest = std::max(lowest, z.floor + floor_guard);
   FaceReserve face;
   int bearings = 0;
   for (double b = site.dig_swing_right - widened; b <= site.dig_swing_left + widened; b += sector_step) {
-    const SurfaceProfile surface(terrain, b, width);
+    const SurfaceProfile surface(ground, b, width);
     const double c = std::cos(b), s = std::sin(b);
     for (double r = site.dig_radius_end - nearer; r <= site.dig_radius_start; r += radius_step)
       if (in_dig_zone(site, r * c, r * s)) face.volume += std::max(0.0, surface.at(r) - lowest) * r * sector_step * radius_step;

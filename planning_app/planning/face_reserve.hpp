@@ -3,7 +3,7 @@
 #pragma once
 
 #include "planning/site_model.hpp"
-#include "planning/terrain_map.hpp"
+#include "planning/dig_ground.hpp"
 
 namespace berm::app {
 
@@ -12,8 +12,8 @@ struct FaceReserve {
   double crest = 0.0;   // where the ground begins to fall, distance from the swing axis, mean over the site's bearings
 };
 
-// floor_guard: what a dig leaves over the dig zone's floor, m; width: of the bucket, m.
-FaceReserve face_reserve(const SiteModel& site, const TerrainMap& terrain, double floor_guard, double width);
+// ground: what is known of it. floor_guard: what a dig leaves over the dig zone's floor, m; width: of the bucket, m.
+FaceReserve face_reserve(const SiteModel& site, const DigGround& ground, double floor_guard, double width);
 
 // How far back, in steps of step, at least one and at most most steps: the crest shall lie a little beyond where a drag ends.
 double back_distance(const SiteModel& site, const FaceReserve& face, double step, int most);

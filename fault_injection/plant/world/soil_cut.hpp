@@ -32,6 +32,8 @@ class SoilCut {
   // What the soil leaves of the joints' speeds after this step's cut.
   double speed_factor(double cut_volume, double dt);
   void change_soil(const SoilConfig& soil) { resistance_ = soil.resistance; }
+  // Against the edge's motion, as large as the share of the speed that the soil takes.
+  [[nodiscard]] EdgeForce edge_force(const BucketPose& before, const BucketPose& now, double dt, double speed_factor) const;
 
  private:
   [[nodiscard]] Vec3 motion(const BucketPose& before, const BucketPose& now, double dt) const;
