@@ -224,6 +224,9 @@ MachineFile load_machine_file(const std::string& path) {
   StrictTable joints = file.table("joint");
   for (std::size_t j = 0; j < kJoints; ++j) m.joint[j] = read_joint(joints.table(kJointNames[j]), j == 0 ? 360.0 : 180.0);
   joints.finish();
+  StrictTable held = file.table("bucket");
+  m.bucket_payload = held.number("payload_kg", 50.0, 50000.0);
+  held.finish();
   StrictTable latency = file.table("latency");
   m.state_latency = latency.number("state", 0.0, 0.5);
   m.command_latency = latency.number("command", 0.0, 1.0);

@@ -40,8 +40,6 @@ public:
   TruckSweep& sweep() { return look_.sweep(); }
 
 private:
-  static constexpr double full_bucket_kg = 1560.0;  // what a pass is planned to bring at most
-
   enum class Stage { survey, wait_truck, go_look, look, approach, settle, dig, curl, pass, horn, wait_leave, exhausted, finished };
 
   void enter(Stage stage, const Observation& o);
@@ -76,6 +74,9 @@ private:
   Joints slowed(const Observation& o, const Joints& wanted);
 
   MachineModel machine_;
+  ImplementScale scale_;
+  double heaped_kg_;                          // what the bucket holds
+  double full_bucket_kg_;                     // what a pass is planned to bring at most
   SiteModel site_;
   ProgressLog log_;
   int trucks_;

@@ -9,7 +9,6 @@ namespace berm::app {
 
 namespace {
 
-constexpr double heaped_kg = 1600.0;              // what the bucket holds
 constexpr double bank_density = 1474.0;           // kg/m3, where nothing was learned yet
 constexpr double cut_reserve = 1.05;              // the cut is planned larger than the goal; the estimate ends it
 constexpr double air_speed = 1.1, soil_speed = 1.3, curl_speed = 1.5;  // m/s of the tip
@@ -42,14 +41,15 @@ nlohmann::ordered_json drag_points(const DigPlan& plan) {
 
 DigNeeds Sequencer::needs_for(double kg) const {
   DigNeeds needs;
-  needs.volume = cut_reserve * std::max(300.0, kg) / (yield_ * bank_density);
+  needs.volume = cut_reserve * std::max(300.0 * scale_.load, kg) / (yield_ * bank_density);
   needs.bucket_width = bucket_width(machine_);
+  needs.deepest *= scale_.bucket;
   return needs;
 }
 
 void Sequencer::plan_next_dig(const Observation& o) {
   const auto began = std::chrono::steady_clock::now();
-  dig_ = choose_dig(machine_, site_, terrain_, needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg), dig_.bearing);
+  dig_ = choose_dig(machine_, site_, terrain_, needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg_), dig_.bearing);
   log_.event("next_dig", {{"time_s", o.time_s}, {"bearing_deg", degrees(dig_.bearing)}, {"volume_m3", dig_.volume}, {"plan_ms", milliseconds_since(began)}});
 }
 
@@ -91,9 +91,9 @@ void Sequencer::note_cut(const Observation& o) {
 void Sequencer::learn_yield(double weighed_kg) {
   constexpr double weight = 0.5, least = 0.5, most = 1.8, full_share = 0.97;
   const double modelled = cut_ ? cut_->volume() * bank_density : 0.0;
-  if (modelled < 200.0) return;
+  if (modelled < 200.0 * scale_.load) return;
   const double seen = weighed_kg / modelled;
-  if (weighed_kg > full_share * heaped_kg && seen < yield_) return;
+  if (weighed_kg > full_share * heaped_kg_ && seen < yield_) return;
   yield_ = std::clamp((1.0 - weight) * yield_ + weight * seen, least, most);
 }
 
@@ -116,7 +116,7 @@ void Sequencer::begin_curl(const Observation& o) {
   constexpr double curled_within = 6.35, over_surface = 0.15, lift = 0.45;
   const ArmPoints now = forward(machine_, o.angle);
   log_.event("dug", {{"time_s", o.time_s}, {"r_m", now.tip.r}, {"z_m", now.tip.z}});
-  const double r = std::min(now.tip.r - 0.05, curled_within);
+  const double r = std::min(now.tip.r - 0.05, curled_within * scale_.arm);
   const double z = std::max(now.tip.z, cut_->surface().at(r) + over_surface);
   const double halfway = std::min(now.bucket_attitude, 0.5 * (now.bucket_attitude + curled));
   const std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}, {r, z, halfway}, {r - 0.05, z + lift, curled}};
@@ -135,9 +135,10 @@ void Sequencer::plan_dump(const Observation& o) {
   const auto began = std::chrono::steady_clock::now();
   DumpNeeds needs;
   needs.bucket_half_width = 0.5 * bucket_width(machine_);
+  needs.scale = scale_;
   needs.since_s = o.time_s - bed_points_age;
   needs.dump_kg = goal_kg_;
-  needs.most_kg = fill_.must_weigh(heaped_kg) ? goal_kg_ : heaped_kg;
+  needs.most_kg = fill_.must_weigh(heaped_kg_) ? goal_kg_ : heaped_kg_;
   needs.rest_kg = std::max(0.0, fill_.rest_kg() - goal_kg_);
   needs.farthest_radius = farthest_dump(machine_, site_.bed->wall_top);
   dump_ = choose_dump_point(*bed_, needs);
@@ -155,7 +156,7 @@ void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_fro
   task_ = PassTask{lifted_from, dump_.bearing, dump_.radius, dig_.bearing, {dig_.drag.front().r, dig_.drag.front().z}, site_.bed->wall_top, site_.bed->wall_top, more};
   task_.lifted_from[swing] = here;
   const Skyline skyline(machine_, site_, kernel_map_.ground(KernelMap::Unseen::level));
-  task_.truck_top = skyline.highest(dump_.bearing - near_truck, dump_.bearing + near_truck, 4.2, 8.6);
+  task_.truck_top = skyline.highest(dump_.bearing - near_truck, dump_.bearing + near_truck, 4.2 * scale_.arm, 8.6 * scale_.arm);
   const auto poses = pass_poses(machine_, task_);
   if (!poses) {
     log_.event("unreachable", {{"time_s", o.time_s}, {"what", "dump point"}, {"bearing_deg", degrees(dump_.bearing)}, {"radius_m", dump_.radius}});
@@ -177,7 +178,7 @@ Joints Sequencer::curl(const Observation& o) {
     open_since_s_ = -1.0;
     before_.reset();
     after_.reset();
-    load_check_.begin(o.time_s, fill_.must_weigh(heaped_kg));
+    load_check_.begin(o.time_s, fill_.must_weigh(heaped_kg_));
     log_.event("script", {{"swing_start_boom_deg", degrees(search_->thresholds().swing_start_boom)}, {"hover_offset_deg", degrees(search_->thresholds().hover_offset)},
                           {"truck_bearing_deg", degrees(dump_.bearing)}, {"clear", search_->clear()}, {"model_seconds", search_->seconds()}});
     enter(Stage::pass, o);
