@@ -230,6 +230,9 @@ MachineFile load_machine_file(const std::string& path) {
     m.cylinder[c] = {sides[0], sides[1]};
   }
   cylinders.finish();
+  StrictTable held = file.table("bucket");
+  m.bucket_payload = held.number("payload_kg", 50.0, 50000.0);
+  held.finish();
   StrictTable latency = file.table("latency");
   m.state_latency = latency.number("state", 0.0, 0.5);
   m.command_latency = latency.number("command", 0.0, 1.0);

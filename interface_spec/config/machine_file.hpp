@@ -83,6 +83,7 @@ struct MachineFile {
   double boom_pin_x, boom_pin_z, boom, stick, bucket, own_body_radius;  // m
   std::array<JointFile, kJoints> joint;
   std::array<CylinderFile, kJoints - 1> cylinder;  // boom, stick, bucket
+  double bucket_payload;                  // of a heaped bucket, kg
   double state_latency, command_latency;  // s
   BrakingFile braking;
   std::vector<PartFile> part;

@@ -14,7 +14,7 @@ constexpr double blind_s = 6.0;                   // without a weighing: it has 
 constexpr double longest_s = 20.0;                // however it goes
 constexpr double pause_s = 0.2;
 constexpr double steepest = radians(-75.0);
-constexpr double kg_per_rad = 900.0;              // about what a full bucket loses
+constexpr double full_kg_per_rad = 900.0;         // about what a full bucket loses, by the scale of its load
 constexpr double resting = radians(-163.0);       // before this tilt nothing slides
 constexpr double closing_s = 1.2;                 // the tilt's time constant, above the weighing's delay
 constexpr double slowest = radians(3.0), fastest = radians(25.0);
@@ -62,6 +62,7 @@ double LoadCheck::step(const Lifted& now, const TruckFill& fill, const ProgressL
     case Stage::tilts: {
       if (!now.raised) return nothing;
       recent_.add(now.payload_kg);
+      const double kg_per_rad = full_kg_per_rad * load_scale_;
       const double excess = (recent_.kg() > 0.0 ? recent_.kg() : lifted_) - goal_;
       const double rate = now.attitude < resting ? fastest : std::clamp(excess / (kg_per_rad * closing_s), slowest, fastest);
       if (excess <= slowest * kg_per_rad * under_way_s || now.attitude > steepest) enter(Stage::settles, now.time_s);

@@ -9,6 +9,9 @@ namespace berm::app {
 
 class LoadCheck {
 public:
+  // load_scale: what the bucket holds beside that of the machine on which the tilting was tried out (ImplementScale).
+  explicit LoadCheck(double load_scale = 1.0) : load_scale_(load_scale) {}
+
   // The bucket has left the soil. A check that is not needed is passed at once.
   void begin(double time_s, bool needed);
 
@@ -30,6 +33,7 @@ private:
   enum class Stage { blind, weighs, tilts, settles, passed };
   void enter(Stage stage, double time_s);
 
+  double load_scale_;
   Stage stage_ = Stage::passed;
   double stage_s_ = 0.0, began_s_ = 0.0, last_s_ = 0.0;
   double lifted_ = -1.0, goal_ = 0.0;

@@ -15,6 +15,7 @@ MachineModel machine_model(const config::MachineFile& file) {
   m.stick_length = file.stick;
   m.bucket_length = file.bucket;
   m.own_body_radius = file.own_body_radius;
+  m.bucket_payload_kg = file.bucket_payload;
   for (std::size_t j = 0; j < joints; ++j) {
     const config::JointFile& from = file.joint[j];
     m.joint[j] = {from.low, from.high, from.velocity_max, from.acceleration_max, from.creep_velocity, from.angle_error, from.velocity_error};

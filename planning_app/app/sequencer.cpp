@@ -16,6 +16,7 @@ constexpr double still = radians(0.8);            // rad/s
 constexpr double poor_share = 0.1;                // a pass that brings less of its goal found nothing
 constexpr int most_poor_passes = 4;               // in a row; then there is nothing left to dig from here
 constexpr double horn_s = 1.0;
+constexpr double full_share = 0.975;              // of a heaped bucket: what passes are planned with
 
 const char* phase_name(std::uint16_t phase) {
   static constexpr const char* names[BERM_PHASE_COUNT] = {"idle", "dig", "lift", "swing to truck", "dump", "swing to dig", "wait"};
@@ -25,8 +26,8 @@ const char* phase_name(std::uint16_t phase) {
 }  // namespace
 
 Sequencer::Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, const ScriptSet& scripts, TruckFinder& finder, const ProgressLog& log)
-    : scripts_(scripts), machine_(machine), site_(site), log_(log), trucks_(trucks), ground_(site_), arm_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_),
-      fill_(site.place.target_kg, full_bucket_kg) {
+    : scripts_(scripts), machine_(machine), scale_(scale_of(machine)), heaped_kg_(machine.bucket_payload_kg), full_bucket_kg_(full_share * heaped_kg_), site_(site), log_(log), trucks_(trucks), ground_(site_), arm_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_),
+      load_check_(scale_.load), fill_(site.place.target_kg, full_bucket_kg_) {
   scanners_.begin_full_sweep();
   dig_.bearing = site.dig_swing_right - radians(60.0);  // no dig before the first: nothing to stay away from
 }
@@ -108,7 +109,7 @@ Joints Sequencer::look_for_truck(const Observation& o) {
 
 void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
   site_.bed = bed;
-  bed_.emplace(bed);
+  bed_.emplace(bed, scale_);
   const std::vector<ScanPoint>& seen = look_.sweep().points();
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const ScanPoint& p = seen[i];
@@ -119,7 +120,7 @@ void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
   if (part_filled_) {
     for (const Dump& dump : dumps_) bed_->note_dump(dump.at, dump.kg);
   } else {
-    fill_ = TruckFill(site_.place.target_kg, full_bucket_kg);
+    fill_ = TruckFill(site_.place.target_kg, full_bucket_kg_);
     dumps_.clear();
     pass_ = 0;
     truck_began_s_ = o.time_s;
@@ -182,7 +183,7 @@ std::uint32_t Sequencer::pass_events(const Observation& o) {
   const bool on_its_way = o.angle[bucket] < poses_.dump[bucket] - radians(8.0);
   if (on_its_way) open_since_s_ += (1.0 - arm_.shares()[bucket] * tempos()[bucket]) * machine_.cycle;
   const double open = o.time_s - open_since_s_;
-  const bool light = o.payload_kg >= 0.0 && recent_.kg() < empty_share * full_bucket_kg;
+  const bool light = o.payload_kg >= 0.0 && recent_.kg() < empty_share * full_bucket_kg_;
   emptied_ = (open > open_at_least && (light || o.payload_kg < 0.0)) || open > open_at_most;
   return emptied_ ? event_emptied | weighed : weighed;
 }
@@ -211,12 +212,12 @@ void Sequencer::end_pass(const Observation& o) {
   const double payload = fill_.loaded_kg() - had;
   if (weighed) {
     learn_yield(std::max(before, load_check_.lifted_kg()));
-    filled_.learn(std::max(before, load_check_.lifted_kg()), heaped_kg);
+    filled_.learn(std::max(before, load_check_.lifted_kg()), heaped_kg_);
   }
   poor_passes_ = payload < poor_share * goal_kg_ ? poor_passes_ + 1 : 0;
   face_yield_.add(payload / goal_kg_);
   loaded_here_kg_ += payload;
-  dumps_.push_back({landing(*site_.bed, dump_.at, payload), payload});
+  dumps_.push_back({landing(*site_.bed, dump_.at, payload, scale_), payload});
   bed_->note_dump(dumps_.back().at, payload);
   ++pass_;
   log_.event("pass", {{"pass", pass_}, {"truck", truck_}, {"seconds", o.time_s - pass_began_s_}, {"payload_kg", payload}, {"loaded_kg", fill_.loaded_kg()},

@@ -43,9 +43,6 @@ public:
   TruckSweep& sweep() { return look_.sweep(); }
 
 private:
-  static constexpr double full_bucket_kg = 1560.0;  // what a pass is planned to bring at most
-  static constexpr double heaped_kg = 1600.0;       // what the bucket holds
-
   enum class Stage { survey, wait_truck, go_look, look, approach, settle, dig, curl, pass, horn, wait_leave, raise_for_move, ask_move, being_moved, exhausted, finished };
 
   void enter(Stage stage, const Observation& o);
@@ -88,6 +85,9 @@ private:
 
   const ScriptSet& scripts_;
   MachineModel machine_;
+  ImplementScale scale_;
+  double heaped_kg_;                          // what the bucket holds
+  double full_bucket_kg_;                     // what a pass is planned to bring at most
   SiteModel site_;
   ProgressLog log_;
   int trucks_;

@@ -42,15 +42,16 @@ nlohmann::ordered_json drag_points(const DigPlan& plan) {
 
 DigNeeds Sequencer::needs_for(double kg) const {
   DigNeeds needs;
-  needs.volume = cut_reserve * std::max(300.0, kg) / (yield_ * bank_density);
+  needs.volume = cut_reserve * std::max(300.0 * scale_.load, kg) / (yield_ * bank_density);
   needs.bucket_width = bucket_width(machine_);
+  needs.deepest *= scale_.bucket;
   return needs;
 }
 
 void Sequencer::plan_next_dig(const Observation& o) {
   const auto began = std::chrono::steady_clock::now();
   ground_.observe(terrain_);
-  dig_ = choose_dig(machine_, site_, ground_, needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg), dig_.bearing);
+  dig_ = choose_dig(machine_, site_, ground_, needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg_), dig_.bearing);
   log_.event("next_dig", {{"time_s", o.time_s}, {"bearing_deg", degrees(dig_.bearing)}, {"volume_m3", dig_.volume}, {"plan_ms", milliseconds_since(began)}});
 }
 
@@ -97,9 +98,9 @@ void Sequencer::note_cut(const Observation& o) {
 void Sequencer::learn_yield(double weighed_kg) {
   constexpr double weight = 0.5, least = 0.5, most = 1.8, full_share = 0.93;
   const double modelled = cut_ ? cut_->volume() * bank_density : 0.0;
-  if (modelled < 200.0) return;
+  if (modelled < 200.0 * scale_.load) return;
   const double seen = weighed_kg / modelled;
-  if (weighed_kg > full_share * heaped_kg && seen < yield_) return;
+  if (weighed_kg > full_share * heaped_kg_ && seen < yield_) return;
   yield_ = std::clamp((1.0 - weight) * yield_ + weight * seen, least, most);
 }
 
@@ -110,7 +111,7 @@ void Sequencer::feel(const Observation& o) {
   if (holds_nothing_ && o.running()) weight_.learn(o.angle, held, machine_.cycle);
   if ((stage_ != Stage::dig && stage_ != Stage::curl) || !weight_.known(o.angle)) return;
   PlaneForce soil = force_on_bucket(machine_, o.angle, held, weight_.of(o.angle));
-  soil.z += gravity * std::min(heaped_kg, filled_.kg());
+  soil.z += gravity * std::min(heaped_kg_, filled_.kg());
   filled_.add(resistance(machine_, o.angle, o.velocity, soil), machine_.cycle);
 }
 
@@ -177,9 +178,10 @@ void Sequencer::plan_dump(const Observation& o) {
   const auto began = std::chrono::steady_clock::now();
   DumpNeeds needs;
   needs.bucket_half_width = 0.5 * bucket_width(machine_);
+  needs.scale = scale_;
   needs.since_s = o.time_s - bed_points_age;
   needs.dump_kg = goal_kg_;
-  needs.most_kg = fill_.must_weigh(heaped_kg) ? goal_kg_ : heaped_kg;
+  needs.most_kg = fill_.must_weigh(heaped_kg_) ? goal_kg_ : heaped_kg_;
   needs.rest_kg = std::max(0.0, fill_.rest_kg() - goal_kg_);
   needs.farthest_radius = farthest_dump(machine_, site_.bed->wall_top);
   dump_ = choose_dump_point(*bed_, needs);
@@ -198,7 +200,7 @@ void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_fro
   task_ = PassTask{lifted_from, dump_.bearing, dump_.radius, dig_.bearing, {dig_.drag.front().r, dig_.drag.front().z}, site_.bed->wall_top, site_.bed->wall_top, more};
   task_.lifted_from[swing] = here;
   const Skyline skyline(machine_, site_, kernel_map_.ground(KernelMap::Unseen::level));
-  task_.truck_top = skyline.highest(dump_.bearing - near_truck, dump_.bearing + near_truck, 4.2, 8.6);
+  task_.truck_top = skyline.highest(dump_.bearing - near_truck, dump_.bearing + near_truck, 4.2 * scale_.arm, 8.6 * scale_.arm);
   const auto poses = pass_poses(machine_, task_);
   if (!poses) {
     log_.event("unreachable", {{"time_s", o.time_s}, {"what", "dump point"}, {"bearing_deg", degrees(dump_.bearing)}, {"radius_m", dump_.radius}});
@@ -220,7 +222,7 @@ Joints Sequencer::curl(const Observation& o) {
     open_since_s_ = -1.0;
     before_.reset();
     after_.reset();
-    load_check_.begin(o.time_s, fill_.must_weigh(heaped_kg));
+    load_check_.begin(o.time_s, fill_.must_weigh(heaped_kg_));
     log_.event("script", {{"swing_start_boom_deg", degrees(search_->thresholds().swing_start_boom)}, {"hover_offset_deg", degrees(search_->thresholds().hover_offset)},
                           {"truck_bearing_deg", degrees(dump_.bearing)}, {"clear", search_->clear()}, {"model_seconds", search_->seconds()}});
     enter(Stage::pass, o);

@@ -19,7 +19,7 @@ constexpr int vain_moves = 2;
 // Between two trucks nobody waits for a bucket: the face is left before a truck would be filled from its rest.
 bool Sequencer::face_too_poor_for_a_truck() {
   ground_.observe(terrain_);
-  const DigNeeds needs = needs_for(full_bucket_kg);
+  const DigNeeds needs = needs_for(full_bucket_kg_);
   const FaceReserve face = face_reserve(site_, ground_, needs.floor_guard, needs.bucket_width);
   log_.event("face", {{"truck", truck_}, {"volume_m3", face.volume}, {"crest_m", face.crest}});
   return face.volume < reserve_share * site_.place.target_kg / bank_kg_m3;
@@ -37,7 +37,7 @@ void Sequencer::begin_move_back(const Observation& o, const char* why) {
     return;
   }
   ground_.observe(terrain_);
-  const DigNeeds needs = needs_for(full_bucket_kg);
+  const DigNeeds needs = needs_for(full_bucket_kg_);
   const FaceReserve face = face_reserve(site_, ground_, needs.floor_guard, needs.bucket_width);
   back_m_ = back_distance(site_, face, BERM_HORN_MOVE_BACK_STEP_M, BERM_HORN_MOVE_BACK_STEPS);
   log_.event("move_back", {{"time_s", o.time_s}, {"truck", truck_}, {"distance_m", back_m_}, {"why", why}, {"face_m3", face.volume}, {"crest_m", face.crest}});

@@ -43,6 +43,7 @@ struct MachineModel {
   double boom_pin_x = 0.0, boom_pin_z = 0.0;
   double boom_length = 0.0, stick_length = 0.0, bucket_length = 0.0;
   double own_body_radius = 0.0;
+  double bucket_payload_kg = 0.0;       // what the bucket holds, heaped
   std::array<JointLimits, joints> joint;
   std::array<Cylinder, 3> cylinder;     // boom, stick, bucket
   double state_latency = 0.0, command_latency = 0.0;

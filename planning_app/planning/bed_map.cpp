@@ -5,7 +5,7 @@
 
 namespace berm::app {
 
-BedMap::BedMap(const TruckBed& bed) : bed_(bed), grid_(bed.length, bed.width), noted_(grid_), time_(grid_.height.size(), -1.0) {
+BedMap::BedMap(const TruckBed& bed, const ImplementScale& scale) : bed_(bed), scale_(scale), grid_(bed.length, bed.width), noted_(grid_), time_(grid_.height.size(), -1.0) {
   std::fill(noted_.known.begin(), noted_.known.end(), char{1});
 }
 
@@ -25,7 +25,7 @@ void BedMap::note_dump(const BedPoint& at, double mass_kg) {
   std::vector<std::size_t> covered;
   for (int row = 0; row < noted_.rows; ++row)
     for (int column = 0; column < noted_.columns; ++column)
-      if (std::fabs(noted_.u(column) - at.u) < 0.5 * dump_along && std::fabs(noted_.v(row) - at.v) < 0.5 * dump_across)
+      if (std::fabs(noted_.u(column) - at.u) < 0.5 * dump_along * scale_.width && std::fabs(noted_.v(row) - at.v) < 0.5 * dump_across * scale_.bucket)
         covered.push_back(noted_.index(column, row));
   constexpr double area = BedGrid::cell * BedGrid::cell;
   for (const std::size_t i : covered) noted_.height[i] += mass_kg / (loose_density * area * static_cast<double>(covered.size()));

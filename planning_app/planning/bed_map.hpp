@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "motion/implement_scale.hpp"
 #include "planning/bed_grid.hpp"
 #include "planning/load_balance.hpp"
 
@@ -10,7 +11,7 @@ namespace berm::app {
 
 class BedMap {
 public:
-  explicit BedMap(const TruckBed& bed);
+  explicit BedMap(const TruckBed& bed, const ImplementScale& scale = {});
 
   // Points outside the inside of the bed, a hand's breadth from the walls, are ignored.
   void insert(double x, double y, double z, double time_s);
@@ -25,13 +26,14 @@ public:
 
   const TruckBed& bed() const { return bed_; }
 
-  // What a dump covers about its point before it slides, m: the bucket's width, and the way of its lip while it pours.
+  // What a dump covers about its point before it slides, m, by the bucket's scales: its width, and the way of its lip while it pours.
   static constexpr double dump_along = 1.1, dump_across = 1.4;
   static constexpr double loose_density = 1340.0;  // kg/m3
   static constexpr double repose = 0.65;           // rise over run at which loose soil rests
 
 private:
   TruckBed bed_;
+  ImplementScale scale_;
   BedGrid grid_, noted_;
   std::vector<double> time_;  // of each cell's height; negative: never seen
   LoadMoment load_;

@@ -13,8 +13,9 @@ constexpr double enough_seen = 0.25;     // share of the cells; with less the bo
 constexpr double smoothing = 0.20;       // m, of the Gaussian
 constexpr double wall_guard = 0.25;      // of the end walls
 constexpr double side_guard = 0.05;      // of the side walls: the recogniser's deviation across the bed
-constexpr double zone_guard = 1.5;       // half the bucket, how far its tip leans out beyond the point, and the swing's way to a stop
-constexpr double pour_reach = 1.05;      // m from the dump point: a heaped bucket's first soil towards the machine, its last soil and what rolls on beyond
+// Half the bucket; how far its tip leans out beyond the point, and the swing's way to a stop.
+double zone_guard(const ImplementScale& scale) { return 0.6 * scale.width + 0.9 * scale.arm; }
+constexpr double pour_reach = 1.05;      // m from the dump point, by the bucket's scale: a heaped bucket's first soil towards the machine, its last soil and what rolls on beyond
 constexpr double most_away = 0.15;       // m from the middle line, away from the machine, in a bed that is narrower than that
 constexpr double hole_price = 0.5, slope_price = 0.1;
 constexpr double beyond_price = 0.3;     // m of height for a metre that the soil has to run
@@ -36,9 +37,9 @@ double radius_of(const TruckBed& bed, const BedPoint& p) {
 
 // How far to either side of the bed's middle line the bucket may pour: its way over the bed as it pours, and its width where the bed stands aslant.
 // Negative in a bed that is too narrow for it.
-double room_across(const TruckBed& bed, double bucket_half_width, double u) {
+double room_across(const TruckBed& bed, double bucket_half_width, const ImplementScale& scale, double u) {
   const double turned = bearing_of(bed, {u, 0.0}) - bed.yaw;
-  return 0.5 * bed.width - pour_reach * std::fabs(std::sin(turned)) - bucket_half_width * std::fabs(std::cos(turned)) - side_guard;
+  return 0.5 * bed.width - pour_reach * scale.bucket * std::fabs(std::sin(turned)) - bucket_half_width * std::fabs(std::cos(turned)) - side_guard;
 }
 
 // As near to the place as the bucket may come.
@@ -46,7 +47,7 @@ BedPoint nearest(const TruckBed& bed, const BedArea& area, const DumpNeeds& need
   constexpr double step = 0.05;
   BedPoint p{std::clamp(place.u, area.u_low, area.u_high), 0.0};
   for (;;) {
-    const double room = room_across(bed, needs.bucket_half_width, p.u);
+    const double room = room_across(bed, needs.bucket_half_width, needs.scale, p.u);
     // Away from the machine a pour reaches less far: what is too narrow for it is made up for there.
     const double away = std::sin(bearing_of(bed, {p.u, 0.0}) - bed.yaw) > 0.0 ? 1.0 : -1.0;
     p.v = room >= 0.0 ? std::clamp(place.v, -room, room) : away * std::fmin(-room, most_away);
@@ -57,9 +58,9 @@ BedPoint nearest(const TruckBed& bed, const BedArea& area, const DumpNeeds& need
 }
 
 // How far towards the machine the middle of a bucket of this much falls from where it is poured.
-double inward(double kg) {
+double inward(double kg, const ImplementScale& scale) {
   constexpr double even_kg = 1300.0, per_kg = 0.00045, most_inward = 0.11, most_outward = 0.35;
-  return std::clamp(per_kg * (kg - even_kg), -most_outward, most_inward);
+  return scale.bucket * std::clamp(per_kg * (kg / scale.load - even_kg), -most_outward, most_inward);
 }
 
 BedPoint moved_inward(const TruckBed& bed, const BedPoint& p, double distance) {
@@ -83,14 +84,15 @@ LoadMoment load_of(const BedMap& bed, const BedGrid& heights, double seen_share)
 
 }  // namespace
 
-BedArea dump_area(const TruckBed& bed, double bucket_half_width) {
+BedArea dump_area(const TruckBed& bed, double bucket_half_width, const ImplementScale& scale) {
+  const double from_zone = zone_guard(scale);
   const double farthest = std::fmax(0.0, 0.5 * bed.length - bucket_half_width - wall_guard - 2.0 * bed.end_deviation);
-  const double room = std::fmax(0.0, room_across(bed, bucket_half_width, 0.0));
-  return {std::fmin(0.0, std::fmax(-farthest, bed.zone_low + zone_guard)), std::fmax(0.0, std::fmin(farthest, bed.zone_high - zone_guard)), -room, room};
+  const double room = std::fmax(0.0, room_across(bed, bucket_half_width, scale, 0.0));
+  return {std::fmin(0.0, std::fmax(-farthest, bed.zone_low + from_zone)), std::fmax(0.0, std::fmin(farthest, bed.zone_high - from_zone)), -room, room};
 }
 
-BedPoint landing(const TruckBed& bed, const BedPoint& at, double kg) {
-  return moved_inward(bed, at, inward(kg));
+BedPoint landing(const TruckBed& bed, const BedPoint& at, double kg, const ImplementScale& scale) {
+  return moved_inward(bed, at, inward(kg, scale));
 }
 
 DumpPoint choose_dump_point(const BedMap& map, const DumpNeeds& needs) {
@@ -101,18 +103,18 @@ DumpPoint choose_dump_point(const BedMap& map, const DumpNeeds& needs) {
   point.observed = point.seen_share >= enough_seen;
   const BedGrid load_heights = point.observed ? filled(smoothed(seen, smoothing), smoothed(map.noted(), smoothing)) : smoothed(map.noted(), smoothing);
   const LoadMoment load = load_of(map, load_heights, point.observed ? point.seen_share : 0.0);
-  const BedArea area = dump_area(bed, needs.bucket_half_width);
+  const BedArea area = dump_area(bed, needs.bucket_half_width, needs.scale);
   const std::vector<double> height = convolved(load_heights, constant_template()), hole = convolved(load_heights, hole_template()),
                             along = convolved(load_heights, slope_template(true)), over = convolved(load_heights, slope_template(false));
   // Poured short of its place where it is sure to fall beyond.
-  const double lead = std::fmax(0.0, -inward(needs.most_kg));
+  const double lead = std::fmax(0.0, -inward(needs.most_kg, needs.scale));
   double least = std::numeric_limits<double>::infinity();
   for (int row = 0; row < load_heights.rows; ++row)
     for (int column = 0; column < load_heights.columns; ++column) {
       const std::size_t i = load_heights.index(column, row);
       const BedPoint cell{load_heights.u(column), load_heights.v(row)}, under = nearest(bed, area, needs, cell), at = moved_inward(bed, under, lead);
       LoadMoment with = load;
-      with.add(landing(bed, at, needs.dump_kg), needs.dump_kg);
+      with.add(landing(bed, at, needs.dump_kg, needs.scale), needs.dump_kg);
       const double offset = std::fmax(0.0, least_final_offset(with, needs.rest_kg, area) - offset_limit);
       const double price = height[i] - hole_price * hole[i] + slope_price * std::hypot(along[i], over[i]) + beyond_price * std::hypot(under.u - cell.u, under.v - cell.v) +
                            offset_price * offset + middle_price * std::hypot(under.u, under.v);

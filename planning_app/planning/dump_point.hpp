@@ -13,12 +13,14 @@
 
 #include <limits>
 
+#include "motion/implement_scale.hpp"
 #include "planning/bed_map.hpp"
 
 namespace berm::app {
 
 struct DumpNeeds {
   double bucket_half_width = 0.0;  // m
+  ImplementScale scale;
   double since_s = 0.0;            // how new a bed cell must be to count
   double dump_kg = 0.0;            // in the bucket, as planned
   double most_kg = std::numeric_limits<double>::infinity();  // what may be in it at most
@@ -40,9 +42,9 @@ DumpPoint choose_dump_point(const BedMap& bed, const DumpNeeds& needs);
 
 // Where the middle of a bucket of this much falls that is poured at a point: a heaped one begins to pour when it has hardly tilted, its lip still towards
 // the machine; a small load slides only when the lip has passed the point.
-BedPoint landing(const TruckBed& bed, const BedPoint& at, double kg);
+BedPoint landing(const TruckBed& bed, const BedPoint& at, double kg, const ImplementScale& scale = {});
 
 // Where a dump point may be along the bed, and across it at its middle.
-BedArea dump_area(const TruckBed& bed, double bucket_half_width);
+BedArea dump_area(const TruckBed& bed, double bucket_half_width, const ImplementScale& scale = {});
 
 }  // namespace berm::app

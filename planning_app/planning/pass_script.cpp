@@ -3,23 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/implement_scale.hpp"
+
 namespace berm::app {
 
 namespace {
 
 constexpr double range_guard = radians(7.5);      // a standing joint's stop travel stays inside its range
-constexpr double pin_over_top = 2.90;             // bucket pin above what it passes over: the bucket's circle, the spread of a stop, the margin
+// Bucket pin above what it passes over: the bucket's circle, the margin, the spread of a stop.
+double pin_over_top(const ImplementScale& scale) { return 1.6 * scale.bucket + 0.4 + 0.9 * scale.arm; }
 constexpr double highest_top = 1.2;               // z; over anything higher the pass is not tried higher
 constexpr double reach_step = 0.05;               // m, of the search for a reach
 constexpr double most_short = 0.4;                // m, that a load is spilled short of where it is meant to be: else a bed's far end gets none
-constexpr double carry_radius = 6.4;              // of the bucket pin, m
-constexpr double back_radius = 6.3;
+constexpr double carry_radius = 6.4;              // of the bucket pin, m; by the scale of the arm
+constexpr double back_radius = 6.3;               // the same
 constexpr double attitude_carry = radians(-178.0);
 constexpr double attitude_pour = radians(-145.0); // the load begins to slide
 constexpr double attitude_open = radians(-48.0);
 constexpr double attitude_back = radians(-122.0);
 constexpr double attitude_dig = radians(-92.0);
-constexpr double spill_ahead = 0.55;              // pin beyond the dump point while the lip points inward ...
+constexpr double spill_ahead = 0.55;              // pin beyond the dump point while the lip points inward, by the scale of the bucket ...
 constexpr double dump_behind = 0.25;              // ... and short of it when the bucket hangs open, lip outward
 constexpr double dig_above = 0.30;                // tip over the entry of the drag
 constexpr double hover_above = 1.60;              // tip over the bench's level while the swing lands: heaps on the crest, the margin, the spread of a stop
@@ -58,11 +61,12 @@ double side_of(const PassTask& task) { return task.truck_bearing >= task.lifted_
 }  // namespace
 
 std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask& task) {
-  const double pin_z = std::clamp(task.truck_top, task.wall_top, std::max(task.wall_top, highest_top)) + pin_over_top;
-  const auto carry = pose_near(machine, {carry_radius, pin_z}, attitude_carry);
-  const auto spill = pose_near(machine, {task.dump_radius + spill_ahead, pin_z}, attitude_carry);
-  const auto dump = pose_near(machine, {task.dump_radius - dump_behind, pin_z}, attitude_open);
-  const auto back = pose_near(machine, {back_radius, pin_z}, attitude_back);
+  const ImplementScale scale = scale_of(machine);
+  const double pin_z = std::clamp(task.truck_top, task.wall_top, std::max(task.wall_top, highest_top)) + pin_over_top(scale);
+  const auto carry = pose_near(machine, {carry_radius * scale.arm, pin_z}, attitude_carry);
+  const auto spill = pose_near(machine, {task.dump_radius + spill_ahead * scale.bucket, pin_z}, attitude_carry);
+  const auto dump = pose_near(machine, {task.dump_radius - dump_behind * scale.bucket, pin_z}, attitude_open);
+  const auto back = pose_near(machine, {back_radius * scale.arm, pin_z}, attitude_back);
   const auto hover = tip_pose_near(machine, {task.next_entry.r, hover_above}, attitude_dig);
   const auto dig = tip_pose_near(machine, {task.next_entry.r, task.next_entry.z + dig_above}, attitude_dig);
   if (!carry || !spill || !dump || !back || !hover || !dig) return std::nullopt;
@@ -71,8 +75,9 @@ std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask&
 }
 
 double farthest_dump(const MachineModel& machine, double wall_top) {
-  double radius = carry_radius;
-  while (pose_at(machine, {radius + reach_step + spill_ahead, wall_top + pin_over_top}, attitude_carry)) radius += reach_step;
+  const ImplementScale scale = scale_of(machine);
+  double radius = carry_radius * scale.arm;
+  while (pose_at(machine, {radius + reach_step + spill_ahead * scale.bucket, wall_top + pin_over_top(scale)}, attitude_carry)) radius += reach_step;
   return radius + most_short;
 }
 
@@ -108,7 +113,8 @@ std::vector<ScriptAngle> approach_angles(const ApproachTask& task, const Approac
 }
 
 std::optional<Script> approach_script(const ScriptSet& scripts, const MachineModel& machine, const ApproachTask& task) {
-  const auto back = pose_near(machine, {back_radius, task.top + pin_over_top}, attitude_back);
+  const ImplementScale scale = scale_of(machine);
+  const auto back = pose_near(machine, {back_radius * scale.arm, task.top + pin_over_top(scale)}, attitude_back);
   const auto dig = task.entry ? tip_pose_near(machine, {task.entry->r, task.entry->z + dig_above}, attitude_dig) : back;
   if (!back || !dig) return std::nullopt;
   return scripts.approach.bind(values_of(approach_angles(task, {*back, *dig})), task.bearing >= task.from[swing] ? 1.0 : -1.0);

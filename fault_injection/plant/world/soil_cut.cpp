@@ -10,7 +10,7 @@ namespace {
 constexpr double full_rate = 0.5;    // bank m3/s at which the resistance is fully felt
 constexpr double rate_time = 0.10;   // s, smoothing of the rate
 constexpr double least_factor = 0.35;
-constexpr double stall_force = 120e3;  // N at the edge that stops a machine of the 20 t class
+constexpr double stall_force_per_payload = 120e3 / 1800.0;  // N at the edge that stop a machine, a kg of its heaviest payload
 constexpr double edge_at_rest = 0.01;  // m/s
 constexpr double push_near = 0.05, push_far = 0.45;  // where pushed soil lands ahead of the bucket, m
 constexpr double inf = std::numeric_limits<double>::infinity();
@@ -156,7 +156,7 @@ void SoilCut::empty(const BucketPose& now, double dt, const Terrain& terrain, Bu
 
 EdgeForce SoilCut::edge_force(const BucketPose& before, const BucketPose& now, double dt, double speed_factor) const {
   const Vec3 v = motion(before, now, dt);
-  const double speed = std::max(edge_at_rest, std::hypot(v.x, v.z)), force = (1.0 - speed_factor) * stall_force;
+  const double speed = std::max(edge_at_rest, std::hypot(v.x, v.z)), force = (1.0 - speed_factor) * stall_force_per_payload * shape_.bucket_payload_max_kg;
   return {-force * v.x / speed, -force * v.z / speed};
 }
 

@@ -65,6 +65,8 @@ const std::vector<BadEdit>& bad_machine_edits() {
       {"speed zero", "velocity_max_deg_s = 50.0", "velocity_max_deg_s = 0.0", "joint.swing.velocity_max_deg_s", "outside 1 .. 180"},
       {"creep too fast", "creep_deg_s = 5.0", "creep_deg_s = 16.0", "joint.stick.creep_deg_s", "outside"},
       {"creep above full speed", "velocity_max_deg_s = 50.0", "velocity_max_deg_s = 2.0", "joint.swing.creep_deg_s", "above"},
+      {"bucket that holds nothing", "payload_kg = 1600.0", "payload_kg = 0.0", "bucket.payload_kg", "outside 50 .. 50000"},
+      {"bucket of unknown content", "payload_kg = 1600.0", "", "bucket.payload_kg", "is missing"},
       {"negative latency", "command = 0.09", "command = -0.09", "latency.command", "outside 0 .. 1"},
       {"no provenance", "provenance =", "source =", "braking.provenance", "is missing"},
       {"reach falls", "reach_m = [5.5, 6.5, 7.5, 10.5]", "reach_m = [5.5, 7.5, 6.5, 10.5]", "braking.reach_m", "rise"},

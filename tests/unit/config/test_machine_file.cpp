@@ -22,6 +22,7 @@ TEST(MachineFileTest, TheDefaultInSiUnits) {
   EXPECT_DOUBLE_EQ(m.joint[2].high, -45.0 * kPi / 180.0);
   EXPECT_DOUBLE_EQ(m.joint[0].velocity_max, 50.0 * kPi / 180.0);
   EXPECT_DOUBLE_EQ(m.joint[3].acceleration_max, 4.64);
+  EXPECT_DOUBLE_EQ(m.bucket_payload, 1600.0);
   EXPECT_DOUBLE_EQ(m.command_latency, 0.09);
   ASSERT_EQ(m.braking.reach.size(), 4u);
   EXPECT_DOUBLE_EQ(m.braking.angle[0][3][7], 102.87 * kPi / 180.0);
