@@ -86,6 +86,7 @@ class LoadRun {
     site_ = find_site(names.site);
     if (!options_.soil.empty()) soil_ = find_soil(options_.soil);
     check_scenario(scenario);
+    check_scripts();
     prepare_out();
     begin_ = Clock::now();
     start_processes(scenario);
@@ -105,6 +106,18 @@ class LoadRun {
     plant.start(check);
     if (!plant.wait_ended(kConnectPatience_s)) throw std::runtime_error("the plant does not end its check of the scenario");
     if (plant.exit_status() != 0) throw ToldAlready();
+  }
+
+  // The same of the app's scripts.
+  void check_scripts() {
+    if (options_.scripts.empty()) return;
+    ChildProcess checker;
+    ChildOptions check;
+    check.program = program_folder() + "/berm_scripts";
+    check.arguments = {"--quiet", options_.scripts};
+    checker.start(check);
+    if (!checker.wait_ended(kConnectPatience_s)) throw std::runtime_error("berm_scripts does not end");
+    if (checker.exit_status() != 0) throw ToldAlready();
   }
 
   void append_soil(ChildOptions& plant) const {
@@ -144,9 +157,13 @@ class LoadRun {
     std::filesystem::copy_file(machine_, folder_.file("machine.toml"));
     std::filesystem::copy_file(site_, folder_.file("site.toml"));
     std::filesystem::copy_file(truck_classes_file(), folder_.file("truck_classes.toml"));
+    std::filesystem::create_directory(folder_.file("scripts"));
+    for (const char* name : {"pass.script", "approach.script"})
+      std::filesystem::copy_file((options_.scripts.empty() ? scripts_folder() : options_.scripts) + "/" + name, folder_.file("scripts") + "/" + name);
     ChildOptions app;
     app.program = program_folder() + "/berm_app";
     app.arguments = {"--machine", folder_.file("machine.toml"), "--site", folder_.file("site.toml"), "--truck-classes", folder_.file("truck_classes.toml"),
+                     "--scripts", folder_.file("scripts"),
                      "--socket", folder_.file("kernel.sock"), "--trucks", std::to_string(options_.trucks), "--tick-fd", std::to_string(kTickDescriptor)};
     if (!options_.realtime) app.arguments.push_back("--lockstep");
     app.descriptors = {{ticks.second(), kTickDescriptor}};

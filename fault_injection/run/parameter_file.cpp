@@ -34,6 +34,7 @@ std::string find_file(const std::string& kind, const std::string& folder, const 
 std::string find_machine(const std::string& name) { return find_file("machine", "interface_spec/config/machines", name); }
 std::string find_site(const std::string& name) { return find_file("site", "interface_spec/config/sites", name); }
 std::string truck_classes_file() { return find_file("truck classes", "interface_spec/config", "truck_classes"); }
+std::string scripts_folder() { return (std::filesystem::path(BERM_DATA_DIR) / "planning_app/scripts").string(); }
 std::string find_scenario(const std::string& name) { return find_file("scenario", "fault_injection/scenarios", name); }
 std::string find_soil(const std::string& name) { return find_file("soil", "fault_injection/soils", name); }
 

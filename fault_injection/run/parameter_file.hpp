@@ -13,6 +13,8 @@ std::string find_scenario(const std::string& name);
 std::string find_soil(const std::string& name);
 // The classes of trucks that the app recognises.
 std::string truck_classes_file();
+// The folder of the app's scripts.
+std::string scripts_folder();
 
 // A child process has told on standard error what is wrong; nothing more is to be said.
 class ToldAlready : public std::exception {

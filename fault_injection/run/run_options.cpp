@@ -30,6 +30,7 @@ std::optional<int> read_options(int argc, char** argv, RunOptions& options) {
                "Exit status 0: every truck was loaded to at least 95 % of its target, nothing was touched, the kernel saw no fault.",
                "berm load"};
   app.add_option("--scenario", options.scenario, "a name (bench, person, ...) or a TOML file")->capture_default_str();
+  app.add_option("--scripts", options.scripts, "folder of other scripts than the app's own (pass.script, approach.script)");
   app.add_option("--soil", options.soil, "another soil than the scenario's: sandy_clay, dry_sand, sticky_clay, frozen_crust, or a TOML file");
   app.add_option("--trucks", options.trucks, "trucks to load")->capture_default_str()->check(CLI::Range(1, 100));
   app.add_option("--seed", options.seed, "seed of every random draw")->capture_default_str();

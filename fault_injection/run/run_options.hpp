@@ -17,6 +17,7 @@ struct ProcessFault {
 
 struct RunOptions {
   std::string scenario = "bench";
+  std::string scripts;  // a folder; empty: the app's own
   std::string soil;  // a name or a TOML file; empty: the scenario's own
   int trucks = 1;
   std::uint64_t seed = 1;

@@ -22,7 +22,7 @@ volatile std::sig_atomic_t stop_requested = 0;  // set by a signal handler, whic
 void on_signal(int) { stop_requested = 1; }
 
 struct Options {
-  std::string machine, site, truck_classes, socket;
+  std::string machine, site, truck_classes, scripts, socket;
   int trucks = 1;
   int tick_fd = -1;
   bool lockstep = false;
@@ -35,11 +35,12 @@ int run(const Options& options) {
   close_all_but(keep);
   const MachineModel machine = machine_model(berm::config::load_machine_file(options.machine));
   const SiteModel site = site_model(berm::config::load_site_file(options.site));
+  const ScriptSet scripts = read_scripts(options.scripts);
   const ProgressLog log(1);
   constexpr double lockstep_answer_s = 0.2;  // from a sweep to its truck; twice what it takes
   const auto lockstep_cycles = static_cast<std::uint64_t>(options.lockstep ? std::ceil(lockstep_answer_s / machine.cycle) : 0.0);
   RecognitionThread finder(read_truck_ranges(options.truck_classes), lockstep_cycles);
-  Sequencer sequencer(machine, site, options.trucks, finder, log);
+  Sequencer sequencer(machine, site, options.trucks, scripts, finder, log);
   KernelLink link(options.socket);
   keep.push_back(link.socket_fd());
   close_all_but(keep);
@@ -65,6 +66,7 @@ int main(int argc, char** argv) {
   cli.add_option("--machine", options.machine, "machine file (TOML)")->required()->check(CLI::ExistingFile);
   cli.add_option("--site", options.site, "site file (TOML)")->required()->check(CLI::ExistingFile);
   cli.add_option("--truck-classes", options.truck_classes, "file of truck classes that are recognised (TOML)")->required()->check(CLI::ExistingFile);
+  cli.add_option("--scripts", options.scripts, "folder of the scripts, pass.script and approach.script")->required()->check(CLI::ExistingDirectory);
   cli.add_option("--socket", options.socket, "the kernel's Unix socket")->required();
   cli.add_option("--trucks", options.trucks, "trucks to load")->check(CLI::Range(1, 1000));
   cli.add_option("--tick-fd", options.tick_fd, "inherited SOCK_SEQPACKET descriptor for the simulation's tick")->check(CLI::Range(3, 1 << 20));

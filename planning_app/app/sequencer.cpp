@@ -9,7 +9,7 @@ namespace berm::app {
 
 namespace {
 
-constexpr double script_period = 0.1;             // s
+constexpr double script_period = 0.02;            // s; the paper has 0.1 (4.4), and each rule that waits for a crossing then comes half of that late
 constexpr double skyline_period = 0.5;
 constexpr double arrived = radians(1.5);
 constexpr double still = radians(0.8);            // rad/s
@@ -25,8 +25,8 @@ const char* phase_name(std::uint16_t phase) {
 
 }  // namespace
 
-Sequencer::Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, TruckFinder& finder, const ProgressLog& log)
-    : machine_(machine), scale_(scale_of(machine)), heaped_kg_(machine.bucket_payload_kg), full_bucket_kg_(full_share * heaped_kg_), site_(site), log_(log), trucks_(trucks), arm_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_),
+Sequencer::Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, const ScriptSet& scripts, TruckFinder& finder, const ProgressLog& log)
+    : scripts_(scripts), machine_(machine), scale_(scale_of(machine)), heaped_kg_(machine.bucket_payload_kg), full_bucket_kg_(full_share * heaped_kg_), site_(site), log_(log), trucks_(trucks), ground_(site_), arm_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_),
       load_check_(scale_.load), fill_(site.place.target_kg, full_bucket_kg_) {
   scanners_.begin_full_sweep();
   dig_.bearing = site.dig_swing_right - radians(60.0);  // no dig before the first: nothing to stay away from
@@ -50,6 +50,7 @@ void Sequencer::look(const Observation& o) {
 }
 
 void Sequencer::begin_script(const Script& script) {
+  if (const std::string wrong = goal_out_of_range(machine_, script); !wrong.empty()) log_.event("script_goal", {{"goal", wrong}});
   script_ = script;
   script_.start();
   script_s_ = -1.0;
@@ -60,7 +61,7 @@ void Sequencer::begin_approach(const Observation& o, bool lower) {
   plan_next_dig(o);
   std::optional<PlanePoint> entry;
   if (lower) entry = PlanePoint{dig_.drag.front().r, dig_.drag.front().z};
-  const auto script = approach_script(machine_, {o.angle, dig_.bearing, site_.bed->wall_top, entry});
+  const auto script = approach_script(scripts_, machine_, {o.angle, dig_.bearing, site_.bed->wall_top, entry});
   if (!script) {
     log_.event("unreachable", {{"time_s", o.time_s}, {"what", "start of the dig"}});
     return;
@@ -73,7 +74,7 @@ void Sequencer::begin_approach(const Observation& o, bool lower) {
 // Raised, to where the scanner on the truck's side sees the whole place.
 void Sequencer::begin_look(const Observation& o) {
   constexpr double over_heaps = 0.4;  // z, on the ground that it stands on
-  const auto script = approach_script(machine_, {o.angle, look_.bearing(), over_heaps, std::nullopt});
+  const auto script = approach_script(scripts_, machine_, {o.angle, look_.bearing(), over_heaps, std::nullopt});
   if (!script) {
     log_.event("unreachable", {{"time_s", o.time_s}, {"what", "where the truck is looked for"}});
     return;
@@ -166,7 +167,7 @@ Joints Sequencer::settle(const Observation& o) {
 
 std::uint32_t Sequencer::pass_events(const Observation& o) {
   constexpr double open_at_least = 0.25, open_at_most = 2.0, empty_share = 0.05;
-  const bool opening = script_.of(bucket).active() >= opening_rule;
+  const bool opening = script_.of(bucket).reached(RuleMark::opens);
   const std::uint32_t weighed = load_check_.passed() ? event_weighed : event_none;
   if (!opening || emptied_) return emptied_ ? event_emptied | weighed : weighed;
   if (open_since_s_ < 0.0 && o.angle[bucket] > poses_.dump[bucket] - radians(30.0)) open_since_s_ = o.time_s;
@@ -185,10 +186,9 @@ Joints Sequencer::pass(const Observation& o) {
   const double tilt = load_check_.step({o.time_s, o.payload_kg, forward(machine_, o.angle).bucket_attitude, raised}, fill_, log_);
   Joints command = run_script(o, pass_events(o));
   if (tilt >= 0.0) command[bucket] = tilt;
-  const int swing_rule = script_.of(swing).active();
-  if (swing_rule == 0) enter_phase(BERM_PHASE_LIFT, o);
-  else if (swing_rule >= 2) enter_phase(BERM_PHASE_SWING_TO_DIG, o);
-  else enter_phase(script_.of(bucket).active() >= opening_rule ? BERM_PHASE_DUMP : BERM_PHASE_SWING_TO_TRUCK, o);
+  if (!script_.of(swing).reached(RuleMark::leaves)) enter_phase(BERM_PHASE_LIFT, o);
+  else if (script_.of(swing).reached(RuleMark::returns)) enter_phase(BERM_PHASE_SWING_TO_DIG, o);
+  else enter_phase(script_.of(bucket).reached(RuleMark::opens) ? BERM_PHASE_DUMP : BERM_PHASE_SWING_TO_TRUCK, o);
   if (phase_ == BERM_PHASE_SWING_TO_TRUCK) before_.add(o.payload_kg);
   if (phase_ == BERM_PHASE_SWING_TO_DIG) after_.add(o.payload_kg);
   const Joints goals = script_.goals();
@@ -203,7 +203,10 @@ void Sequencer::end_pass(const Observation& o) {
   const double had = fill_.loaded_kg();
   fill_.add_pass(before, after);
   const double payload = fill_.loaded_kg() - had;
-  if (weighed) learn_yield(std::max(before, load_check_.lifted_kg()));
+  if (weighed) {
+    learn_yield(std::max(before, load_check_.lifted_kg()));
+    filled_.learn(std::max(before, load_check_.lifted_kg()), heaped_kg_);
+  }
   poor_passes_ = payload < poor_share * goal_kg_ ? poor_passes_ + 1 : 0;
   bed_->note_dump(landing(*site_.bed, dump_.at, payload, scale_), payload);
   ++pass_;
@@ -303,6 +306,7 @@ Answer Sequencer::step(const Observation& o) {
   recent_.add(o.payload_kg);
   look(o);
   hear(o);
+  feel(o);
   Answer answer;
   const Recovery::Advice advice = recovery_.step(o, log_);
   if (advice.rescan) scanners_.begin_full_sweep();

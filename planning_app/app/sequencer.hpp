@@ -12,6 +12,7 @@
 #include "app/truck_look.hpp"
 #include "app/weighing.hpp"
 #include "motion/dig_path.hpp"
+#include "motion/soil_force.hpp"
 #include "perception/kernel_map.hpp"
 #include "planning/bed_map.hpp"
 #include "planning/dig_point.hpp"
@@ -23,8 +24,8 @@ namespace berm::app {
 
 class Sequencer {
 public:
-  // finder must outlive it.
-  Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, TruckFinder& finder, const ProgressLog& log);
+  // scripts and finder must outlive it.
+  Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, const ScriptSet& scripts, TruckFinder& finder, const ProgressLog& log);
 
   Sequencer(const Sequencer&) = delete;  // parts of it point into it
   Sequencer& operator=(const Sequencer&) = delete;
@@ -56,7 +57,9 @@ private:
   void plan_next_dig(const Observation& o);
   DigNeeds needs_for(double kg) const;
   void note_cut(const Observation& o);
+  void feel(const Observation& o);            // the implements' weight, or how hard the soil resists
   void learn_yield(double weighed_kg);
+  void hold_fill(double in_bucket_kg);
   void begin_script(const Script& script);
   void begin_approach(const Observation& o, bool lower);
   void begin_look(const Observation& o);
@@ -73,6 +76,7 @@ private:
   void log_held(const Observation& o, const Joints& wanted) const;
   Joints slowed(const Observation& o, const Joints& wanted);
 
+  const ScriptSet& scripts_;
   MachineModel machine_;
   ImplementScale scale_;
   double heaped_kg_;                          // what the bucket holds
@@ -83,6 +87,7 @@ private:
 
   KernelMap kernel_map_;
   TerrainMap terrain_;
+  DigGround ground_;
   std::optional<BedMap> bed_;
   std::optional<Skyline> skyline_;
   double skyline_s_ = 0.0;
@@ -104,6 +109,10 @@ private:
   std::uint16_t phase_ = BERM_PHASE_WAIT;
   DigPlan dig_;
   std::optional<CutModel> cut_;               // of this dig
+  ImplementWeight weight_;
+  DigFill filled_;                            // of this dig, by force
+  std::vector<double> planned_fill_;          // of this dig: bank m3 in the bucket, evenly along its path
+  bool holds_nothing_ = true;
   double yield_ = 1.0;                        // what a modelled cubic metre brings, of what bank soil weighs
   double held_since_s_ = -1.0;                // by the guard
   bool looked_ = false;

@@ -52,6 +52,10 @@ void JointScript::evaluate(const Joints& angle, std::uint32_t events) {
   arm();
 }
 
+bool JointScript::reached(RuleMark mark) const {
+  return std::any_of(rules_.begin(), rules_.begin() + active_ + 1, [mark](const Rule& rule) { return rule.mark == mark; });
+}
+
 bool JointScript::waited_for(Joint joint) const {
   const std::vector<Condition>& conditions = rules_[static_cast<std::size_t>(active_)].conditions;
   return std::any_of(conditions.begin(), conditions.end(), [joint](const Condition& c) { return c.joint == joint; });

@@ -32,12 +32,22 @@ struct Condition {
   double tolerance = 0.0;
 };
 
+// What the app has to know of a rule besides its motion.
+enum class RuleMark {
+  none,
+  leaves,   // the swing goes to the truck
+  extends,  // boom or stick reaches out to the spill point
+  opens,    // the bucket opens over the bed
+  returns   // the swing goes back to the dig
+};
+
 struct Rule {
   std::string name;
   std::vector<Condition> conditions;    // all must hold
   std::uint32_t events = event_none;    // all must have happened
   double goal = 0.0;
   double pace = 1.0;                    // share of the joint's speed limit: gentle where a fast stop would reach too far
+  RuleMark mark = RuleMark::none;
 };
 
 // The script of one joint. The first rule becomes active at the start ("when digging finishes"); its conditions are not looked at.
@@ -53,6 +63,8 @@ public:
   bool running() const { return active_ >= 0; }
   int active() const { return active_; }  // -1 before the start
   bool at_last() const { return active_ + 1 == static_cast<int>(rules_.size()); }
+  // Whether the rule with this mark is active, or has been.
+  bool reached(RuleMark mark) const;
   // Whether the active rule waited for this joint's angle: what it does then is meant for how that joint moves.
   bool waited_for(Joint joint) const;
   double pace() const { return rules_[static_cast<std::size_t>(active_)].pace; }
@@ -73,7 +85,7 @@ public:
   explicit Script(std::array<JointScript, joints> scripts) : scripts_(std::move(scripts)) {}
 
   void start();
-  void evaluate(const Joints& angle, std::uint32_t events);  // at 10 Hz
+  void evaluate(const Joints& angle, std::uint32_t events);  // at a fixed rate
   bool running() const { return scripts_[swing].running(); }
   Joints goals() const;
   Joints paces() const;

@@ -9,8 +9,6 @@ namespace berm::app {
 
 namespace {
 
-using Relation = Condition::Relation;
-
 constexpr double range_guard = radians(7.5);      // a standing joint's stop travel stays inside its range
 // Bucket pin above what it passes over: the bucket's circle, the margin, the spread of a stop.
 double pin_over_top(const ImplementScale& scale) { return 1.6 * scale.bucket + 0.4 + 0.9 * scale.arm; }
@@ -28,9 +26,7 @@ constexpr double spill_ahead = 0.55;              // pin beyond the dump point w
 constexpr double dump_behind = 0.25;              // ... and short of it when the bucket hangs open, lip outward
 constexpr double dig_above = 0.30;                // tip over the entry of the drag
 constexpr double hover_above = 1.60;              // tip over the bench's level while the swing lands: heaps on the crest, the margin, the spread of a stop
-constexpr double spill_pace = 0.6;
 constexpr double arrived = radians(1.0);
-constexpr double over_the_dig = radians(2.0);     // from here the swing is slower than the dig zone's limit
 
 // Pose with the pin at the point and the attitude as wanted, or as near as the bucket's range allows.
 std::optional<Joints> pose_at(const MachineModel& machine, const PlanePoint& pin, double attitude) {
@@ -53,7 +49,14 @@ std::optional<Joints> tip_pose_near(const MachineModel& machine, const PlanePoin
   return std::nullopt;
 }
 
-Condition when(Joint joint, Relation relation, double threshold, double tolerance = 0.0) { return {joint, relation, threshold, tolerance}; }
+std::vector<double> values_of(const std::vector<ScriptAngle>& angles) {
+  std::vector<double> values;
+  for (const ScriptAngle& a : angles) values.push_back(a.value);
+  return values;
+}
+
+// The truck stands to the left of the dig, 1, or to its right, -1: the script's comparisons turn round with it.
+double side_of(const PassTask& task) { return task.truck_bearing >= task.lifted_from[swing] ? 1.0 : -1.0; }
 
 }  // namespace
 
@@ -78,66 +81,47 @@ double farthest_dump(const MachineModel& machine, double wall_top) {
   return radius + most_short;
 }
 
-Script pass_script(const MachineModel& machine, const PassTask& task, const PassPoses& p, const PassThresholds& t) {
+std::vector<ScriptAngle> pass_angles(const MachineModel& machine, const PassTask& task, const PassPoses& p, const PassThresholds& t) {
   const double bucket_low = machine.joint[bucket].low + range_guard;
-  // The truck stands to the left of the dig, or to its right: the comparisons turn round with it.
-  const double side = task.truck_bearing >= task.lifted_from[swing] ? 1.0 : -1.0;
-  const Relation past = side > 0.0 ? Relation::above : Relation::below;
-  const Relation back_past = side > 0.0 ? Relation::falls_below : Relation::rises_above;
-  const double extend = task.truck_bearing - side * t.extend_offset;
-  const double open = task.truck_bearing - side * t.open_offset;
   // A little beyond level, for the raising boom tilts the bucket back.
   const double curl = std::max(attitude_carry - radians(5.0) - task.lifted_from[boom] - task.lifted_from[stick], bucket_low);
-  const double reach_out = task.next_bearing + side * t.hover_offset;
-  const Condition over_dig = when(swing, Relation::near, task.next_bearing, over_the_dig);
-  return Script({
-      JointScript({{"digging finished: wait", {}, event_none, task.lifted_from[swing]},
-                   {"boom high: swing to truck", {when(boom, Relation::above, t.swing_start_boom)}, event_weighed, task.truck_bearing},
-                   {"emptied: swing to dig", {}, event_emptied, task.next_bearing},
-                   {"over the dig: stop and dig", {when(swing, Relation::near, task.next_bearing, arrived)}, event_none, task.next_bearing}}),
-      JointScript({{"digging finished: raise", {}, event_none, p.carry[boom]},
-                   {"near the truck: spill height", {when(swing, past, extend)}, event_none, p.spill[boom], spill_pace},
-                   {"pouring: dump height", {when(bucket, Relation::above, t.pour_bucket)}, event_none, p.dump[boom], 0.5},
-                   {"emptied: raise", {}, event_emptied, p.back[boom]},
-                   {"near the dig: hover", {when(swing, back_past, reach_out)}, event_none, p.hover[boom]},
-                   {"over the dig: lower", {over_dig}, event_none, p.dig[boom]}}),
-      JointScript({{"digging finished: wait", {}, event_none, task.lifted_from[stick]},
-                   {"boom high: fold", {when(boom, Relation::above, t.fold_boom)}, event_none, p.carry[stick], 0.6},
-                   {"near the truck: spill point", {when(swing, past, extend)}, event_none, p.spill[stick], spill_pace},
-                   {"pouring: dump point", {when(bucket, Relation::above, t.pour_bucket)}, event_none, p.dump[stick], 0.4},
-                   {"emptied: fold", {}, event_emptied, p.back[stick], 0.7},
-                   {"near the dig: hover", {when(swing, back_past, reach_out)}, event_none, p.hover[stick]},
-                   {"over the dig: move to dig", {over_dig}, event_none, p.dig[stick]}}),
-      JointScript({{"digging finished: curl", {}, event_none, curl},
-                   {"boom high: keep level", {when(boom, Relation::above, t.fold_boom)}, event_none, p.carry[bucket]},
-                   {"near the truck: keep level", {when(swing, past, extend)}, event_none, p.spill[bucket]},
-                   {"over the bed: open", {when(swing, past, open), when(stick, Relation::above, t.open_stick)}, event_none, p.dump[bucket]},
-                   {"emptied: half curl", {}, event_emptied, p.back[bucket], 0.7},
-                   {"near the dig: hover", {when(swing, back_past, reach_out)}, event_none, p.hover[bucket]},
-                   {"over the dig: move to dig", {over_dig}, event_none, p.dig[bucket]}}),
-  });
+  const double side = side_of(task);
+  return {{"lifted_swing", swing, task.lifted_from[swing]}, {"lifted_boom", boom, task.lifted_from[boom]}, {"lifted_stick", stick, task.lifted_from[stick]},
+          {"lifted_bucket", bucket, task.lifted_from[bucket]},
+          {"truck_bearing", swing, task.truck_bearing}, {"next_bearing", swing, task.next_bearing},
+          {"extend_bearing", swing, task.truck_bearing - side * t.extend_offset}, {"open_bearing", swing, task.truck_bearing - side * t.open_offset},
+          {"reach_out_bearing", swing, task.next_bearing + side * t.hover_offset},
+          {"swing_start_boom", boom, t.swing_start_boom}, {"fold_boom", boom, t.fold_boom}, {"open_stick", stick, t.open_stick}, {"pour_bucket", bucket, t.pour_bucket},
+          {"curl_bucket", bucket, curl},
+          {"carry_boom", boom, p.carry[boom]}, {"carry_stick", stick, p.carry[stick]}, {"carry_bucket", bucket, p.carry[bucket]},
+          {"spill_boom", boom, p.spill[boom]}, {"spill_stick", stick, p.spill[stick]}, {"spill_bucket", bucket, p.spill[bucket]},
+          {"dump_boom", boom, p.dump[boom]}, {"dump_stick", stick, p.dump[stick]}, {"dump_bucket", bucket, p.dump[bucket]},
+          {"back_boom", boom, p.back[boom]}, {"back_stick", stick, p.back[stick]}, {"back_bucket", bucket, p.back[bucket]},
+          {"hover_boom", boom, p.hover[boom]}, {"hover_stick", stick, p.hover[stick]}, {"hover_bucket", bucket, p.hover[bucket]},
+          {"dig_boom", boom, p.dig[boom]}, {"dig_stick", stick, p.dig[stick]}, {"dig_bucket", bucket, p.dig[bucket]}};
 }
 
-std::optional<Script> approach_script(const MachineModel& machine, const ApproachTask& task) {
+Script pass_script(const ScriptSet& scripts, const MachineModel& machine, const PassTask& task, const PassPoses& poses, const PassThresholds& thresholds) {
+  return scripts.pass.bind(values_of(pass_angles(machine, task, poses, thresholds)), side_of(task));
+}
+
+std::vector<ScriptAngle> approach_angles(const ApproachTask& task, const ApproachPoses& p) {
+  return {{"from_swing", swing, task.from[swing]}, {"from_boom", boom, task.from[boom]}, {"from_stick", stick, task.from[stick]}, {"from_bucket", bucket, task.from[bucket]},
+          {"bearing", swing, task.bearing},
+          {"back_boom", boom, p.back[boom]}, {"back_stick", stick, p.back[stick]}, {"back_bucket", bucket, p.back[bucket]},
+          {"end_boom", boom, p.end[boom]}, {"end_stick", stick, p.end[stick]}, {"end_bucket", bucket, p.end[bucket]}};
+}
+
+std::optional<Script> approach_script(const ScriptSet& scripts, const MachineModel& machine, const ApproachTask& task) {
   const ImplementScale scale = scale_of(machine);
   const auto back = pose_near(machine, {back_radius * scale.arm, task.top + pin_over_top(scale)}, attitude_back);
   const auto dig = task.entry ? tip_pose_near(machine, {task.entry->r, task.entry->z + dig_above}, attitude_dig) : back;
   if (!back || !dig) return std::nullopt;
-  const Joints& end = *dig;
-  const Condition high = when(boom, Relation::above, (*back)[boom] - radians(2.0));
-  const Condition over = when(swing, Relation::near, task.bearing, arrived);
-  const Condition folded = when(stick, Relation::near, (*back)[stick], radians(8.0));
-  // The stick moves only with the boom up: a folded bucket low over the bench would meet it.
-  return Script({
-      JointScript({{"wait", {}, event_none, task.from[swing]}, {"high and folded: swing to dig", {high, folded}, event_none, task.bearing}}),
-      JointScript({{"raise", {}, event_none, (*back)[boom]}, {"over the dig: lower", {over, high, folded}, event_none, end[boom]}}),
-      JointScript({{"wait", {}, event_none, task.from[stick]}, {"high: fold", {high}, event_none, (*back)[stick]}, {"over the dig: move to dig", {over, folded}, event_none, end[stick]}}),
-      JointScript({{"wait", {}, event_none, task.from[bucket]}, {"high: half curl", {high}, event_none, (*back)[bucket]}, {"over the dig: move to dig", {over, folded}, event_none, end[bucket]}}),
-  });
+  return scripts.approach.bind(values_of(approach_angles(task, {*back, *dig})), task.bearing >= task.from[swing] ? 1.0 : -1.0);
 }
 
-PassSearch::PassSearch(const MachineModel& machine, const Skyline& skyline, const PassTask& task, const PassPoses& poses)
-    : machine_(machine), skyline_(skyline), task_(task), poses_(poses) {
+PassSearch::PassSearch(const ScriptSet& scripts, const MachineModel& machine, const Skyline& skyline, const PassTask& task, const PassPoses& poses)
+    : scripts_(&scripts), machine_(machine), skyline_(skyline), task_(task), poses_(poses) {
   // The stick is to reach the spill point when the swing is about to stand: the swing's last stretch is v = sqrt(2 a d).
   const double reach = reach_of(machine, poses.carry);
   const ControllerLimits swing_limits = limits_of(machine, swing, reach);
@@ -146,7 +130,8 @@ PassSearch::PassSearch(const MachineModel& machine, const Skyline& skyline, cons
     response.velocity_max = pace * limits_of(machine, joint, reach).velocity;
     return time_to_reach(response, poses.carry[joint], poses.spill[joint]);
   };
-  const double stick_time = paced_time(stick, spill_pace), boom_time = paced_time(boom, spill_pace);
+  const auto pace = [&](Joint joint) { return scripts.pass.pace_of(joint, RuleMark::extends); };
+  const double stick_time = paced_time(stick, pace(stick)), boom_time = paced_time(boom, pace(boom));
   const double lead = std::max(stick_time, boom_time) + 0.2;
   thresholds_.extend_offset = std::clamp(0.5 * swing_limits.deceleration * lead * lead, radians(6.0), radians(28.0));
   // Opening starts while the swing lands; the dead time and the way to the pouring angle pass meanwhile.
@@ -182,7 +167,7 @@ void PassSearch::step() {
 }
 
 PassSearch::Outcome PassSearch::simulate(const PassThresholds& thresholds) const {
-  constexpr int script_every = 10;  // cycles: 10 Hz
+  constexpr int script_every = 2;   // cycles: 50 Hz
   constexpr int check_every = 5;
   constexpr double most_seconds = 30.0;
   constexpr double emptying = 0.5;  // s with the bucket open
@@ -192,7 +177,7 @@ PassSearch::Outcome PassSearch::simulate(const PassThresholds& thresholds) const
   std::array<JointModel, joints> model{JointModel(response_of(machine_, swing), machine_.cycle), JointModel(response_of(machine_, boom), machine_.cycle),
                                        JointModel(response_of(machine_, stick), machine_.cycle), JointModel(response_of(machine_, bucket), machine_.cycle)};
   for (std::size_t j = 0; j < joints; ++j) model[j].reset(task_.lifted_from[j], 0.0);
-  Script script = pass_script(machine_, task_, poses_, thresholds);
+  Script script = pass_script(*scripts_, machine_, task_, poses_, thresholds);
   script.start();
   Outcome outcome;
   double open_s = 0.0;
@@ -203,10 +188,10 @@ PassSearch::Outcome PassSearch::simulate(const PassThresholds& thresholds) const
       angle[j] = model[j].angle();
       velocity[j] = model[j].velocity();
     }
-    const bool open = script.of(bucket).active() >= opening_rule && angle[bucket] > poses_.dump[bucket] - radians(8.0);
+    const bool open = script.of(bucket).reached(RuleMark::opens) && angle[bucket] > poses_.dump[bucket] - radians(8.0);
     open_s = open ? open_s + machine_.cycle : open_s;
     if (k % script_every == 0) script.evaluate(angle, open_s >= emptying ? event_emptied | event_weighed : event_weighed);
-    const bool returning = script.of(swing).active() >= 2;
+    const bool returning = script.of(swing).reached(RuleMark::returns);
     if (k % check_every == 0) {
       const ReachIntervals box = preview(machine_, angle, velocity);
       const double beyond = side > 0.0 ? task_.next_bearing - box.low[swing] : box.high[swing] - task_.next_bearing;

@@ -6,6 +6,7 @@
 #include "motion/arm_controller.hpp"
 #include "motion/arm_kinematics.hpp"
 #include "motion/script.hpp"
+#include "planning/script_set.hpp"
 #include "planning/skyline.hpp"
 
 namespace berm::app {
@@ -42,9 +43,9 @@ std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask&
 // The farthest dump point from the swing axis, m: from there the stretched arm spills the load 0.4 m short of where it is meant to be.
 double farthest_dump(const MachineModel& machine, double wall_top);
 
-// The bucket's rule that opens it over the bed.
-inline constexpr int opening_rule = 3;
-Script pass_script(const MachineModel& machine, const PassTask& task, const PassPoses& poses, const PassThresholds& thresholds);
+// Parameters of the script "pass" by name.
+std::vector<ScriptAngle> pass_angles(const MachineModel& machine, const PassTask& task, const PassPoses& poses, const PassThresholds& thresholds);
+Script pass_script(const ScriptSet& scripts, const MachineModel& machine, const PassTask& task, const PassPoses& poses, const PassThresholds& thresholds);
 
 // From wherever the implements are to a bearing: raise and half curl, swing when high; and to the start of a dig: lower when over it.
 struct ApproachTask {
@@ -53,13 +54,18 @@ struct ApproachTask {
   double top = 0.0;                 // z of what is passed over
   std::optional<PlanePoint> entry;  // where the drag begins; without: stay high
 };
-std::optional<Script> approach_script(const MachineModel& machine, const ApproachTask& task);
+// Where the implements are over the way, and at its end. Swing entries are not used.
+struct ApproachPoses { Joints back{}, end{}; };
+// Parameters of the script "approach" by name.
+std::vector<ScriptAngle> approach_angles(const ApproachTask& task, const ApproachPoses& poses);
+std::optional<Script> approach_script(const ScriptSet& scripts, const MachineModel& machine, const ApproachTask& task);
 
 // Finds the thresholds: starts from the soonest and simulates script, controllers and joint models against the skyline until the motion
 // stays clear. One candidate a step, so that a cycle is never late.
 class PassSearch {
 public:
-  PassSearch(const MachineModel& machine, const Skyline& skyline, const PassTask& task, const PassPoses& poses);
+  // scripts must outlive it.
+  PassSearch(const ScriptSet& scripts, const MachineModel& machine, const Skyline& skyline, const PassTask& task, const PassPoses& poses);
 
   bool done() const { return stage_ == Stage::done; }
   void step();
@@ -72,6 +78,7 @@ private:
   struct Outcome { bool clear_out = true, clear_back = true, finished = false; double seconds = 0.0; };
   Outcome simulate(const PassThresholds& thresholds) const;
 
+  const ScriptSet* scripts_;
   MachineModel machine_;
   Skyline skyline_;
   PassTask task_;

@@ -70,7 +70,7 @@ protected:
       const std::string tick = std::to_string(ticks[1]), out = scratch_.path("out"), errors = scratch_.path("err");
       ::dup2(::open(out.c_str(), O_CREAT | O_WRONLY, 0600), 1);
       ::dup2(::open(errors.c_str(), O_CREAT | O_WRONLY, 0600), 2);
-      ::execl(BERM_APP, "berm_app", "--machine", BERM_CONFIG_DIR "/machines/zx200.toml", "--site", BERM_CONFIG_DIR "/sites/bench.toml", "--truck-classes", BERM_CONFIG_DIR "/truck_classes.toml", "--socket", path_.c_str(),
+      ::execl(BERM_APP, "berm_app", "--machine", BERM_CONFIG_DIR "/machines/zx200.toml", "--site", BERM_CONFIG_DIR "/sites/bench.toml", "--truck-classes", BERM_CONFIG_DIR "/truck_classes.toml", "--scripts", BERM_SCRIPTS, "--socket", path_.c_str(),
               "--trucks", "1", "--tick-fd", tick.c_str(), nullptr);
       ::_exit(127);
     }

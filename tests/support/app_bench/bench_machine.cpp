@@ -27,6 +27,7 @@ int kernel_index(double v) { return static_cast<int>(std::floor((v + kernel_half
 }  // namespace
 
 MachineModel zx200() { return machine_model(config::load_machine_file(BERM_CONFIG_DIR "/machines/zx200.toml")); }
+ScriptSet shipped_scripts() { return read_scripts(BERM_SCRIPTS); }
 SiteModel bench() { return site_model(config::load_site_file(BERM_CONFIG_DIR "/sites/bench.toml")); }
 
 TruckBed bench_bed() {
@@ -64,6 +65,7 @@ void BenchMachine::step(const berm_request& request) {
   decide(request);
   move();
   work_soil();
+  site_.slump();
   measure();
   scan(request);
   check();

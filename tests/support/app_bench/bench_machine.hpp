@@ -11,6 +11,7 @@
 #include "app_bench/bench_site.hpp"
 #include "contract/berm_contract.h"
 #include "motion/machine_model.hpp"
+#include "planning/script_set.hpp"
 #include "planning/site_model.hpp"
 
 namespace berm::app_bench {
@@ -20,6 +21,8 @@ app::MachineModel zx200();
 app::SiteModel bench();
 app::TruckBed bench_bed();
 app::SiteModel bench_with_truck();
+// The scripts that come with the app.
+app::ScriptSet shipped_scripts();
 
 struct Findings {
   int wall_contacts = 0;      // cycles in which an implement was under the truck's top plus the kernel's margin, over the truck

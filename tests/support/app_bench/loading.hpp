@@ -12,7 +12,7 @@ namespace berm::app_bench {
 
 struct Loading {
   Loading(int trucks, const app::Joints& start, int log_fd = std::getenv("BERM_TEST_VERBOSE") ? 1 : -1)
-      : machine(zx200()), plant(machine, start, 7), log(log_fd), sequencer(machine, bench(), trucks, finder, log), intake(machine) {}
+      : machine(zx200()), plant(machine, start, 7), log(log_fd), scripts(shipped_scripts()), sequencer(machine, bench(), trucks, scripts, finder, log), intake(machine) {}
 
   void step() {
     const app::Observation o = app::observe(plant.state());
@@ -28,6 +28,7 @@ struct Loading {
   BenchMachine plant;
   BenchFinder finder;
   app::ProgressLog log;
+  app::ScriptSet scripts;
   app::Sequencer sequencer;
   app::ScanIntake intake;
   app::Answer last;

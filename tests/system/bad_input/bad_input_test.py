@@ -16,7 +16,8 @@ scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-bad-"))
 def unknown_options():
     needed = {"berm_load": (), "berm_journal": (), "berm_replay": (), "berm_map": ("x.pcap",), "berm_params": (), "berm_kernel": (),
               "berm_plant": ("--scenario", ROOT / "fault_injection/scenarios/bench.toml", "--can", "udp:239.255.66.250:1", "--scan-port", 1, "--out", scratch / "none"),
-              "berm_app": ("--machine", MACHINE, "--site", SITE, "--truck-classes", ROOT / "interface_spec/config/truck_classes.toml", "--socket", "x")}
+              "berm_app": ("--machine", MACHINE, "--site", SITE, "--truck-classes", ROOT / "interface_spec/config/truck_classes.toml",
+                           "--scripts", ROOT / "planning_app/scripts", "--socket", "x")}
     for program, options in needed.items():
         one_clear_line(run(program, *options, "--no-such-option"), "no-such-option")
 
@@ -66,6 +67,20 @@ def load_numbers():
     one_clear_line(run("berm_load", "--fault", "kill-app"), "kill-app")
 
 
+def scripts():
+    folder = scratch / "scripts"
+    shutil.copytree(ROOT / "planning_app/scripts", folder)
+    done = run("berm_scripts", folder)
+    assert done.returncode == 0 and "carry_boom" in done.stdout, done.stderr
+    good = (folder / "pass.script").read_text()
+    (folder / "pass.script").write_text(good.replace("goal carry_boom", "goal carry_bom"))
+    wrong = next(i for i, line in enumerate(good.splitlines(), 1) if "goal carry_boom" in line)
+    for program in (("berm_scripts", folder), ("berm_load", "--scripts", folder, "--out", scratch / "no-run")):
+        one_clear_line(run(*program), "pass.script", f"line {wrong}", "carry_bom", "carry_boom")
+    assert not (scratch / "no-run").exists(), "left behind by a run that never was"
+    one_clear_line(run("berm_load", "--scripts", scratch / "nowhere"), "nowhere/pass.script")
+
+
 def parameter_block():
     good = scratch / "good.params"
     done = run("berm_params", MACHINE, SITE, "-o", good)
@@ -106,6 +121,6 @@ def captures():
 
 
 try:
-    main([unknown_options, help_is_no_error, scenarios, scenario_fields, ground_without_its_recording, load_numbers, parameter_block, compile_leaves_nothing, captures])
+    main([unknown_options, help_is_no_error, scenarios, scenario_fields, ground_without_its_recording, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures])
 finally:
     shutil.rmtree(scratch)

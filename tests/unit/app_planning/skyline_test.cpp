@@ -130,7 +130,8 @@ TEST(PassSearch, FindsASwingThatStartsBeforeTheBoomIsUpAndStaysClear) {
   task.truck_top = task.wall_top = berm::app_bench::bench_bed().wall_top;
   const auto poses = pass_poses(m, task);
   ASSERT_TRUE(poses);
-  PassSearch search(m, sky, task, *poses);
+  const ScriptSet scripts = berm::app_bench::shipped_scripts();
+  PassSearch search(scripts, m, sky, task, *poses);
   int steps = 0;
   while (!search.done() && ++steps < 100) search.step();
   ASSERT_TRUE(search.done());
