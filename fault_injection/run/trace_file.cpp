@@ -17,12 +17,12 @@ std::vector<TraceRow> read_trace(const std::string& path) {
   TraceReader trace(path);
   std::vector<std::string> intruders = trace.movers();
   std::erase_if(intruders, [](const std::string& name) { return name.starts_with("truck"); });
-  const bool trams = trace.has("base_x_m");
+  const bool trams = trace.has("base_x");
   std::vector<TraceRow> rows;
   while (trace.next()) {
     TraceRow row{trace.time_s(), {}, {}};
     for (std::size_t j = 0; j < row.angle.size(); ++j) row.angle[j] = trace.value(kJointColumns[j]);
-    const double base_x = trams ? trace.value("base_x_m") : 0.0, base_y = trams ? trace.value("base_y_m") : 0.0;
+    const double base_x = trams ? trace.value("base_x") : 0.0, base_y = trams ? trace.value("base_y") : 0.0;
     for (const std::string& name : intruders) row.intruder.push_back({trace.value(name + "_x_m") - base_x, trace.value(name + "_y_m") - base_y});
     rows.push_back(std::move(row));
   }

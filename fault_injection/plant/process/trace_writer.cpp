@@ -24,7 +24,7 @@ TraceWriter::TraceWriter(const std::string& path, const std::vector<MoverPose>& 
   std::string header =
       "time_s,swing_rad,boom_rad,stick_rad,bucket_rad,swing_rad_s,boom_rad_s,stick_rad_s,bucket_rad_s,"
       "stop_state,stop_reason,payload_kg,clearance_m";
-  if (trams_) header += ",base_x_m,base_y_m";
+  if (trams_) header += ",base_x,base_y";
   for (std::size_t i = 0; i < movers.size(); ++i)
     if (const MoverPose& m = movers[i]; traced_[i]) header += fmt::format(",{0}_x_m,{0}_y_m,{0}_z_m,{0}_yaw_rad", m.name);
   file_.write(header + "\n");

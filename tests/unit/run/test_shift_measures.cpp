@@ -153,6 +153,26 @@ TEST(DigSurface, HeightFieldsAndTracesAreReadOrRefused) {
   EXPECT_THROW(read_trace(scratch.write("cut.csv", head + "0.01,1,2\n")), std::runtime_error);
 }
 
+TEST(TraceFile, WhereTheBaseStandsIsNobody) {
+  const berm::test::Scratch folder;
+  const std::string head = "time_s,swing_rad,boom_rad,stick_rad,bucket_rad,base_x,base_y,truck_1_x_m,truck_1_y_m,person_x_m,person_y_m\n";
+  const auto rows = read_trace(folder.write("trace.csv", head + "1.0,0,0,0,0,-5.0,0.5,1.0,2.0,-8.0,3.5\n"));
+  ASSERT_EQ(rows.size(), 1U);
+  ASSERT_EQ(rows[0].intruder.size(), 1U) << "the person, and neither truck nor base";
+  EXPECT_DOUBLE_EQ(rows[0].intruder[0][0], -3.0);
+  EXPECT_DOUBLE_EQ(rows[0].intruder[0][1], 3.0);
+}
+
+TEST(DigSurface, DigsLieWhereTheMachineStoodThen) {
+  std::vector<PlannedDig> digs(3);
+  digs[0].time_s = 10, digs[1].time_s = 50, digs[2].time_s = 90;
+  place_digs(digs, json{{"bench_moves", {{{"to_s", 40.0}, {"x_m", -1.0}, {"y_m", 0.0}}, {{"to_s", 80.0}, {"x_m", -2.5}, {"y_m", 0.5}}}}});
+  EXPECT_EQ(digs[0].base_x, 0.0);
+  EXPECT_EQ(digs[1].base_x, -1.0);
+  EXPECT_EQ(digs[2].base_x, -2.5);
+  EXPECT_EQ(digs[2].base_y, 0.5);
+}
+
 TEST(ShiftMeasures, AreInResultAndSummaryAndNullWhereThereIsNothing) {
   RunResult r;
   r.truth = {{"simulated_seconds", 60.0}, {"target_kg", 18000.0}, {"truck_load_kg", {18000.0}}};
