@@ -17,6 +17,7 @@
 #include "planning/dig_point.hpp"
 #include "planning/dump_point.hpp"
 #include "planning/pass_script.hpp"
+#include "planning/sticking_soil.hpp"
 #include "planning/truck_fill.hpp"
 
 namespace berm::app {
@@ -58,7 +59,7 @@ private:
   void plan_next_dig(const Observation& o);
   DigNeeds needs_for(double kg) const;
   void note_cut(const Observation& o);
-  void learn_yield(double weighed_kg);
+  void learn_yield(double weighed_kg, double brought_along_kg);
   void begin_script(const Script& script);
   void begin_approach(const Observation& o, bool lower);
   void begin_look(const Observation& o);
@@ -113,6 +114,7 @@ private:
   int truck_ = 1;
   int pass_ = 0;
   TruckFill fill_;
+  StickingSoil sticking_;
   double goal_kg_ = 0.0;
   double pass_began_s_ = 0.0, truck_began_s_ = 0.0, open_since_s_ = -1.0;
   bool emptied_ = false;

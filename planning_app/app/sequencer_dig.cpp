@@ -88,11 +88,11 @@ void Sequencer::note_cut(const Observation& o) {
 }
 
 // What the cut model's cubic metre weighed in the bucket. A full bucket says only that there was at least so much.
-void Sequencer::learn_yield(double weighed_kg) {
+void Sequencer::learn_yield(double weighed_kg, double brought_along_kg) {
   constexpr double weight = 0.5, least = 0.5, most = 1.8, full_share = 0.97;
   const double modelled = cut_ ? cut_->volume() * bank_density : 0.0;
   if (modelled < 200.0) return;
-  const double seen = weighed_kg / modelled;
+  const double seen = (weighed_kg - brought_along_kg) / modelled;
   if (weighed_kg > full_share * heaped_kg && seen < yield_) return;
   yield_ = std::clamp((1.0 - weight) * yield_ + weight * seen, least, most);
 }
@@ -152,7 +152,7 @@ void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_fro
   const double here = o.angle[swing];
   dig_.bearing = here;
   plan_next_dig(o);
-  task_ = PassTask{lifted_from, dump_.bearing, dump_.radius, dig_.bearing, {dig_.drag.front().r, dig_.drag.front().z}, site_.bed->wall_top, site_.bed->wall_top, more};
+  task_ = PassTask{lifted_from, dump_.bearing, dump_.radius, dig_.bearing, {dig_.drag.front().r, dig_.drag.front().z}, site_.bed->wall_top, site_.bed->wall_top, sticking_.open_farther(), more};
   task_.lifted_from[swing] = here;
   const Skyline skyline(machine_, site_, kernel_map_.ground(KernelMap::Unseen::level));
   task_.truck_top = skyline.highest(dump_.bearing - near_truck, dump_.bearing + near_truck, 4.2, 8.6);
