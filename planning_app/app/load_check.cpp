@@ -55,7 +55,7 @@ double LoadCheck::step(const Lifted& now, const TruckFill& fill, const ProgressL
       mean_.add(now.payload_kg);
       if (since < weighing_s || !mean_.known()) return nothing;
       lifted_ = mean_.kg();
-      goal_ = fill.allowed_kg(lifted_);
+      goal_ = fill.allowed_kg(lifted_, std::min(now.stays_kg, lifted_));
       if (goal_ < lifted_) log.event("trim", {{"time_s", now.time_s}, {"payload_kg", lifted_}, {"allowed_kg", goal_}, {"loaded_kg", fill.loaded_kg()}});
       enter(goal_ < lifted_ ? Stage::tilts : Stage::passed, now.time_s);
       return nothing;

@@ -21,6 +21,7 @@ public:
     double payload_kg = 0.0;  // on-board weighing; negative: unknown, as while it digs and shortly after
     double attitude = 0.0;    // absolute angle of the bucket, rad
     bool raised = false;      // it has room to tilt
+    double stays_kg = 0.0;    // of its load, in the bucket after the dump
   };
   // Once a cycle from then on. How fast the bucket is to tilt towards the dump, rad/s; 0: it is to be held; negative: nothing is asked for.
   double step(const Lifted& now, const TruckFill& fill, const ProgressLog& log);

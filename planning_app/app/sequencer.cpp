@@ -183,14 +183,14 @@ std::uint32_t Sequencer::pass_events(const Observation& o) {
   const bool on_its_way = o.angle[bucket] < poses_.dump[bucket] - radians(8.0);
   if (on_its_way) open_since_s_ += (1.0 - arm_.shares()[bucket] * tempos()[bucket]) * machine_.cycle;
   const double open = o.time_s - open_since_s_;
-  const bool light = o.payload_kg >= 0.0 && recent_.kg() < empty_share * full_bucket_kg_;
+  const bool light = o.payload_kg >= 0.0 && recent_.kg() < empty_share * full_bucket_kg_ + sticking_.stays_kg(before_.kg());
   emptied_ = (open > open_at_least && (light || o.payload_kg < 0.0)) || open > open_at_most;
   return emptied_ ? event_emptied | weighed : weighed;
 }
 
 Joints Sequencer::pass(const Observation& o) {
   const bool raised = o.angle[boom] > poses_.carry[boom] - radians(3.0);
-  const double tilt = load_check_.step({o.time_s, o.payload_kg, forward(machine_, o.angle).bucket_attitude, raised}, fill_, log_);
+  const double tilt = load_check_.step({o.time_s, o.payload_kg, forward(machine_, o.angle).bucket_attitude, raised, sticking_.stays_kg(std::max(0.0, o.payload_kg))}, fill_, log_);
   Joints command = run_script(o, pass_events(o));
   if (tilt >= 0.0) command[bucket] = tilt;
   if (!script_.of(swing).reached(RuleMark::leaves)) enter_phase(BERM_PHASE_LIFT, o);
@@ -211,8 +211,12 @@ void Sequencer::end_pass(const Observation& o) {
   fill_.add_pass(before, after);
   const double payload = fill_.loaded_kg() - had;
   if (weighed) {
-    learn_yield(std::max(before, load_check_.lifted_kg()));
-    filled_.learn(std::max(before, load_check_.lifted_kg()), heaped_kg_);
+    const double lifted = std::max(before, load_check_.lifted_kg()), brought_along = sticking_.sticks() ? sticking_.in_bucket_kg() : 0.0;
+    learn_yield(lifted, brought_along);
+    filled_.learn(lifted - brought_along, heaped_kg_ - brought_along);
+    sticking_.learn(lifted, after);  // what was let go of over the dig has stuck to it too
+    if (sticking_.sticks())
+      log_.event("sticking", {{"time_s", o.time_s}, {"stays_kg", after}, {"share", sticking_.share()}, {"open_farther_deg", degrees(sticking_.open_farther())}});
   }
   poor_passes_ = payload < poor_share * goal_kg_ ? poor_passes_ + 1 : 0;
   face_yield_.add(payload / goal_kg_);

@@ -20,6 +20,7 @@
 #include "planning/dump_point.hpp"
 #include "planning/face_reserve.hpp"
 #include "planning/pass_script.hpp"
+#include "planning/sticking_soil.hpp"
 #include "planning/truck_fill.hpp"
 
 namespace berm::app {
@@ -60,7 +61,7 @@ private:
   DigNeeds needs_for(double kg) const;
   void note_cut(const Observation& o);
   void feel(const Observation& o);            // the implements' weight, or how hard the soil resists
-  void learn_yield(double weighed_kg);
+  void learn_yield(double weighed_kg, double brought_along_kg);
   void hold_fill(double in_bucket_kg);
   void begin_script(const Script& script);
   void begin_approach(const Observation& o, bool lower);
@@ -136,6 +137,7 @@ private:
   int truck_ = 1;
   int pass_ = 0;
   TruckFill fill_;
+  StickingSoil sticking_;
   double goal_kg_ = 0.0;
   double pass_began_s_ = 0.0, truck_began_s_ = 0.0, open_since_s_ = -1.0;
   bool emptied_ = false;

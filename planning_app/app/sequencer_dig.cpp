@@ -95,11 +95,11 @@ void Sequencer::note_cut(const Observation& o) {
 }
 
 // What the cut model's cubic metre weighed in the bucket. A full bucket says only that there was at least so much.
-void Sequencer::learn_yield(double weighed_kg) {
+void Sequencer::learn_yield(double weighed_kg, double brought_along_kg) {
   constexpr double weight = 0.5, least = 0.5, most = 1.8, full_share = 0.93;
   const double modelled = cut_ ? cut_->volume() * bank_density : 0.0;
   if (modelled < 200.0 * scale_.load) return;
-  const double seen = weighed_kg / modelled;
+  const double seen = (weighed_kg - brought_along_kg) / modelled;
   if (weighed_kg > full_share * heaped_kg_ && seen < yield_) return;
   yield_ = std::clamp((1.0 - weight) * yield_ + weight * seen, least, most);
 }
@@ -141,7 +141,7 @@ Joints Sequencer::dig(const Observation& o) {
   cut_->reach(o.angle);
   const bool in_soil = now.tip.z < cut_->surface().at(now.tip.r) + 0.15;
   // The weighing is blind while the bucket is in the soil: the force that it took tells what is in it, and until a bucket was weighed the cut model.
-  const double in_bucket_kg = filled_.known() ? filled_.kg() : cut_->volume() * bank_density * yield_;
+  const double in_bucket_kg = filled_.known() ? filled_.kg() + (sticking_.sticks() ? sticking_.in_bucket_kg() : 0.0) : cut_->volume() * bank_density * yield_;
   const bool heavy = in_bucket_kg >= goal_kg_;
   if (filled_.known()) hold_fill(in_bucket_kg);
   const bool stalled = follower_.stalled_s() > stall_patience;
@@ -197,7 +197,7 @@ void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_fro
   const double here = o.angle[swing];
   dig_.bearing = here;
   plan_next_dig(o);
-  task_ = PassTask{lifted_from, dump_.bearing, dump_.radius, dig_.bearing, {dig_.drag.front().r, dig_.drag.front().z}, site_.bed->wall_top, site_.bed->wall_top, more};
+  task_ = PassTask{lifted_from, dump_.bearing, dump_.radius, dig_.bearing, {dig_.drag.front().r, dig_.drag.front().z}, site_.bed->wall_top, site_.bed->wall_top, sticking_.open_farther(), more};
   task_.lifted_from[swing] = here;
   const Skyline skyline(machine_, site_, kernel_map_.ground(KernelMap::Unseen::level));
   task_.truck_top = skyline.highest(dump_.bearing - near_truck, dump_.bearing + near_truck, 4.2 * scale_.arm, 8.6 * scale_.arm);

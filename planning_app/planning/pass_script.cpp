@@ -65,7 +65,13 @@ std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask&
   const double pin_z = std::clamp(task.truck_top, task.wall_top, std::max(task.wall_top, highest_top)) + pin_over_top(scale);
   const auto carry = pose_near(machine, {carry_radius * scale.arm, pin_z}, attitude_carry);
   const auto spill = pose_near(machine, {task.dump_radius + spill_ahead * scale.bucket, pin_z}, attitude_carry);
-  const auto dump = pose_near(machine, {task.dump_radius - dump_behind * scale.bucket, pin_z}, attitude_open);
+  auto dump = pose_near(machine, {task.dump_radius - dump_behind * scale.bucket, pin_z}, attitude_open);
+  for (double farther = task.open_farther; dump && farther > 0.0; farther -= radians(1.0)) {
+    const auto open = inverse_pin(machine, {task.dump_radius - dump_behind * scale.bucket, pin_z}, attitude_open + farther, range_guard);
+    if (!open || (*open)[bucket] <= (*dump)[bucket]) continue;
+    dump = open;
+    break;
+  }
   const auto back = pose_near(machine, {back_radius * scale.arm, pin_z}, attitude_back);
   const auto hover = tip_pose_near(machine, {task.next_entry.r, hover_above}, attitude_dig);
   const auto dig = tip_pose_near(machine, {task.next_entry.r, task.next_entry.z + dig_above}, attitude_dig);

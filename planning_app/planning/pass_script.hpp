@@ -20,6 +20,7 @@ struct PassTask {
   PlanePoint next_entry{};     // where the next drag begins (tip)
   double truck_top = 0.0;      // z of the highest thing under the swing near the truck; never taken as lower than its walls,
   double wall_top = 0.0;       // which end here
+  double open_farther = 0.0;   // rad, than the bucket otherwise opens: soil sticks; as far as its range allows
   bool lower_at_end = true;    // false: stay high after the pass, the truck is full
 };
 

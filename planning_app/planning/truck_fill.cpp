@@ -20,7 +20,8 @@ double TruckFill::next_goal_kg() const {
   return passes == 0 ? 0.0 : rest_kg() / passes;
 }
 
-double TruckFill::allowed_kg(double kg) const {
+double TruckFill::allowed_kg(double kg, double stays_kg) const {
+  if (stays_kg > 0.0) return kg > stays_kg ? stays_kg + allowed_kg(kg - stays_kg) : kg;
   if (loaded_ + kg > most_share * target_) return std::max(0.0, rest_kg());
   if (full_with(kg)) return kg;
   // Two passes at least are left: this one leaves the last enough, unless there is too little for two.

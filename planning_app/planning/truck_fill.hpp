@@ -19,8 +19,8 @@ public:
   int passes_left() const;
   // What the next pass should bring: the rest in equal parts, so that the last is no handful.
   double next_goal_kg() const;
-  // What of a bucket of this much may go into the truck: less when it would overload it, or leave a handful for the pass after it.
-  double allowed_kg(double kg) const;
+  // What a bucket of this much may hold when it leaves the dig, of which stays_kg stick in it and do not reach the truck: less when it would overload it, or leave a handful for the pass after it.
+  double allowed_kg(double kg, double stays_kg = 0.0) const;
   // How far above its goal a trimmed bucket may stay.
   double tolerance_kg() const { return (most_share - aim_share) * target_; }
   // Whether a bucket that holds at most so much may hold more than is allowed: it has to be weighed before it leaves the dig.
