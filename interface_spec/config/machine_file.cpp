@@ -224,6 +224,12 @@ MachineFile load_machine_file(const std::string& path) {
   StrictTable joints = file.table("joint");
   for (std::size_t j = 0; j < kJoints; ++j) m.joint[j] = read_joint(joints.table(kJointNames[j]), j == 0 ? 360.0 : 180.0);
   joints.finish();
+  StrictTable cylinders = file.table("cylinder");
+  for (std::size_t c = 0; c < m.cylinder.size(); ++c) {
+    const auto sides = cylinders.array<2>(fmt::format("{}_nm_per_kpa", kJointNames[c + 1]), 0.01, 1000.0);
+    m.cylinder[c] = {sides[0], sides[1]};
+  }
+  cylinders.finish();
   StrictTable latency = file.table("latency");
   m.state_latency = latency.number("state", 0.0, 0.5);
   m.command_latency = latency.number("command", 0.0, 1.0);

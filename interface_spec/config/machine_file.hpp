@@ -18,6 +18,8 @@ struct JointFile {
   double angle_error, velocity_error;  // of the measurement, rad and rad/s
 };
 
+struct CylinderFile { double bottom, rod; };   // moment about the joint's pin that a kPa in either side makes, N m
+
 struct BrakingFile {
   std::string provenance;
   std::vector<double> reach;                                        // m, ascending: upper end of each row
@@ -80,6 +82,7 @@ struct MachineFile {
   std::string name;
   double boom_pin_x, boom_pin_z, boom, stick, bucket, own_body_radius;  // m
   std::array<JointFile, kJoints> joint;
+  std::array<CylinderFile, kJoints - 1> cylinder;  // boom, stick, bucket
   double state_latency, command_latency;  // s
   BrakingFile braking;
   std::vector<PartFile> part;

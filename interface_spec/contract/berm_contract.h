@@ -21,9 +21,10 @@ extern "C" {
 #endif
 
 #define BERM_CONTRACT_MAGIC 0x4D524542u /* "BERM" */
-#define BERM_CONTRACT_VERSION 1u
+#define BERM_CONTRACT_VERSION 2u
 
 #define BERM_JOINTS 4
+#define BERM_CYLINDERS 3 /* boom, stick, bucket */
 #define BERM_SCANNERS 2
 #define BERM_MAP_CELLS 104           /* cells along one side of the published map */
 #define BERM_SCAN_RING 64            /* scan blocks kept */
@@ -147,7 +148,7 @@ typedef struct berm_state {
   int32_t joint_velocity_urad_s[BERM_JOINTS];        /* measured */
   int32_t pan_angle_urad[BERM_SCANNERS];             /* newest from the scan packets */
   int32_t payload_kg;                                /* on-board weighing; -1 unknown; not trusted */
-  int32_t boom_pressure_kpa;                         /* boom cylinder, bottom side; not trusted */
+  int32_t cylinder_kpa[BERM_CYLINDERS][2];           /* boom, stick, bucket: pressure in bottom and rod side; not trusted */
   uint32_t request_sequence;                         /* of the newest accepted request */
   uint8_t request_result;                            /* BERM_REQUEST_* of this cycle */
   uint8_t kernel_state;                              /* BERM_STATE_* */
@@ -172,6 +173,7 @@ typedef struct berm_state {
   int16_t separation_stop_ms;                        /* the most stopping time that keeps it there; -1: none */
   int32_t dust_permille;                             /* of the dustiest sensor: returns with a second echo in front of the last */
   uint32_t sight;                                    /* BERM_SIGHT_* */
+  uint32_t reserved;
 } berm_state;
 
 /* A block of consecutive samples of one scanline, as received. Range 0 means no return. */
@@ -255,7 +257,7 @@ typedef struct berm_state_segment {
 BERM_STATIC_ASSERT(sizeof(berm_request) == 64, "request layout");
 BERM_STATIC_ASSERT(offsetof(berm_request, crc32) == sizeof(berm_request) - 4, "the CRC is the last field");
 BERM_STATIC_ASSERT(sizeof(berm_request_segment) == 128, "request segment layout");
-BERM_STATIC_ASSERT(sizeof(berm_state) == 296, "state layout");
+BERM_STATIC_ASSERT(sizeof(berm_state) == 320, "state layout");
 BERM_STATIC_ASSERT(sizeof(berm_scan_block) == 40 + BERM_SCAN_BLOCK_SAMPLES * 18, "scan block layout");
 BERM_STATIC_ASSERT(sizeof(berm_decision) == 176, "decision layout");
 BERM_STATIC_ASSERT(sizeof(berm_slice) == 8 + BERM_SLICE_VERTICES * 12, "slice layout");

@@ -19,6 +19,7 @@ MachineModel machine_model(const config::MachineFile& file) {
     const config::JointFile& from = file.joint[j];
     m.joint[j] = {from.low, from.high, from.velocity_max, from.acceleration_max, from.creep_velocity, from.angle_error, from.velocity_error};
   }
+  for (std::size_t c = 0; c < m.cylinder.size(); ++c) m.cylinder[c] = {file.cylinder[c].bottom, file.cylinder[c].rod};
   m.state_latency = file.state_latency;
   m.command_latency = file.command_latency;
   m.cycle = file.kernel.cycle;

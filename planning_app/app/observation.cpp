@@ -34,6 +34,7 @@ Observation observe(const berm_state& state) {
   }
   for (std::size_t i = 0; i < o.pan.size(); ++i) o.pan[i] = state.pan_angle_urad[i] * 1e-6;
   o.payload_kg = state.payload_kg;
+  for (std::size_t c = 0; c < o.pressure.size(); ++c) o.pressure[c] = {static_cast<double>(state.cylinder_kpa[c][0]), static_cast<double>(state.cylinder_kpa[c][1])};
   o.kernel_state = state.kernel_state;
   o.stop_reason = state.stop_reason;
   o.slowed_by_dust = (state.sight & BERM_SIGHT_DUST_SLOW) != 0;

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "contract/berm_contract.h"
-#include "motion/machine_model.hpp"
+#include "motion/implement_weight.hpp"
 #include "perception/scan_scheduler.hpp"
 
 namespace berm::app {
@@ -17,6 +17,7 @@ struct Observation {
   Joints angle{}, velocity{};
   std::array<double, 2> pan{};
   double payload_kg = -1.0;     // negative: unknown
+  CylinderPressures pressure{};
   std::uint8_t kernel_state = BERM_STATE_INIT;
   std::uint8_t stop_reason = BERM_STOP_NONE;
   bool slowed_by_dust = false;

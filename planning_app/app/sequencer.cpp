@@ -9,7 +9,7 @@ namespace berm::app {
 
 namespace {
 
-constexpr double script_period = 0.1;             // s
+constexpr double script_period = 0.02;            // s; the paper has 0.1 (4.4), and each rule that waits for a crossing then comes half of that late
 constexpr double skyline_period = 0.5;
 constexpr double arrived = radians(1.5);
 constexpr double still = radians(0.8);            // rad/s
@@ -25,7 +25,7 @@ const char* phase_name(std::uint16_t phase) {
 }  // namespace
 
 Sequencer::Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, const ScriptSet& scripts, TruckFinder& finder, const ProgressLog& log)
-    : scripts_(scripts), machine_(machine), site_(site), log_(log), trucks_(trucks), arm_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_),
+    : scripts_(scripts), machine_(machine), site_(site), log_(log), trucks_(trucks), ground_(site_), arm_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_),
       fill_(site.place.target_kg, full_bucket_kg) {
   scanners_.begin_full_sweep();
   dig_.bearing = site.dig_swing_right - radians(60.0);  // no dig before the first: nothing to stay away from
@@ -204,6 +204,7 @@ void Sequencer::end_pass(const Observation& o) {
   const double payload = fill_.loaded_kg() - had;
   if (weighed) {
     learn_yield(std::max(before, load_check_.lifted_kg()), sticking_.sticks() ? sticking_.in_bucket_kg() : 0.0);
+    filled_.learn(std::max(before, load_check_.lifted_kg()), heaped_kg);
     sticking_.learn(std::max(before, load_check_.lifted_kg()), after);  // what was let go of over the dig has stuck to it too
     if (sticking_.sticks())
       log_.event("sticking", {{"time_s", o.time_s}, {"stays_kg", after}, {"share", sticking_.share()}, {"open_farther_deg", degrees(sticking_.open_farther())}});
@@ -307,6 +308,7 @@ Answer Sequencer::step(const Observation& o) {
   recent_.add(o.payload_kg);
   look(o);
   hear(o);
+  feel(o);
   Answer answer;
   const Recovery::Advice advice = recovery_.step(o, log_);
   if (advice.rescan) scanners_.begin_full_sweep();

@@ -12,6 +12,7 @@
 #include "app/truck_look.hpp"
 #include "app/weighing.hpp"
 #include "motion/dig_path.hpp"
+#include "motion/soil_force.hpp"
 #include "perception/kernel_map.hpp"
 #include "planning/bed_map.hpp"
 #include "planning/dig_point.hpp"
@@ -42,6 +43,7 @@ public:
 
 private:
   static constexpr double full_bucket_kg = 1560.0;  // what a pass is planned to bring at most
+  static constexpr double heaped_kg = 1600.0;       // what the bucket holds
 
   enum class Stage { survey, wait_truck, go_look, look, approach, settle, dig, curl, pass, horn, wait_leave, exhausted, finished };
 
@@ -59,7 +61,9 @@ private:
   void plan_next_dig(const Observation& o);
   DigNeeds needs_for(double kg) const;
   void note_cut(const Observation& o);
+  void feel(const Observation& o);            // the implements' weight, or how hard the soil resists
   void learn_yield(double weighed_kg, double brought_along_kg);
+  void hold_fill(double in_bucket_kg);
   void begin_script(const Script& script);
   void begin_approach(const Observation& o, bool lower);
   void begin_look(const Observation& o);
@@ -84,6 +88,7 @@ private:
 
   KernelMap kernel_map_;
   TerrainMap terrain_;
+  DigGround ground_;
   std::optional<BedMap> bed_;
   std::optional<Skyline> skyline_;
   double skyline_s_ = 0.0;
@@ -105,6 +110,10 @@ private:
   std::uint16_t phase_ = BERM_PHASE_WAIT;
   DigPlan dig_;
   std::optional<CutModel> cut_;               // of this dig
+  ImplementWeight weight_;
+  DigFill filled_;                            // of this dig, by force
+  std::vector<double> planned_fill_;          // of this dig: bank m3 in the bucket, evenly along its path
+  bool holds_nothing_ = true;
   double yield_ = 1.0;                        // what a modelled cubic metre brings, of what bank soil weighs
   double held_since_s_ = -1.0;                // by the guard
   bool looked_ = false;

@@ -9,12 +9,12 @@ namespace berm::app {
 
 namespace {
 
-constexpr double heaped_kg = 1600.0;              // what the bucket holds
 constexpr double bank_density = 1474.0;           // kg/m3, where nothing was learned yet
 constexpr double cut_reserve = 1.05;              // the cut is planned larger than the goal; the estimate ends it
 constexpr double air_speed = 1.1, soil_speed = 1.3, curl_speed = 1.5;  // m/s of the tip
 constexpr double stall_patience = 1.0;            // s
 constexpr double curled = radians(-174.0);        // absolute bucket angle with the mouth up
+constexpr double range_guard = radians(7.5);      // a standing joint's stop travel stays inside its range
 constexpr double near_truck = radians(20.0);      // either side of the dump's bearing
 constexpr double bed_points_age = 12.0;           // s, for the bed map
 
@@ -49,17 +49,19 @@ DigNeeds Sequencer::needs_for(double kg) const {
 
 void Sequencer::plan_next_dig(const Observation& o) {
   const auto began = std::chrono::steady_clock::now();
-  dig_ = choose_dig(machine_, site_, terrain_, needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg), dig_.bearing);
+  ground_.observe(terrain_);
+  dig_ = choose_dig(machine_, site_, ground_, needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg), dig_.bearing);
   log_.event("next_dig", {{"time_s", o.time_s}, {"bearing_deg", degrees(dig_.bearing)}, {"volume_m3", dig_.volume}, {"plan_ms", milliseconds_since(began)}});
 }
 
 void Sequencer::begin_dig(const Observation& o) {
   goal_kg_ = fill_.next_goal_kg();
   const DigNeeds needs = needs_for(goal_kg_);
-  cut_.emplace(machine_, SurfaceProfile(terrain_, o.angle[swing], needs.bucket_width), needs.bucket_width);
+  ground_.observe(terrain_);
+  cut_.emplace(machine_, SurfaceProfile(ground_, o.angle[swing], needs.bucket_width), needs.bucket_width);
   SiteModel here = site_;
   here.dig_radius_end = dig_.end_radius;
-  dig_ = plan_dig(machine_, here, terrain_, needs, o.angle[swing]);
+  dig_ = plan_dig(machine_, here, ground_, needs, o.angle[swing]);
   const ArmPoints now = forward(machine_, o.angle);
   std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}};
   way.insert(way.end(), dig_.drag.begin(), dig_.drag.end());
@@ -71,25 +73,29 @@ void Sequencer::begin_dig(const Observation& o) {
   }
   log_.event("dig", {{"bearing_deg", degrees(dig_.bearing)}, {"depth_m", dig_.depth}, {"volume_m3", dig_.volume}, {"goal_kg", goal_kg_}, {"yield", yield_},
                      {"path_m", path->length()}, {"drag", drag_points(dig_)}});
+  planned_fill_ = fill_along(machine_, SurfaceProfile(ground_, o.angle[swing], needs.bucket_width), needs.bucket_width, *path);
   follower_.begin(std::move(*path));
+  filled_.begin();
+  holds_nothing_ = false;
   pass_began_s_ = pass_ == 0 || pass_began_s_ == 0.0 ? o.time_s : pass_began_s_;
   enter_phase(BERM_PHASE_DIG, o);
   enter(Stage::dig, o);
 }
 
-// Where the bucket has passed the ground is no higher than its shell was.
+// Where the bucket has passed the ground is no higher than its shell was; what then stands too steep slides into the cut.
 void Sequencer::note_cut(const Observation& o) {
-  const SurfaceProfile before(terrain_, o.angle[swing], bucket_width(machine_)), &after = cut_->surface();
+  const SurfaceProfile before(ground_, o.angle[swing], bucket_width(machine_)), &after = cut_->surface();
   const double half = 0.45 * bucket_width(machine_), c = std::cos(o.angle[swing]), s = std::sin(o.angle[swing]);
-  for (double r = SurfaceProfile::first; r < SurfaceProfile::last; r += 0.5 * TerrainMap::cell) {
+  for (double r = SurfaceProfile::first; r < SurfaceProfile::last; r += 0.5 * DigGround::cell) {
     if (after.at(r) > before.at(r) - 0.02) continue;
-    for (double across = -half; across <= half; across += 0.5 * TerrainMap::cell) terrain_.lower_to(r * c - across * s, r * s + across * c, after.at(r));
+    for (double across = -half; across <= half; across += 0.5 * DigGround::cell) ground_.lower_to(r * c - across * s, r * s + across * c, after.at(r));
   }
+  ground_.settle();
 }
 
 // What the cut model's cubic metre weighed in the bucket. A full bucket says only that there was at least so much.
 void Sequencer::learn_yield(double weighed_kg, double brought_along_kg) {
-  constexpr double weight = 0.5, least = 0.5, most = 1.8, full_share = 0.97;
+  constexpr double weight = 0.5, least = 0.5, most = 1.8, full_share = 0.93;
   const double modelled = cut_ ? cut_->volume() * bank_density : 0.0;
   if (modelled < 200.0) return;
   const double seen = (weighed_kg - brought_along_kg) / modelled;
@@ -97,12 +103,46 @@ void Sequencer::learn_yield(double weighed_kg, double brought_along_kg) {
   yield_ = std::clamp((1.0 - weight) * yield_ + weight * seen, least, most);
 }
 
+void Sequencer::feel(const Observation& o) {
+  constexpr double gravity = 9.81;
+  const Moments held = holding_moments(machine_, o.pressure);
+  if (stage_ == Stage::pass && emptied_) holds_nothing_ = true;
+  if (holds_nothing_ && o.running()) weight_.learn(o.angle, held, machine_.cycle);
+  if ((stage_ != Stage::dig && stage_ != Stage::curl) || !weight_.known(o.angle)) return;
+  PlaneForce soil = force_on_bucket(machine_, o.angle, held, weight_.of(o.angle));
+  soil.z += gravity * std::min(heaped_kg, filled_.kg());
+  filled_.add(resistance(machine_, o.angle, o.velocity, soil), machine_.cycle);
+}
+
+// Closed loop on the fill. Where less has come into the bucket than the plan had here, the soil lies lower than it seemed, and the tip goes deeper; a
+// bucket that fills sooner than planned curls sooner, so that a full one holds what is in it.
+void Sequencer::hold_fill(double in_bucket_kg) {
+  constexpr double gain = 0.8;                            // m/s for a bucket that lacks all of its goal
+  constexpr double fastest = 0.25;                        // m/s
+  constexpr double deepest = 0.5;                         // m under the path
+  constexpr double curl_from = 0.4;                       // of the goal
+  constexpr double holding = radians(-152.0), open = radians(-95.0);
+  constexpr double curl_speed_most = radians(45.0);
+  DigFollower::Departure departure = follower_.departure();
+  const double share = in_bucket_kg / goal_kg_, curl = open + (holding - open) * std::clamp((share - curl_from) / (1.0 - curl_from), 0.0, 1.0);
+  departure.curl = std::max(std::min(departure.curl, curl), std::min(departure.curl, open) - curl_speed_most * machine_.cycle);
+  const double total = planned_fill_.back();
+  const double planned = total > 0.0 ? planned_fill_[static_cast<std::size_t>(follower_.progress() * static_cast<double>(planned_fill_.size() - 1))] / total : 0.0;
+  if (planned > 0.0 && follower_.stalled_s() == 0.0) {    // in the soil
+    const double rate = std::clamp(gain * (share - planned), -fastest, fastest);
+    departure.lift = std::clamp(departure.lift + rate * machine_.cycle, -deepest, 0.0);
+  }
+  follower_.depart(departure);
+}
+
 Joints Sequencer::dig(const Observation& o) {
   const ArmPoints now = forward(machine_, o.angle);
   cut_->reach(o.angle);
   const bool in_soil = now.tip.z < cut_->surface().at(now.tip.r) + 0.15;
-  // The weighing is blind while the bucket is in the soil: the cut model tells what is in it.
-  const bool heavy = cut_->volume() * bank_density * yield_ >= goal_kg_;
+  // The weighing is blind while the bucket is in the soil: the force that it took tells what is in it, and until a bucket was weighed the cut model.
+  const double in_bucket_kg = filled_.known() ? filled_.kg() : cut_->volume() * bank_density * yield_;
+  const bool heavy = in_bucket_kg >= goal_kg_;
+  if (filled_.known()) hold_fill(in_bucket_kg);
   const bool stalled = follower_.stalled_s() > stall_patience;
   if (follower_.finished() || heavy || stalled) {
     begin_curl(o);
@@ -110,16 +150,18 @@ Joints Sequencer::dig(const Observation& o) {
   return follower_.step(machine_, arm_, o.angle[swing], in_soil ? soil_speed : air_speed, o.angle, o.velocity);
 }
 
-// Out of the soil by the shortest way on which the bucket can curl: inward until the curled bucket is within reach, up to just over the
-// surface, then curled.
+// Out of the soil straight up, for what lies over the bucket falls into it and what lies inward would be pushed; over the surface inward, as far as the
+// curled bucket needs to be within reach.
 void Sequencer::begin_curl(const Observation& o) {
-  constexpr double curled_within = 6.35, over_surface = 0.15, lift = 0.45;
+  constexpr double over_surface = 0.15, inward = 0.05, lift = 0.45, step = 0.05;
   const ArmPoints now = forward(machine_, o.angle);
-  log_.event("dug", {{"time_s", o.time_s}, {"r_m", now.tip.r}, {"z_m", now.tip.z}});
-  const double r = std::min(now.tip.r - 0.05, curled_within);
-  const double z = std::max(now.tip.z, cut_->surface().at(r) + over_surface);
+  log_.event("dug", {{"time_s", o.time_s}, {"r_m", now.tip.r}, {"z_m", now.tip.z}, {"modelled_kg", cut_->volume() * bank_density * yield_},
+                     {"felt_kg", filled_.kg()}, {"impulse_kns", 1e-3 * filled_.impulse()}});
+  const double up = now.tip.r - inward, z = std::max(now.tip.z, cut_->surface().at(up) + over_surface);
+  double r = up;
+  while (r > SurfaceProfile::first && !inverse_tip(machine_, {r, z + lift}, curled, range_guard)) r -= step;
   const double halfway = std::min(now.bucket_attitude, 0.5 * (now.bucket_attitude + curled));
-  const std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}, {r, z, halfway}, {r - 0.05, z + lift, curled}};
+  const std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}, {up, z, halfway}, {r, std::max(z, cut_->surface().at(r) + over_surface) + lift, curled}};
   if (auto path = DigPath::solve(machine_, way)) {
     begin_pass_search(o, path->at(path->length()));
     follower_.begin(std::move(*path));
@@ -148,6 +190,7 @@ void Sequencer::plan_dump(const Observation& o) {
 
 void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_from) {
   plan_dump(o);
+  note_cut(o);
   const bool more = !fill_.full_with(goal_kg_);
   const double here = o.angle[swing];
   dig_.bearing = here;

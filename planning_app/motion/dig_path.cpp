@@ -65,11 +65,21 @@ Joints DigPath::slope(double s) const {
   return d;
 }
 
+Joints DigFollower::departed(const MachineModel& machine, const Joints& on_path, const Departure& departure) {
+  const ArmPoints arm = forward(machine, on_path);
+  if (departure.lift == 0.0 && departure.curl >= arm.bucket_attitude) return on_path;
+  return solve_near(machine, {arm.tip.r, arm.tip.z + departure.lift, std::min(arm.bucket_attitude, departure.curl)}).value_or(on_path);
+}
+
 Joints DigFollower::step(const MachineModel& machine, ArmController& arm, double held_swing, double speed, const Joints& angle, const Joints& velocity) {
   const Joints slope = path_->slope(s_);
   for (const std::size_t j : {boom, stick, bucket})
     if (slope[j] != 0.0) speed = std::min(speed, joint_share * machine.joint[j].velocity_max / std::fabs(slope[j]));
-  Joints reference = path_->at(s_);
+  const Joints on_path = path_->at(s_);
+  Joints reference = departed(machine, on_path, departure_);
+  // What a changed departure moves the reference by comes on top of its way along the path.
+  const Joints before = departed(machine, on_path, last_departure_);
+  last_departure_ = departure_;
   const Joints then = arm.predicted(angle, velocity);
   double behind = 0.0;
   for (const std::size_t j : {boom, stick, bucket}) behind = std::max(behind, std::fabs(reference[j] - then[j]));
@@ -77,7 +87,7 @@ Joints DigFollower::step(const MachineModel& machine, ArmController& arm, double
   stalled_ = go < 0.15 ? stalled_ + machine.cycle : 0.0;
   Joints reference_velocity{};
   const double ends = finished() ? 0.0 : speed * go;
-  for (const std::size_t j : {boom, stick, bucket}) reference_velocity[j] = slope[j] * ends;
+  for (const std::size_t j : {boom, stick, bucket}) reference_velocity[j] = slope[j] * ends + (reference[j] - before[j]) / machine.cycle;
   s_ = std::min(path_->length(), s_ + ends * machine.cycle);
   reference[swing] = held_swing;
   Joints command = arm.follow(reference, reference_velocity, angle, velocity);

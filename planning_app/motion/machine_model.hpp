@@ -37,11 +37,14 @@ struct BrakingTable {
   std::array<std::vector<std::vector<double>>, joints> angle;
 };
 
+struct Cylinder { double bottom = 0.0, rod = 0.0; };  // moment about the joint's pin that a kPa in either side makes, N m
+
 struct MachineModel {
   double boom_pin_x = 0.0, boom_pin_z = 0.0;
   double boom_length = 0.0, stick_length = 0.0, bucket_length = 0.0;
   double own_body_radius = 0.0;
   std::array<JointLimits, joints> joint;
+  std::array<Cylinder, 3> cylinder;     // boom, stick, bucket
   double state_latency = 0.0, command_latency = 0.0;
   double cycle = 0.01;
   BrakingTable braking;

@@ -85,7 +85,7 @@ public:
   explicit Script(std::array<JointScript, joints> scripts) : scripts_(std::move(scripts)) {}
 
   void start();
-  void evaluate(const Joints& angle, std::uint32_t events);  // at 10 Hz
+  void evaluate(const Joints& angle, std::uint32_t events);  // at a fixed rate
   bool running() const { return scripts_[swing].running(); }
   Joints goals() const;
   Joints paces() const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planning/soil_slide.hpp"
+
 namespace berm::app {
 
 BedGrid::BedGrid(double along, double across)
@@ -62,26 +64,9 @@ BedGrid filled(const BedGrid& grid, const BedGrid& noted) {
 
 BedGrid settled(const BedGrid& grid, double slope) {
   constexpr int most_rounds = 60;
-  constexpr double rest_step = 0.002;  // m; less is left standing
-  constexpr double share = 0.25;       // of the excess, for a cell has four neighbours
+  constexpr double rest_step = 0.002;  // m
   BedGrid out = grid;
-  const auto slide = [&](std::size_t a, std::size_t b) {
-    const double step = out.height[a] - out.height[b], excess = std::fabs(step) - slope * BedGrid::cell;
-    if (excess <= rest_step) return false;
-    const double moved = std::copysign(share * excess, step);
-    out.height[a] -= moved;
-    out.height[b] += moved;
-    return true;
-  };
-  for (int round = 0; round < most_rounds; ++round) {
-    bool moved = false;
-    for (int row = 0; row < out.rows; ++row)
-      for (int column = 0; column < out.columns; ++column) {
-        if (column + 1 < out.columns && slide(out.index(column, row), out.index(column + 1, row))) moved = true;
-        if (row + 1 < out.rows && slide(out.index(column, row), out.index(column, row + 1))) moved = true;
-      }
-    if (!moved) break;
-  }
+  slide_to_rest(out.height, out.columns, out.rows, {slope * BedGrid::cell, rest_step, most_rounds});
   return out;
 }
 

@@ -5,41 +5,18 @@
 
 namespace berm::app {
 
-namespace {
-
-constexpr double bank_slope = 1.5;                 // rise over run of a cut face
-
-}  // namespace
-
-SurfaceProfile::SurfaceProfile(const TerrainMap& terrain, double bearing, double width) {
+SurfaceProfile::SurfaceProfile(const DigGround& ground, double bearing, double width) {
   const double c = std::cos(bearing), s = std::sin(bearing);
   const std::size_t count = static_cast<std::size_t>(std::lround((last - first) / step)) + 1;
-  constexpr double none = INFINITY;
-  std::vector<double> seen(count, none), bound(count, none);
+  z_.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double r = first + step * static_cast<double>(i);
-    double sum = 0.0, bound_sum = 0.0;
-    int known = 0, bounded = 0;
+    double sum = 0.0;
     for (int k = -2; k <= 2; ++k) {
       const double across = 0.22 * k * width;
-      const double x = r * c - across * s, y = r * s + across * c;
-      if (const auto z = terrain.height(x, y)) { sum += *z; ++known; }
-      if (const auto z = terrain.bound(x, y)) { bound_sum += *z; ++bounded; }
+      sum += ground.height(r * c - across * s, r * s + across * c);
     }
-    if (known > 0) seen[i] = sum / known;
-    if (bounded > 0) bound[i] = bound_sum / bounded;
-  }
-  z_.assign(count, 0.0);
-  double before = 0.0;  // the bench, where not even its edge has been seen
-  for (std::size_t i = 0; i < count; ++i) {
-    double z = seen[i];
-    if (z == none) {
-      std::size_t next = i;
-      while (next < count && seen[next] == none) ++next;
-      const double foot = next < count ? std::min(seen[next], before) : -none;
-      z = std::min(std::max(before - bank_slope * step, foot), bound[i]);
-    }
-    z_[i] = before = z;
+    z_.push_back(0.2 * sum);
   }
 }
 
@@ -85,12 +62,20 @@ double CutModel::reach(const Joints& pose) {
   return area * width_;
 }
 
-double cut_volume(const MachineModel& machine, const SurfaceProfile& surface, double bucket_width, const DigPath& path) {
-  CutModel model(machine, surface, bucket_width);
+std::vector<double> fill_along(const MachineModel& machine, const SurfaceProfile& surface, double bucket_width, const DigPath& path) {
   constexpr double pace = 0.06;  // m along the path
-  for (double s = 0.0; s < path.length(); s += pace) model.reach(path.at(s));
-  model.reach(path.at(path.length()));
-  return model.volume();
+  CutModel model(machine, surface, bucket_width);
+  const std::size_t pieces = static_cast<std::size_t>(std::ceil(path.length() / pace));
+  std::vector<double> fill;
+  for (std::size_t i = 0; i <= pieces; ++i) {
+    model.reach(path.at(path.length() * static_cast<double>(i) / static_cast<double>(pieces)));
+    fill.push_back(model.volume());
+  }
+  return fill;
+}
+
+double cut_volume(const MachineModel& machine, const SurfaceProfile& surface, double bucket_width, const DigPath& path) {
+  return fill_along(machine, surface, bucket_width, path).back();
 }
 
 }  // namespace berm::app

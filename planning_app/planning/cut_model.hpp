@@ -4,17 +4,16 @@
 #include <vector>
 
 #include "motion/dig_path.hpp"
-#include "planning/terrain_map.hpp"
+#include "planning/dig_ground.hpp"
 
 namespace berm::app {
 
-// The ground along a bearing, from the machine outward. A face hides itself from a scanner above its crest: what was never seen is taken to
-// fall from the last seen point at the slope at which cut bank stands, down to the next seen point, and never to lie above the bucket's passage.
+// The ground along a bearing, from the machine outward: the mean over the bucket's width.
 class SurfaceProfile {
 public:
   static constexpr double first = 4.0, last = 10.0, step = 0.1;  // m
 
-  SurfaceProfile(const TerrainMap& terrain, double bearing, double width);
+  SurfaceProfile(const DigGround& ground, double bearing, double width);
 
   double at(double r) const;
   std::vector<double>& heights() { return z_; }  // at first, first + step, ...
@@ -38,6 +37,9 @@ private:
   double width_;
   double volume_ = 0.0;
 };
+
+// What is in the bucket (bank m3) at places that lie evenly along a path, from its start to its end.
+std::vector<double> fill_along(const MachineModel& machine, const SurfaceProfile& surface, double bucket_width, const DigPath& path);
 
 // Volume of a whole path.
 double cut_volume(const MachineModel& machine, const SurfaceProfile& surface, double bucket_width, const DigPath& path);

@@ -62,9 +62,9 @@ std::vector<DigWaypoint> drag_of(const Profile& p, double depth, double lowest) 
 
 }  // namespace
 
-DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const TerrainMap& terrain, const DigNeeds& needs, double bearing) {
+DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const DigGround& ground, const DigNeeds& needs, double bearing) {
   const double lowest = lowest_tip(site, needs.floor_guard);
-  const SurfaceProfile surface(terrain, bearing, needs.bucket_width);
+  const SurfaceProfile surface(ground, bearing, needs.bucket_width);
   const Profile profile = drag_profile(site, surface);
   const auto volume = [&](double depth) {
     const auto path = DigPath::solve(machine, drag_of(profile, depth, lowest));
@@ -102,8 +102,8 @@ bool zone_holds(const SiteModel& site, double bearing, double half_width) {
 
 struct Search { DigPlan plan; double cost = INFINITY; };
 
-void consider(const MachineModel& machine, const SiteModel& site, const TerrainMap& terrain, const DigNeeds& needs, double last_bearing, double bearing, Search& best) {
-  DigPlan plan = plan_dig(machine, site, terrain, needs, bearing);
+void consider(const MachineModel& machine, const SiteModel& site, const DigGround& ground, const DigNeeds& needs, double last_bearing, double bearing, Search& best) {
+  DigPlan plan = plan_dig(machine, site, ground, needs, bearing);
   // A lack of volume costs most, then depth; overlapping the last cut costs, moving from left to right is free.
   const double lack = std::max(0.0, needs.volume - plan.volume) / needs.volume;
   const double overlap = std::max(0.0, 1.0 - std::fabs(bearing - last_bearing) / radians(9.0));
@@ -116,7 +116,7 @@ void consider(const MachineModel& machine, const SiteModel& site, const TerrainM
 
 }  // namespace
 
-DigPlan choose_dig(const MachineModel& machine, const SiteModel& site, const TerrainMap& terrain, const DigNeeds& needs, double last_bearing) {
+DigPlan choose_dig(const MachineModel& machine, const SiteModel& site, const DigGround& ground, const DigNeeds& needs, double last_bearing) {
   constexpr double enough = 0.75;       // of the wanted volume
   constexpr int widest = 3;             // steps beyond the site's bearings, where the dig zone allows
   constexpr double further_in = 0.4;    // m, of the drag's end
@@ -124,7 +124,7 @@ DigPlan choose_dig(const MachineModel& machine, const SiteModel& site, const Ter
   const int count = std::max(1, static_cast<int>(std::lround(width / bearing_step)) + 1);
   Search best;
   for (int k = 0; k < count; ++k)
-    consider(machine, site, terrain, needs, last_bearing, count == 1 ? site.dig_swing_left - 0.5 * width : site.dig_swing_left - width * k / (count - 1), best);
+    consider(machine, site, ground, needs, last_bearing, count == 1 ? site.dig_swing_left - 0.5 * width : site.dig_swing_left - width * k / (count - 1), best);
   if (best.plan.volume >= enough * needs.volume) return best.plan;
   // What the site names is dug out: to both sides of it, then a little nearer to the machine.
   SiteModel wider = site;
@@ -132,7 +132,7 @@ DigPlan choose_dig(const MachineModel& machine, const SiteModel& site, const Ter
     wider.dig_radius_end = site.dig_radius_end - in;
     for (int step = in > 0.0 ? -count / 2 : 1; step <= widest; ++step)
       for (const double bearing : {site.dig_swing_left + step * bearing_step, site.dig_swing_right - step * bearing_step})
-        if (zone_holds(wider, bearing, 0.5 * needs.bucket_width)) consider(machine, wider, terrain, needs, last_bearing, bearing, best);
+        if (zone_holds(wider, bearing, 0.5 * needs.bucket_width)) consider(machine, wider, ground, needs, last_bearing, bearing, best);
     if (best.plan.volume >= enough * needs.volume) break;
   }
   return best.plan;

@@ -6,7 +6,7 @@
 #include "motion/dig_path.hpp"
 #include "planning/cut_model.hpp"
 #include "planning/site_model.hpp"
-#include "planning/terrain_map.hpp"
+#include "planning/dig_ground.hpp"
 
 namespace berm::app {
 
@@ -29,9 +29,9 @@ struct DigNeeds {
 // First between the site's bearings; where these no longer yield enough, beside them and nearer the machine, inside the dig zone.
 // Bearings stand from left to right; the one after the last is preferred, then the one that yields the wanted volume with the least depth.
 // Always gives a plan; where nothing yields enough, the best there is.
-DigPlan choose_dig(const MachineModel& machine, const SiteModel& site, const TerrainMap& terrain, const DigNeeds& needs, double last_bearing);
+DigPlan choose_dig(const MachineModel& machine, const SiteModel& site, const DigGround& ground, const DigNeeds& needs, double last_bearing);
 
 // The dig along one bearing.
-DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const TerrainMap& terrain, const DigNeeds& needs, double bearing);
+DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const DigGround& ground, const DigNeeds& needs, double bearing);
 
 }  // namespace berm::app

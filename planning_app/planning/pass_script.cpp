@@ -167,7 +167,7 @@ void PassSearch::step() {
 }
 
 PassSearch::Outcome PassSearch::simulate(const PassThresholds& thresholds) const {
-  constexpr int script_every = 10;  // cycles: 10 Hz
+  constexpr int script_every = 2;   // cycles: 50 Hz
   constexpr int check_every = 5;
   constexpr double most_seconds = 30.0;
   constexpr double emptying = 0.5;  // s with the bucket open

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace berm::app {
 
-TerrainMap::TerrainMap() : height_(static_cast<std::size_t>(side * side), 0.0), time_(height_.size(), -1.0), bound_(height_.size(), std::numeric_limits<double>::infinity()) {}
+TerrainMap::TerrainMap() : height_(static_cast<std::size_t>(side * side), 0.0), time_(height_.size(), -1.0) {}
 
 std::optional<std::size_t> TerrainMap::index(double x, double y) {
   const double ix = std::floor((x + half_side) / cell), iy = std::floor((y + half_side) / cell);
@@ -22,20 +21,6 @@ void TerrainMap::insert(double x, double y, double z, double time_s) {
   if (time_[*i] >= 0.0 && time_s - time_[*i] < same_passage && z < height_[*i]) return;
   height_[*i] = z;
   time_[*i] = time_s;
-  bound_[*i] = std::numeric_limits<double>::infinity();
-}
-
-void TerrainMap::lower_to(double x, double y, double z) {
-  const auto i = index(x, y);
-  if (!i) return;
-  if (time_[*i] >= 0.0) height_[*i] = std::min(height_[*i], z);
-  else bound_[*i] = std::min(bound_[*i], z);
-}
-
-std::optional<double> TerrainMap::bound(double x, double y) const {
-  const auto i = index(x, y);
-  if (!i || std::isinf(bound_[*i])) return std::nullopt;
-  return bound_[*i];
 }
 
 std::optional<double> TerrainMap::height(double x, double y) const {

@@ -20,10 +20,6 @@ public:
   std::optional<double> height(double x, double y) const;
   // The same with a height for cells never observed.
   double height_or(double x, double y, double unknown) const;
-  // The bucket's edge passed at this height: the ground is no higher. Lowers what is known, and bounds what is hidden, until it is seen again.
-  void lower_to(double x, double y, double z);
-  // The lowest passage over a cell that was not seen since; nothing where none.
-  std::optional<double> bound(double x, double y) const;
   double observed_at(double x, double y) const;  // s; -1 never
   void forget(double x_low, double y_low, double x_high, double y_high);
 
@@ -31,7 +27,7 @@ private:
   static constexpr int side = static_cast<int>(2.0 * half_side / cell);
   static std::optional<std::size_t> index(double x, double y);
 
-  std::vector<double> height_, time_, bound_;
+  std::vector<double> height_, time_;
 };
 
 }  // namespace berm::app

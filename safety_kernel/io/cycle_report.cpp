@@ -1,5 +1,6 @@
 // What a cycle shows to app and recorders.
 #include <algorithm>
+#include <cstring>
 
 #include "io/cycle.hpp"
 
@@ -59,7 +60,7 @@ void Cycle::report_state(const CycleInputs& in, berm_state& state) const {
   }
   for (int s = 0; s < BERM_SCANNERS; ++s) state.pan_angle_urad[s] = scans_.pan_urad(s);
   state.payload_kg = picture.payload_kg;
-  state.boom_pressure_kpa = picture.boom_pressure_kpa;
+  std::memcpy(state.cylinder_kpa, picture.cylinder_kpa, sizeof state.cylinder_kpa);
   state.request_sequence = request_.sequence;
   state.request_result = static_cast<std::uint8_t>(request_result_);
   state.kernel_state = contract_state(stop_.code);

@@ -91,7 +91,8 @@ bool FrameIntake::take_plain(const berm_can_frame& frame, std::int64_t now_us) {
   } else if (frame.id == BERM_CAN_PRESSURE_1) {
     berm_pressure pressure{};
     if (!berm_decode_pressure(&frame, &pressure)) return false;
-    picture_.boom_pressure_kpa = pressure.kpa[0];
+    for (int c = 0; c < BERM_CYLINDERS; ++c)
+      for (int side = 0; side < 2; ++side) picture_.cylinder_kpa[c][side] = pressure.kpa[2 * c + side];
   } else if (frame.id == BERM_CAN_ROLL_PITCH) {
     berm_roll_pitch level{};
     if (!berm_decode_roll_pitch(&frame, &level)) return false;

@@ -8,6 +8,7 @@
 
 #include "can/berm_can.h"
 #include "config/parameter_block.h"
+#include "contract/berm_contract.h"
 #include "core/base_motion.h"
 #include "core/frame_guard.h"
 
@@ -21,7 +22,7 @@ struct MachinePicture {
   berm_operator panel{};
   berm_spotter spotter{};
   std::int32_t payload_kg = -1;        // not trusted
-  std::int32_t boom_pressure_kpa = 0;  // not trusted
+  std::int32_t cylinder_kpa[BERM_CYLINDERS][2] = {};  // bottom and rod side; not trusted
 };
 
 class FrameIntake {

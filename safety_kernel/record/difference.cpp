@@ -33,7 +33,7 @@ constexpr Field kDecision[] = {
 constexpr Field kState[] = {
     BERM_FIELD(berm_state, cycle),            BERM_FIELD(berm_state, time_us),           BERM_FIELD(berm_state, joint_angle_urad),
     BERM_FIELD(berm_state, joint_velocity_urad_s), BERM_FIELD(berm_state, pan_angle_urad), BERM_FIELD(berm_state, payload_kg),
-    BERM_FIELD(berm_state, boom_pressure_kpa), BERM_FIELD(berm_state, request_sequence), BERM_FIELD(berm_state, request_result),
+    BERM_FIELD(berm_state, cylinder_kpa), BERM_FIELD(berm_state, request_sequence), BERM_FIELD(berm_state, request_result),
     BERM_FIELD(berm_state, kernel_state),     BERM_FIELD(berm_state, stop_reason),       BERM_FIELD(berm_state, stop_category),
     BERM_FIELD(berm_state, commanded_urad_s), BERM_FIELD(berm_state, permitted_low_urad_s), BERM_FIELD(berm_state, permitted_high_urad_s),
     BERM_FIELD(berm_state, reach_low_urad),    BERM_FIELD(berm_state, reach_high_urad),
@@ -41,7 +41,7 @@ constexpr Field kState[] = {
     BERM_FIELD(berm_state, blocked_link),     BERM_FIELD(berm_state, stop_count),        BERM_FIELD(berm_state, cycle_cpu_us),
     BERM_FIELD(berm_state, panel),            BERM_FIELD(berm_state, journal_lost),      BERM_FIELD(berm_state, terrain_confirmed_ms),
     BERM_FIELD(berm_state, unwatched),        BERM_FIELD(berm_state, separation_bearing_deg), BERM_FIELD(berm_state, separation_stop_ms),
-    BERM_FIELD(berm_state, dust_permille),   BERM_FIELD(berm_state, sight)};
+    BERM_FIELD(berm_state, dust_permille),   BERM_FIELD(berm_state, sight),               BERM_FIELD(berm_state, reserved)};
 
 template <std::size_t N>
 constexpr std::size_t total(const Field (&fields)[N]) {

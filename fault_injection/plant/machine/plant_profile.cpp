@@ -136,6 +136,12 @@ DynamicsConfig read_dynamics(StrictTable& file) {
   d.payload_reference = t.number("payload_reference_kg", 1.0, 50000.0);
   d.flow_limit = t.number("flow_limit", 0.5, 4.0);
   t.finish();
+  StrictTable cylinders = file.table("cylinder");
+  for (std::size_t c = 0; c < d.cylinder.size(); ++c) {
+    const auto sides = cylinders.array<2>(fmt::format("{}_nm_per_kpa", kJointName[c + 1]), 0.01, 1000.0);
+    d.cylinder[c] = {sides[0], sides[1]};
+  }
+  cylinders.finish();
   return d;
 }
 

@@ -27,12 +27,17 @@ struct InertiaConfig {                  // lumped masses about the swing axis
   OutlinePoint stick_centre{}, bucket_centre{};  // centres of mass in the link frames; the payload's is the bucket's
 };
 
+struct CylinderConfig {                 // the moment about the joint's pin that a kPa in either side makes, N m; taken as constant over the range
+  double bottom = 0.0, rod = 0.0;
+};
+
 struct DynamicsConfig {
   std::array<JointConfig, 4> joint;     // swing, boom, stick, bucket
   InertiaConfig inertia;
   double swing_drive_torque = 0.0, swing_brake_torque = 0.0;  // N m
   double boom_lower_brake_loaded = 0.0; // boom's deceleration when lowering with the reference payload
   double payload_reference = 0.0;       // kg
+  std::array<CylinderConfig, 3> cylinder;  // boom, stick, bucket
   double flow_limit = 0.0;              // most of the sum of |v| / v_max that the pumps feed
 };
 

@@ -4,32 +4,20 @@
 #include <cmath>
 #include <numbers>
 
-#include "plant/machine/kinematics.hpp"
+#include "plant/machine/cylinder_pressures.hpp"
 
 namespace berm::plant {
 
 namespace {
 
-constexpr double kGravity = 9.81;
-constexpr double kBoomPistonArea = 2 * 0.0113;  // m2, two cylinders of 120 mm bore
-constexpr double kBoomLeverArm = 0.75;          // m, cylinder line to boom pin, taken as constant
-constexpr double kReturnPressure = 500.0;       // kPa in a side that does not carry
+constexpr double kReturnPressure = 500.0;  // kPa in the swing motor
+constexpr double kPressureNoise = 0.01;    // of the reading
 
 std::int32_t micro(double x) { return static_cast<std::int32_t>(std::lround(x * 1e6)); }
 
 }  // namespace
 
-double boom_pressure_kpa(const DynamicsConfig& config, const ImplementShape& shape, const JointState& joints, double payload_kg) {
-  const InertiaConfig& m = config.inertia;
-  const ImplementPose pose = implement_pose(shape, joints);
-  const double boom_arm = (m.boom_radius - shape.boom_pin_x) * std::cos(pose.boom.angle);
-  const double stick_arm = place(pose.stick, m.stick_centre).r - shape.boom_pin_x;
-  const double bucket_arm = place(pose.bucket, m.bucket_centre).r - shape.boom_pin_x;
-  const double moment = kGravity * (m.boom_mass * boom_arm + m.stick_mass * stick_arm + (m.bucket_mass + payload_kg) * bucket_arm);
-  return std::max(0.0, moment / (kBoomPistonArea * kBoomLeverArm) / 1000.0);
-}
-
-StateFrames::StateFrames(const PlantProfile& profile, std::uint64_t seed) : profile_(profile), noise_(seed, 12), track_noise_(seed, 13) {}
+StateFrames::StateFrames(const PlantProfile& profile, std::uint64_t seed) : profile_(profile), noise_(seed, 12), track_noise_(seed, 13), pressure_noise_(seed, 14) {}
 
 void StateFrames::guarded(std::vector<berm_can_frame>& out, GuardSender& guard, const berm_can_frame& frame) {
   out.push_back(guard.guard_for(frame));
@@ -47,8 +35,12 @@ void StateFrames::every_cycle(std::vector<berm_can_frame>& out, const MachineSna
   guarded(out, velocity_guard_, berm_encode_front_velocity(&velocity));
   berm_pressure pressure{};
   for (std::int32_t& kpa : pressure.kpa) kpa = static_cast<std::int32_t>(kReturnPressure);
-  const double boom = boom_pressure_kpa(profile_.dynamics, profile_.shape, now.joints, now.payload_kg);
-  pressure.kpa[0] = static_cast<std::int32_t>(std::lround(boom * (1.0 + noise_.bounded(0.01))));
+  const auto kilopascal = [](SeededNoise& noise, double true_kpa) { return static_cast<std::int32_t>(std::lround(true_kpa * (1.0 + noise.bounded(kPressureNoise)))); };
+  const std::array<SidePressures, 3> sides = cylinder_pressures(profile_.dynamics, profile_.shape, now.joints, now.payload_kg, now.edge);
+  for (std::size_t c = 0; c < sides.size(); ++c) {
+    pressure.kpa[2 * c] = kilopascal(c == 0 ? noise_ : pressure_noise_, sides[c].bottom_kpa);
+    pressure.kpa[2 * c + 1] = kilopascal(pressure_noise_, sides[c].rod_kpa);
+  }
   out.push_back(berm_encode_pressure(&pressure));
 }
 

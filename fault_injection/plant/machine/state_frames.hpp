@@ -23,13 +23,11 @@ struct MachineSnapshot {                 // true values
   BasePose base;
   double payload_kg = 0.0;
   bool digging = false;                  // soil resists a joint: the weighing is not valid
+  EdgeForce edge;
   bool pilot_unlocked = false;
   PanelInput panel;
   bool truck_parked = false, truck_leaving = false;
 };
-
-// Pressure in the boom cylinders' bottom side that carries the implements and the payload, kPa.
-double boom_pressure_kpa(const DynamicsConfig& config, const ImplementShape& shape, const JointState& joints, double payload_kg);
 
 class StateFrames {
  public:
@@ -45,7 +43,7 @@ class StateFrames {
 
   PlantProfile profile_;
   SeededNoise noise_;
-  SeededNoise track_noise_;  // a stream of its own
+  SeededNoise track_noise_, pressure_noise_;  // streams of their own
   GuardSender angle_guard_, velocity_guard_, machine_guard_, estop_guard_, operator_guard_, spotter_guard_;
   std::uint8_t alive_ = 0;
 };

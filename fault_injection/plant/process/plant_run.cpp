@@ -119,6 +119,7 @@ void PlantRun::send(double t) {
   snapshot.payload_kg = world_.payload_kg();
   const auto& factor = soil_.resist_speed_factor;
   snapshot.digging = std::any_of(factor.begin(), factor.end(), [](double f) { return f < 1.0; });
+  snapshot.edge = soil_.edge;
   snapshot.pilot_unlocked = controller_.pilot_unlocked();
   snapshot.panel = panel_at(scenario_, t);
   snapshot.truck_parked = world_.truck_parked();

@@ -10,6 +10,8 @@ namespace {
 constexpr double full_rate = 0.5;    // bank m3/s at which the resistance is fully felt
 constexpr double rate_time = 0.10;   // s, smoothing of the rate
 constexpr double least_factor = 0.35;
+constexpr double stall_force = 120e3;  // N at the edge that stops a machine of the 20 t class
+constexpr double edge_at_rest = 0.01;  // m/s
 constexpr double push_near = 0.05, push_far = 0.45;  // where pushed soil lands ahead of the bucket, m
 constexpr double inf = std::numeric_limits<double>::infinity();
 
@@ -150,6 +152,12 @@ void SoilCut::empty(const BucketPose& now, double dt, const Terrain& terrain, Bu
       landing.drop(now.x + r * now.cos_swing - lateral * now.sin_swing, now.y + r * now.sin_swing + lateral * now.cos_swing, out / (across * along), book);
     }
   }
+}
+
+EdgeForce SoilCut::edge_force(const BucketPose& before, const BucketPose& now, double dt, double speed_factor) const {
+  const Vec3 v = motion(before, now, dt);
+  const double speed = std::max(edge_at_rest, std::hypot(v.x, v.z)), force = (1.0 - speed_factor) * stall_force;
+  return {-force * v.x / speed, -force * v.z / speed};
 }
 
 double SoilCut::speed_factor(double cut_volume, double dt) {

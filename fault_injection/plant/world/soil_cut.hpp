@@ -31,6 +31,8 @@ class SoilCut {
   void empty(const BucketPose& now, double dt, const Terrain& terrain, BucketLoad& load, Landing& landing, SoilBook& book) const;
   // What the soil leaves of the joints' speeds after this step's cut.
   double speed_factor(double cut_volume, double dt);
+  // Against the edge's motion, as large as the share of the speed that the soil takes.
+  [[nodiscard]] EdgeForce edge_force(const BucketPose& before, const BucketPose& now, double dt, double speed_factor) const;
 
  private:
   [[nodiscard]] Vec3 motion(const BucketPose& before, const BucketPose& now, double dt) const;

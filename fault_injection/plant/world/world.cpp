@@ -133,7 +133,9 @@ DigForces World::step(double t, double dt, const JointState& now, const JointSta
   w.cut.empty(here, dt, w.terrain, w.load, w.landing, w.book);
   w.terrain.settle(ground_budget);
   DigForces forces;
-  forces.resist_speed_factor.fill(w.cut.speed_factor(taken, dt));
+  const double factor = w.cut.speed_factor(taken, dt);
+  forces.resist_speed_factor.fill(factor);
+  forces.edge = w.cut.edge_force(before, here, dt, factor);
   return forces;
 }
 

@@ -20,7 +20,12 @@ struct MoverConfig;
 struct WorldConfig;     // process/world_config.hpp
 struct BasePose;        // world/base_pose.hpp
 
-struct DigForces { std::array<double, 4> resist_speed_factor{1.0, 1.0, 1.0, 1.0}; };  // 0..1: what the soil leaves of each joint's speed
+struct EdgeForce { double r_n = 0.0, z_n = 0.0; };  // of the soil on the bucket's cutting edge, outward and upward in the swing plane
+
+struct DigForces {
+  std::array<double, 4> resist_speed_factor{1.0, 1.0, 1.0, 1.0};  // 0..1: what the soil leaves of each joint's speed
+  EdgeForce edge;
+};
 
 struct LidarPacket;     // world/spinning_lidar.hpp
 

@@ -53,8 +53,7 @@ TEST(Sequencer, LoadsOneTruck) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(run.plant.site().third(i), target / 3.0, 0.35 * target / 3.0) << "third " << i;
   EXPECT_EQ(run.plant.findings().unseen_cells, 0);
   EXPECT_LT(run.plant.findings().most_azimuth_rate, radians(50.0));
-  // The miniature's soil never slumps: where a face hides a hole the last digs bring little, and there are more of them than on a site.
-  EXPECT_LT(run.seconds, 16.0 * 25.0 + 30.0);
+  EXPECT_LT(run.seconds, 12.0 * 25.0 + 30.0);
 }
 
 TEST(Sequencer, GoesOnAfterTheKernelStoppedItInTheSwing) {

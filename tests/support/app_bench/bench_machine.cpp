@@ -65,6 +65,7 @@ void BenchMachine::step(const berm_request& request) {
   decide(request);
   move();
   work_soil();
+  site_.slump();
   measure();
   scan(request);
   check();

@@ -51,7 +51,34 @@ double BenchSite::cut(double x, double y, double bearing, double half_width, dou
       h = z;
     }
   }
+  if (volume > 0.0) {
+    constexpr int about = 15;
+    low_x_ = std::max(0, std::min(low_x_, index(x) - about));
+    high_x_ = std::min(side - 2, std::max(high_x_, index(x) + about));
+    low_y_ = std::max(0, std::min(low_y_, index(y) - about));
+    high_y_ = std::min(side - 2, std::max(high_y_, index(y) + about));
+  }
   return volume;
+}
+
+void BenchSite::slump() {
+  constexpr double stands = 1.5 * cell, share = 0.2;  // the slope of the site's own faces
+  bool moved = false;
+  const auto level = [&](double& a, double& b) {
+    const double excess = std::fabs(a - b) - stands;
+    if (excess < 0.02) return;
+    const double flow = std::copysign(share * excess, a - b);
+    a -= flow;
+    b += flow;
+    moved = true;
+  };
+  for (int iy = low_y_; iy <= high_y_; ++iy)
+    for (int ix = low_x_; ix <= high_x_; ++ix) {
+      double& here = ground_[static_cast<std::size_t>(iy * side + ix)];
+      level(here, ground_[static_cast<std::size_t>(iy * side + ix + 1)]);
+      level(here, ground_[static_cast<std::size_t>((iy + 1) * side + ix)]);
+    }
+  if (!moved) low_x_ = low_y_ = side, high_x_ = high_y_ = -1;
 }
 
 void BenchSite::dump(double x, double y, double mass_kg) {

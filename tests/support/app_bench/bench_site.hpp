@@ -14,6 +14,8 @@ public:
   bool on_truck(double x, double y) const;          // bed with walls, or cab
   // Takes the soil above z from a lateral strip; bank m3 taken.
   double cut(double x, double y, double bearing, double half_width, double z);
+  // One step of what was cut sliding after; call it once a cycle.
+  void slump();
   void dump(double x, double y, double mass_kg);
   void new_truck();
 
@@ -30,6 +32,7 @@ private:
   static int index(double v);
 
   std::vector<double> ground_;
+  int low_x_ = side, high_x_ = -1, low_y_ = side, high_y_ = -1;  // cells about what was cut
   double bed_mass_ = 0.0, spilled_mass_ = 0.0;
   double third_[3] = {0.0, 0.0, 0.0};
 };

@@ -81,4 +81,30 @@ TEST(DigFollower, WaitsForJointsThatSoilHolds) {
   EXPECT_GT(follower.stalled_s(), 0.3);
 }
 
+// Follows a short path without a machine that lags: the joints are where the reference was.
+Joints follow_to_end(const MachineModel& m, const DigFollower::Departure& departure) {
+  ArmController arm(m);
+  DigFollower follower;
+  follower.begin(*DigPath::solve(m, drag));
+  Joints angle = DigPath::solve(m, drag)->at(0.0), velocity{};
+  for (int k = 0; k < 1500 && !follower.finished(); ++k) {
+    arm.heard(velocity, {-9, -9, -9, -9}, {9, 9, 9, 9});
+    follower.depart(departure);
+    velocity = follower.step(m, arm, 0.0, 1.0, angle, velocity);
+    arm.asked(velocity);
+    for (const std::size_t j : {boom, stick, bucket}) angle[j] += velocity[j] * m.cycle;
+  }
+  EXPECT_TRUE(follower.finished());
+  return angle;
+}
+
+TEST(DigFollower, DepartsFromThePathAsFarAsItIsTold) {
+  const MachineModel m = berm::app_bench::zx200();
+  const ArmPoints on = forward(m, follow_to_end(m, {})), under = forward(m, follow_to_end(m, {-0.4, 0.0})), curled = forward(m, follow_to_end(m, {0.0, radians(-178)}));
+  EXPECT_NEAR(on.tip.z, -0.2, 0.15);
+  EXPECT_NEAR(under.tip.z - on.tip.z, -0.4, 0.05);
+  EXPECT_NEAR(under.tip.r, on.tip.r, 0.05);
+  EXPECT_LT(curled.bucket_attitude, on.bucket_attitude - radians(4));
+}
+
 }  // namespace

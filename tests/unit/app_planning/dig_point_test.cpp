@@ -20,9 +20,15 @@ TerrainMap seen_bench(double crest = 6.0) {
   return map;
 }
 
+DigGround ground_of(const TerrainMap& map) {
+  DigGround ground(berm::app_bench::bench());
+  ground.observe(map);
+  return ground;
+}
+
 TEST(SurfaceProfile, AHiddenFaceFallsFromTheCrestToTheNextSeenGround) {
   const TerrainMap map = seen_bench();
-  const SurfaceProfile surface(map, 0.0, 1.1);
+  const SurfaceProfile surface(ground_of(map), 0.0, 1.1);
   EXPECT_NEAR(surface.at(5.5), 0.0, 1e-9);
   EXPECT_LT(surface.at(6.5), -0.4);
   EXPECT_GT(surface.at(6.5), -1.0);
@@ -30,18 +36,12 @@ TEST(SurfaceProfile, AHiddenFaceFallsFromTheCrestToTheNextSeenGround) {
   for (double r = 6.0; r < 9.0; r += 0.1) EXPECT_LE(surface.at(r + 0.1), surface.at(r) + 1e-9);
 }
 
-TEST(SurfaceProfile, NeverAboveTheBucketsPassage) {
-  TerrainMap map = seen_bench();
-  for (double y = -0.6; y < 0.6; y += 0.1) map.lower_to(6.5, y, -1.8);
-  EXPECT_NEAR(SurfaceProfile(map, 0.0, 1.1).at(6.5), -1.8, 0.15);
-}
-
 TEST(CutModel, TakesWhatLiesAboveTheBucketOnce) {
   const MachineModel m = berm::app_bench::zx200();
   TerrainMap map;
   for (double x = 3.0; x < 12.0; x += 0.1)
     for (double y = -2.0; y < 2.0; y += 0.1) map.insert(x, y, 0.0, 1.0);
-  CutModel model(m, SurfaceProfile(map, 0.0, 1.1), 1.1);
+  CutModel model(m, SurfaceProfile(ground_of(map), 0.0, 1.1), 1.1);
   const auto above = inverse_tip(m, {7.0, 0.2}, radians(-90.0)), in = inverse_tip(m, {7.0, -0.5}, radians(-90.0));
   ASSERT_TRUE(above && in);
   EXPECT_EQ(model.reach(*above), 0.0);
@@ -54,10 +54,22 @@ TEST(CutModel, TakesWhatLiesAboveTheBucketOnce) {
   EXPECT_EQ(model.volume(), taken);
 }
 
+TEST(CutModel, FillGrowsAlongAPath) {
+  const MachineModel m = berm::app_bench::zx200();
+  const SurfaceProfile surface(ground_of(seen_bench()), 0.0, 1.1);
+  const DigPlan plan = plan_dig(m, berm::app_bench::bench(), ground_of(seen_bench()), {1.1, 1.1, 1.0, 0.75}, 0.0);
+  const auto path = DigPath::solve(m, plan.drag);
+  ASSERT_TRUE(path);
+  const std::vector<double> fill = fill_along(m, surface, 1.1, *path);
+  EXPECT_EQ(fill.front(), 0.0) << "it begins over the ground";
+  EXPECT_NEAR(fill.back(), plan.volume, 1e-9);
+  for (std::size_t i = 1; i < fill.size(); ++i) EXPECT_GE(fill[i], fill[i - 1]);
+}
+
 TEST(DigPoint, CutsTheWantedVolumeAndStaysAboveTheFloor) {
   const SiteModel site = berm::app_bench::bench();
   const DigNeeds needs{1.1, 1.1, 1.0, 0.75};
-  const DigPlan plan = choose_dig(berm::app_bench::zx200(), site, seen_bench(), needs, radians(-90.0));
+  const DigPlan plan = choose_dig(berm::app_bench::zx200(), site, ground_of(seen_bench()), needs, radians(-90.0));
   EXPECT_NEAR(plan.volume, 1.1, 0.06);
   EXPECT_GT(plan.depth, 0.2);
   EXPECT_LT(plan.depth, 1.0);
@@ -74,7 +86,7 @@ TEST(DigPoint, BearingsStayInsideTheSiteAndDoNotRepeatWhereOthersAreAsGood) {
   const TerrainMap map = seen_bench();
   double last = radians(-90.0);
   for (int i = 0; i < 6; ++i) {
-    const DigPlan plan = choose_dig(berm::app_bench::zx200(), site, map, {1.1, 1.1, 1.0, 0.75}, last);
+    const DigPlan plan = choose_dig(berm::app_bench::zx200(), site, ground_of(map), {1.1, 1.1, 1.0, 0.75}, last);
     EXPECT_LE(plan.bearing, site.dig_swing_left + 1e-9);
     EXPECT_GE(plan.bearing, site.dig_swing_right - 1e-9);
     EXPECT_GT(std::fabs(plan.bearing - last), radians(8.0));
@@ -88,7 +100,7 @@ TEST(DigPoint, LeavesWhatIsDugOut) {
   for (double r = 5.0; r < 8.0; r += 0.1)
     for (double across = -0.9; across < 0.9; across += 0.1)
       map.insert(r * std::cos(site.dig_swing_left) - across * std::sin(site.dig_swing_left), r * std::sin(site.dig_swing_left) + across * std::cos(site.dig_swing_left), -2.6, 50.0);
-  const DigPlan plan = choose_dig(berm::app_bench::zx200(), site, map, {1.1, 1.1, 1.0, 0.75}, radians(-90.0));
+  const DigPlan plan = choose_dig(berm::app_bench::zx200(), site, ground_of(map), {1.1, 1.1, 1.0, 0.75}, radians(-90.0));
   EXPECT_LT(plan.bearing, site.dig_swing_left - radians(5.0));
 }
 

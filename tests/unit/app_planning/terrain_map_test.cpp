@@ -31,16 +31,4 @@ TEST(TerrainMap, OutsideIsIgnored) {
   EXPECT_EQ(map.height_or(40.0, 0.0, -7.0), -7.0);
 }
 
-TEST(TerrainMap, ThePassageOfTheBucketBoundsUntilSeenAgain) {
-  TerrainMap map;
-  map.lower_to(7.0, 0.0, -1.5);
-  EXPECT_FALSE(map.height(7.0, 0.0));
-  EXPECT_EQ(map.bound(7.0, 0.0), -1.5);
-  map.insert(7.0, 0.0, -1.2, 3.0);  // soil slid in
-  EXPECT_EQ(map.height(7.0, 0.0), -1.2);
-  EXPECT_FALSE(map.bound(7.0, 0.0));
-  map.lower_to(7.0, 0.0, -1.4);
-  EXPECT_EQ(map.height(7.0, 0.0), -1.4);
-}
-
 }  // namespace

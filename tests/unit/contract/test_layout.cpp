@@ -49,12 +49,12 @@ TEST(Layout, TheSizesThatPeersCheck) {
     if (entry[i].field[0] == '\0') size[entry[i].type] = entry[i].offset;
   EXPECT_EQ(size["berm_request"], 64u);
   EXPECT_EQ(size["berm_request_segment"], 128u);
-  EXPECT_EQ(size["berm_state"], 296u);
+  EXPECT_EQ(size["berm_state"], 320u);
   EXPECT_EQ(size["berm_scan_block"], 2200u);
   EXPECT_EQ(size["berm_decision"], 176u);
   EXPECT_EQ(size["berm_slice"], 296u);
   EXPECT_EQ(size["berm_welcome"], 128u);
-  EXPECT_EQ(size["berm_state_segment"], 64u + 296 + 256 * 176 + 64 * 2200 + 96 * 296 + 5 * 104 * 104);
+  EXPECT_EQ(size["berm_state_segment"], 64u + 320 + 256 * 176 + 64 * 2200 + 96 * 296 + 5 * 104 * 104);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 TEST(ContractValues, MagicReadsBermInMemory) {
   const std::uint32_t magic = BERM_CONTRACT_MAGIC;
   EXPECT_EQ(std::memcmp(&magic, "BERM", 4), 0);
-  EXPECT_EQ(BERM_CONTRACT_VERSION, 1u);
+  EXPECT_EQ(BERM_CONTRACT_VERSION, 2u);
 }
 
 // verifies: IF-CT-4

@@ -85,9 +85,10 @@ TEST_F(FrameIntakeTest, UntrustedFiguresNeedNoGuard) {
   intake.take(berm_encode_payload(&invalid), kNow);
   EXPECT_EQ(intake.picture().payload_kg, -1);
   berm_pressure pressure{};
-  pressure.kpa[0] = 12000;
+  for (int i = 0; i < 8; ++i) pressure.kpa[i] = 12000 + 200 * i;
   intake.take(berm_encode_pressure(&pressure), kNow);
-  EXPECT_EQ(intake.picture().boom_pressure_kpa, 12000);
+  for (int c = 0; c < BERM_CYLINDERS; ++c)
+    for (int side = 0; side < 2; ++side) EXPECT_EQ(intake.picture().cylinder_kpa[c][side], 12000 + 200 * (2 * c + side));
 }
 
 // verifies: SK-CY-82

@@ -105,6 +105,17 @@ TEST_F(SoilCutTest, ResistanceSlowsAndLetsGo) {
   EXPECT_NEAR(factor, 1, 1e-6);
 }
 
+TEST_F(SoilCutTest, SoilPushesAgainstTheEdgesMotion) {
+  const BucketPose before = cut.pose(link_frames(shape, bench::reach(shape, 0, 8.0, -0.3, -105 * degree)));
+  const BucketPose now = cut.pose(link_frames(shape, bench::reach(shape, 0, 7.99, -0.31, -105 * degree)));
+  const EdgeForce none = cut.edge_force(before, now, 0.01, 1.0), half = cut.edge_force(before, now, 0.01, 0.5);
+  EXPECT_EQ(std::hypot(none.r_n, none.z_n), 0);
+  EXPECT_NEAR(std::hypot(half.r_n, half.z_n), 60e3, 1);
+  EXPECT_NEAR(half.r_n, half.z_n, 1) << "inward and down, so outward and up";
+  EXPECT_GT(half.r_n, 0);
+  EXPECT_LT(std::hypot(cut.edge_force(now, now, 0.01, 0.5).r_n, cut.edge_force(now, now, 0.01, 0.5).z_n), 1) << "at rest nothing is pushed";
+}
+
 TEST_F(SoilCutTest, OpenBucketEmptiesUnderItsLip) {
   load.take(1.0);
   book.dug = 1.0;
