@@ -64,14 +64,13 @@ Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Groun
   double half_width = 0.0;
   for (const Prism& part : machine.parts) half_width = std::max(half_width, part.half_width);
   half_width += 0.3;  // a cell of the kernel's map
-  // No corner of the bed is farther from its middle.
-  const double bed_reach = site.bed ? 0.01 + std::hypot(0.5 * site.bed->length + wall_thickness, 0.5 * site.bed->width + wall_thickness) : 0.0;
+  const double bed_c = site.bed ? std::cos(site.bed->yaw) : 1.0, bed_s = site.bed ? std::sin(site.bed->yaw) : 0.0;
   const auto top = [&](double x, double y) {
     double z = ground(x, y);
     if (!site.bed || z >= site.bed->wall_top) return z;
     const TruckBed& bed = *site.bed;
-    if (std::hypot(x - bed.centre_x, y - bed.centre_y) > bed_reach) return z;
-    const BedPoint p = to_bed(bed, x, y);
+    const double dx = x - bed.centre_x, dy = y - bed.centre_y;
+    const BedPoint p{dx * bed_c + dy * bed_s, -dx * bed_s + dy * bed_c};  // to_bed, without its cosine and sine for each of 300,000 points
     if (std::fabs(p.u) < 0.5 * bed.length + wall_thickness && std::fabs(p.v) < 0.5 * bed.width + wall_thickness) z = std::max(z, bed.wall_top);
     return z;
   };
@@ -86,7 +85,7 @@ Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Groun
           const double x = r * c - across * s, y = r * s + across * c;
           const double z = top(x, y);
           highest = std::max(highest, z);
-          if (z > highest_outside && !diggable(site, x, y, z)) highest_outside = std::max(highest_outside, z);
+          if (z > highest_outside && !diggable(site, x, y, z)) highest_outside = z;
         }
       all_[static_cast<std::size_t>(b * LowerEdge::bins + bin)] = highest;
       outside_dig_zone_[static_cast<std::size_t>(b * LowerEdge::bins + bin)] = highest_outside;
