@@ -20,12 +20,12 @@ namespace berm::app {
 
 struct DumpNeeds {
   double bucket_half_width = 0.0;  // m
-  ImplementScale scale;
   double since_s = 0.0;            // how new a bed cell must be to count
   double dump_kg = 0.0;            // in the bucket, as planned
   double most_kg = std::numeric_limits<double>::infinity();  // what may be in it at most
   double rest_kg = 0.0;            // of the passes after it
   double farthest_radius = std::numeric_limits<double>::infinity();  // of a dump point from the swing axis, m
+  ImplementScale scale;
 };
 
 struct DumpPoint {

@@ -38,7 +38,7 @@ RC_GTEST_PROP(DumpPoint, StaysWhereTheBucketMayBeAndEndsInTheMiddle, ()) {
     // A pass brings what is planned, or much less; the last ones make up for it.
     const double kg = pass + 1 == passes ? rest : std::fmin(rest / (passes - pass) * drawn(0.7, 1.05), 1600.0);
     rest -= kg;
-    const DumpPoint p = choose_dump_point(map, {half_bucket, 0.0, kg, 1600.0, rest, std::numeric_limits<double>::infinity()});
+    const DumpPoint p = choose_dump_point(map, {half_bucket, 0.0, kg, 1600.0, rest, std::numeric_limits<double>::infinity(), {}});
     RC_ASSERT(p.at.u >= area.u_low - 1e-9 && p.at.u <= area.u_high + 1e-9);
     RC_ASSERT(std::fabs(p.at.u) + half_bucket + 2.0 * bed.end_deviation <= 0.5 * bed.length);
     RC_ASSERT(std::fabs(p.at.v) <= 0.3);

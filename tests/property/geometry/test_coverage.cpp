@@ -110,7 +110,7 @@ TEST(SlicesSoundness, SamplesFindSlicesThatEndTwoDegreesShort) {
   for (const CompiledMachine& machine : compiled_machines())
     for (int joint = 0; joint < 4; ++joint) {
       long outside = 0;
-      for (int i = 0; i < 20; ++i) {
+      for (int i = 0; i < 80; ++i) {
         const sk_reach_box whole = box_at_speed(machine.parameters, 1.0, random).box;
         sk_reach_box shorter = whole;
         shorter.high_urad[joint] = std::max(whole.low_urad[joint], whole.high_urad[joint] - 34907);

@@ -24,7 +24,7 @@ TruckBed free_bed() {
 
 // For the pass after `done` of so many.
 DumpNeeds needs(int done, int passes, double since_s = 0.0) {
-  return {half_bucket, since_s, bucket_kg, bucket_kg, bucket_kg * (passes - done - 1), std::numeric_limits<double>::infinity()};
+  return {half_bucket, since_s, bucket_kg, bucket_kg, bucket_kg * (passes - done - 1), std::numeric_limits<double>::infinity(), {}};
 }
 
 // What a scanner sees of a load height(u, v), where seen(u, v).

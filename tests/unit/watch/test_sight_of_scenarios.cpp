@@ -90,7 +90,7 @@ TEST(SightOfScenarios, NoNoiseOfTheShippedScenariosBlocksASensorOrIsDust) {
     if (testing::Test::HasFatalFailure()) return;
   }
   EXPECT_GE(seen, 14);
-  EXPECT_EQ(plants.size(), 3u);
+  EXPECT_EQ(plants.size(), 5u);
 }
 
 }  // namespace
