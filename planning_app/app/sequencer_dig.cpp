@@ -11,7 +11,7 @@ namespace {
 
 constexpr double bank_density = 1474.0;           // kg/m3, where nothing was learned yet
 constexpr double cut_reserve = 1.05;              // the cut is planned larger than the goal; the estimate ends it
-constexpr double air_speed = 1.1, soil_speed = 1.3, curl_speed = 1.5;  // m/s of the tip
+constexpr double air_speed = 1.6, soil_speed = 1.8, curl_speed = 2.2;  // m/s of the tip
 constexpr double stall_patience = 1.0;            // s
 constexpr double curled = radians(-174.0);        // absolute bucket angle with the mouth up
 constexpr double range_guard = radians(7.5);      // a standing joint's stop travel stays inside its range
@@ -63,7 +63,7 @@ void Sequencer::begin_dig(const Observation& o) {
   SiteModel here = site_;
   here.dig_radius_end = dig_.end_radius;
   dig_ = plan_dig(machine_, here, ground_, needs, o.angle[swing]);
-  const ArmPoints now = forward(machine_, o.angle);
+  const ArmPoints now = forward(machine_, arm_.predicted(o.angle, o.velocity));  // it may still be lowered
   std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}};
   way.insert(way.end(), dig_.drag.begin(), dig_.drag.end());
   auto path = DigPath::solve(machine_, way);
@@ -131,7 +131,8 @@ void Sequencer::hold_fill(double in_bucket_kg) {
   const double planned = total > 0.0 ? planned_fill_[static_cast<std::size_t>(follower_.progress() * static_cast<double>(planned_fill_.size() - 1))] / total : 0.0;
   if (planned > 0.0 && follower_.stalled_s() == 0.0) {    // in the soil
     const double rate = std::clamp(gain * (share - planned), -fastest, fastest);
-    departure.lift = std::clamp(departure.lift + rate * machine_.cycle, -deepest, 0.0);
+    const double to_floor = lowest_tip(site_, DigNeeds{}.floor_guard) - forward(machine_, follower_.on_path()).tip.z;
+    departure.lift = std::clamp(departure.lift + rate * machine_.cycle, std::clamp(to_floor, -deepest, 0.0), 0.0);
   }
   follower_.depart(departure);
 }
@@ -151,18 +152,20 @@ Joints Sequencer::dig(const Observation& o) {
   return follower_.step(machine_, arm_, o.angle[swing], in_soil ? soil_speed : air_speed, o.angle, o.velocity);
 }
 
-// Out of the soil straight up, for what lies over the bucket falls into it and what lies inward would be pushed; over the surface inward, as far as the
-// curled bucket needs to be within reach.
+// Out of the soil straight up, for what lies over the bucket falls into it and what lies inward would be pushed; then up on, and inward a little, to
+// where the bucket can be curled wholly: low and far out the arm does not reach that.
 void Sequencer::begin_curl(const Observation& o) {
-  constexpr double over_surface = 0.15, inward = 0.05, lift = 0.45, step = 0.05;
+  constexpr double over_surface = 0.15, inward = 0.05, lift = 0.45, step = 0.05, highest_rise = 2.5, most_inward = 0.5;
   const ArmPoints now = forward(machine_, o.angle);
   log_.event("dug", {{"time_s", o.time_s}, {"r_m", now.tip.r}, {"z_m", now.tip.z}, {"modelled_kg", cut_->volume() * bank_density * yield_},
                      {"felt_kg", filled_.kg()}, {"impulse_kns", 1e-3 * filled_.impulse()}});
   const double up = now.tip.r - inward, z = std::max(now.tip.z, cut_->surface().at(up) + over_surface);
-  double r = up;
-  while (r > SurfaceProfile::first && !inverse_tip(machine_, {r, z + lift}, curled, range_guard)) r -= step;
+  const auto curls = [&](double r, double height) { return inverse_tip(machine_, {r, height}, curled, range_guard).has_value(); };
+  double r = up, top = z + lift;
+  while (top < z + lift + highest_rise && !curls(up - most_inward, top)) top += step;
+  while (r > SurfaceProfile::first && !curls(r, top)) r -= step;
   const double halfway = std::min(now.bucket_attitude, 0.5 * (now.bucket_attitude + curled));
-  const std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}, {up, z, halfway}, {r, std::max(z, cut_->surface().at(r) + over_surface) + lift, curled}};
+  const std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}, {up, z, halfway}, {r, std::max(top, cut_->surface().at(r) + over_surface + lift), curled}};
   if (auto path = DigPath::solve(machine_, way)) {
     begin_pass_search(o, path->at(path->length()));
     follower_.begin(std::move(*path));

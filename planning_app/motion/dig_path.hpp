@@ -41,7 +41,7 @@ public:
   bool finished() const { return path_ && s_ >= path_->length(); }
   double progress() const { return path_ ? s_ / path_->length() : 0.0; }
   double stalled_s() const { return stalled_; }   // for how long the joints have not come after the reference
-  double place() const { return s_; }             // of the reference along the path, m
+  Joints on_path() const { return path_->at(s_); }  // where the reference would be had it not departed
   // How the reference departs from the path: the tip over it, m (negative: under it); the bucket curled at least as far as the attitude. As far as
   // the joints reach.
   struct Departure { double lift = 0.0, curl = 0.0; };

@@ -35,12 +35,6 @@ double shape(std::size_t i, std::size_t n) {
   return std::sin(std::numbers::pi * std::clamp(u, 0.0, 1.0));
 }
 
-double lowest_tip(const SiteModel& site, double guard) {
-  double lowest = -1e9;
-  for (const DigZone& z : site.dig_zones) lowest = std::max(lowest, z.floor + guard);
-  return lowest;
-}
-
 double tip_height(const Profile& p, std::size_t i, double depth, double lowest) {
   return std::max(std::min(lowest, p.z[i] + entry_height), p.z[i] - depth * shape(i, p.z.size()));
 }
@@ -61,6 +55,12 @@ std::vector<DigWaypoint> drag_of(const Profile& p, double depth, double lowest) 
 }
 
 }  // namespace
+
+double lowest_tip(const SiteModel& site, double guard) {
+  double lowest = -1e9;
+  for (const DigZone& z : site.dig_zones) lowest = std::max(lowest, z.floor + guard);
+  return lowest;
+}
 
 DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const DigGround& ground, const DigNeeds& needs, double bearing) {
   const double lowest = lowest_tip(site, needs.floor_guard);

@@ -31,6 +31,9 @@ struct DigNeeds {
 // Always gives a plan; where nothing yields enough, the best there is.
 DigPlan choose_dig(const MachineModel& machine, const SiteModel& site, const DigGround& ground, const DigNeeds& needs, double last_bearing);
 
+// The tip stays above this height: the highest floor of the dig zones and the guard over it.
+double lowest_tip(const SiteModel& site, double floor_guard);
+
 // The dig along one bearing.
 DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const DigGround& ground, const DigNeeds& needs, double bearing);
 

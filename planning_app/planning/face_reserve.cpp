@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planning/cut_model.hpp"
+#include "planning/dig_point.hpp"
 #include "planning/skyline.hpp"
 
 namespace berm::app {
@@ -18,8 +19,7 @@ constexpr double crest_beyond_end = 0.9;      // m
 }  // namespace
 
 FaceReserve face_reserve(const SiteModel& site, const DigGround& ground, double floor_guard, double width) {
-  double lowest = -1e9;
-  for (const DigZone& z : site.dig_zones) lowest = std::max(lowest, z.floor + floor_guard);
+  const double lowest = lowest_tip(site, floor_guard);
   FaceReserve face;
   int bearings = 0;
   for (double b = site.dig_swing_right - widened; b <= site.dig_swing_left + widened; b += sector_step) {
