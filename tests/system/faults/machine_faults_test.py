@@ -39,7 +39,7 @@ def undisturbed():
     if not _undisturbed:
         status, result, out, text = load("--scenario", "short", "--seed", SEED)
         assert status == 0 and result["kernel_faults"] == 0, text[-500:]
-        path = scenario(out, "undisturbed", [], 45.0)
+        path = scenario(out, "undisturbed", [], 70.0)
         _, result, bench, text = load("--scenario", path, "--seed", SEED)
         assert result is not None and result["kernel_faults"] == 0, text[-500:]
         _undisturbed.update(rows=rows_of(bench), folder=out)

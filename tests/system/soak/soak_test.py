@@ -31,7 +31,7 @@ def bench_move():
     text = (ROOT / "fault_injection/scenarios/shift.toml").read_text()
     assert "crest_x = 6.0" in text and "toe_x = 7.5" in text
     # The face begins farther in than the machine would want it: one truck's soil is hardly within reach.
-    (folder / "near.toml").write_text(text.replace("crest_x = 6.0", "crest_x = 5.3").replace("toe_x = 7.5", "toe_x = 6.3"))
+    (folder / "near.toml").write_text(text.replace("crest_x = 6.0", "crest_x = 4.3").replace("toe_x = 7.5", "toe_x = 5.4"))
     status, result, out, words = load("--scenario", folder / "near.toml", "--seed", "1", "--trucks", "1", timeout=900)
     assert status == 0, words[-1500:]
     assert result["bench_moves"] >= 1 and result["contacts"] == 0 and result["trucks_loaded"] == 1, result
