@@ -7,7 +7,7 @@
 namespace berm::truck_world {
 namespace {
 
-constexpr int places = 12;                                // tried for one occluder
+constexpr int places = 24;                                // tried for one occluder
 constexpr double arm_width_low = 0.15, arm_width_high = 2.2, arm_depth = 0.45;  // m; from a stick's to a bucket's across, and half as much again
 constexpr double heap_slope = 0.95, heap_high = 4.5;      // tangent; m
 constexpr double clear = 0.25;                            // m between occluder and truck
@@ -55,12 +55,14 @@ Occluder heap(const OcclusionTask& task, const Vector2d& place, double height) {
   return o;
 }
 
-double share_with(const OcclusionTask& task, const Mesh& mesh) {
+std::vector<bool> hidden_with(const OcclusionTask& task, const Mesh& mesh) {
   const BoundingTree tree(mesh);
-  std::size_t hidden = 0;
-  for (std::size_t i = 0; i < task.edge.size(); ++i) hidden += task.hidden[i] || hides(tree, task.sweep, task.edge[i].at) ? 1 : 0;
-  return static_cast<double>(hidden) / static_cast<double>(task.edge.size());
+  std::vector<bool> hidden = task.hidden;
+  for (std::size_t i = 0; i < task.edge.size(); ++i) hidden[i] = hidden[i] || hides(tree, task.sweep, task.edge[i].at);
+  return hidden;
 }
+
+double share_with(const OcclusionTask& task, const Mesh& mesh) { return share(hidden_with(task, mesh)); }
 
 // The smallest size between low and high with enough(size), which must hold at high and for all above any at which it holds.
 template <typename Enough>
@@ -89,15 +91,17 @@ std::optional<Occluder> draw_occluder(const OcclusionTask& task, double share, R
     const Sight sight = sight_to(task, task.edge[below(random, task.edge.size())].at);
     const double part = random.uniform(0.35, 0.8), distance = part * sight.free;
     if (sight.free < 1.2) continue;
+    std::optional<Occluder> o;
     if (heap_first && i < places / 2) {
       const Vector2d place = sight.head.head<2>() + distance * sight.along;
       const double room = std::min(sight.free - distance, place.norm() - own_radius);
       const auto make = [&](double height) { return heap(task, place, height); };
-      if (const auto o = sized(task, share, 0.3, std::min(heap_high, room * heap_slope), make)) return o;
-      continue;
+      o = sized(task, share, 0.3, std::min(heap_high, room * heap_slope), make);
+    } else {
+      const auto make = [&](double width) { return arm(task, sight, distance, width); };
+      o = sized(task, share, arm_width_low, std::min(arm_width_high, 1.5 * distance), make);
     }
-    const auto make = [&](double width) { return arm(task, sight, distance, width); };
-    if (const auto o = sized(task, share, arm_width_low, std::min(arm_width_high, 1.5 * distance), make)) return o;
+    if (o && every_end_in_sight(task.edge, hidden_with(task, o->mesh))) return o;
   }
   return std::nullopt;
 }

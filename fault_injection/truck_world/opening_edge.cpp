@@ -31,6 +31,33 @@ std::vector<bool> hidden_points(const BoundingTree& tree, const Sweep& sweep, co
   return hidden;
 }
 
+bool every_end_in_sight(const std::vector<EdgePoint>& edge, const std::vector<bool>& hidden) {
+  const auto share_of = [&](Surface wall) {
+    std::size_t all = 0, unseen = 0;
+    for (std::size_t i = 0; i < edge.size(); ++i)
+      if (edge[i].wall == wall) ++all, unseen += hidden[i] ? 1 : 0;
+    return all == 0 ? 0.0 : static_cast<double>(unseen) / static_cast<double>(all);
+  };
+  const auto has = [&](Surface wall) { return std::any_of(edge.begin(), edge.end(), [&](const EdgePoint& p) { return p.wall == wall; }); };
+  for (const Surface wall : {Surface::wall_left, Surface::wall_rear, Surface::wall_right, Surface::wall_front})
+    if (share_of(wall) > hidden_of_wall_most) return false;
+  if (has(Surface::wall_rear)) return true;
+  // Corners lie in order round the opening: the left side's points end at the rear, the right side's begin there.
+  const auto end_seen = [&](Surface side, bool at_last) {
+    double way = 0.0;
+    std::vector<std::size_t> own;
+    for (std::size_t i = 0; i < edge.size(); ++i)
+      if (edge[i].wall == side) own.push_back(i);
+    if (at_last) std::reverse(own.begin(), own.end());
+    for (std::size_t k = 0; k < own.size() && way < open_end_seen; ++k) {
+      if (hidden[own[k]]) return false;
+      if (k + 1 < own.size()) way += (edge[own[k + 1]].at - edge[own[k]].at).norm();
+    }
+    return true;
+  };
+  return end_seen(Surface::wall_left, true) || end_seen(Surface::wall_right, false);
+}
+
 double share(const std::vector<bool>& flags) {
   return flags.empty() ? 0.0 : static_cast<double>(std::count(flags.begin(), flags.end(), true)) / static_cast<double>(flags.size());
 }

@@ -15,6 +15,7 @@ struct EdgePoint {
 
 constexpr double edge_spacing = 0.05;   // m at most between points of the edge
 constexpr double edge_reach = 0.10;     // m: a return as near shows a point of the edge
+constexpr double hidden_of_wall_most = 0.5, open_end_seen = 0.5;  // share of a wall's edge; m of a side's end
 
 // corners: as SceneTruth::corners. Without a rear wall three sides count. Points are spread evenly; each stands for the same length of a side.
 std::vector<EdgePoint> edge_points(const std::array<Vector3d, 4>& corners, bool rear_wall);
@@ -24,6 +25,9 @@ bool hides(const BoundingTree& tree, const Sweep& sweep, const Vector3d& point);
 
 // For each point whether tree hides it.
 std::vector<bool> hidden_points(const BoundingTree& tree, const Sweep& sweep, const std::vector<EdgePoint>& edge);
+
+// Whether the place of every end can be seen: of each wall at least half of the edge, and where the rear has none, the last half metre of one side's.
+bool every_end_in_sight(const std::vector<EdgePoint>& edge, const std::vector<bool>& hidden);
 
 // Share of true; 0 of none.
 double share(const std::vector<bool>& flags);

@@ -28,6 +28,8 @@ std::optional<int> read_options(int argc, char** argv, const std::string& classe
       ->check(CLI::Range(0.0, 0.5))->capture_default_str();
   app.add_option("--hidden", o.scene.hidden_max, "most of the opening's edge that an occluder hides; 0: no occluders")
       ->check(CLI::Range(0.0, 0.3))->capture_default_str();
+  app.add_option("--end-hidden", o.scene.end_hidden_share, "share of the trucks of which an occluder hides an end wall whole, where their place allows it")
+      ->check(CLI::Range(0.0, 1.0))->capture_default_str();
   app.add_option("--swinging", o.scene.swinging_share, "share of scenes in which the machine swings during the sweep")
       ->check(CLI::Range(0.0, 1.0))->capture_default_str();
   app.add_option("--classes", o.classes, "file of truck classes")->capture_default_str();

@@ -14,7 +14,7 @@ constexpr std::size_t clutter_most = 6;
 constexpr int clutter_places = 20;        // tried for each piece
 constexpr double clutter_reach = 14.0;    // m round the place
 constexpr double occluded_least = 0.03;   // drawn share of the edge
-constexpr double wall_occluded_share = 0.15, edge_occluded_share = 0.45;  // of the scenes with a truck
+constexpr double edge_occluded_share = 0.60;  // of the scenes with a truck
 
 struct Assembly {
   const std::vector<TruckClass>& classes;
@@ -43,12 +43,12 @@ void occlude(Assembly& a, const PlacedTruck& truck) {
   Random random = a.own(Stream::occluder);
   const double kind = random.uniform(), share_drawn = random.uniform(std::min(occluded_least, a.options.hidden_max), a.options.hidden_max);
   const bool front = truck.body.tailgate != Tailgate::up || chance(random, 0.5);
-  if (a.options.hidden_max <= 0.0 || kind >= wall_occluded_share + edge_occluded_share) return;
+  if (a.options.hidden_max <= 0.0 || kind >= std::max(edge_occluded_share, a.options.end_hidden_share)) return;
   const std::vector<Vector2d> outline = truck.standing.outline(0.1);
   const OcclusionTask task{truck.sweep, truck.ground, truck.edge, truck.hidden, outline};
   TruckTruth& truth = a.scene.truth.of_truck;
   std::optional<Occluder> o;
-  if (kind < wall_occluded_share) {
+  if (kind < a.options.end_hidden_share) {
     const Surface wall = front ? Surface::wall_front : Surface::wall_rear;
     o = draw_wall_occluder(task, wall_points(truck, wall), a.options.hidden_max, random);
     if (o) truth.wall_hidden = name_of(wall);

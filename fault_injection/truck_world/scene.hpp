@@ -16,6 +16,7 @@ struct SceneOptions {
   int samples = 36000;            // of the sweep
   double swinging_share = 0.3;    // of the scenes: the machine swings during the sweep
   double hidden_max = 0.30;       // share of the opening's edge that an occluder may hide; 0: no occluders
+  double end_hidden_share = 0.0;  // of the scenes with a truck: the occluder hides an end wall whole, where the place allows it
   RangeNoise noise;
 };
 

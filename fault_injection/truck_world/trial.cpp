@@ -1,5 +1,7 @@
 #include "truck_world/trial.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -83,7 +85,9 @@ Trial judge(const Scene& scene, const app::RecognisedTruck& answer) {
   t.tailgate = k.tailgate;
   t.look_alike = truth.look_alike;
   t.reason = answer.reason;
+  t.wall_hidden = k.wall_hidden;
   t.hidden_share = k.hidden_share;
+  t.occluded_share = k.occluded_share;
   t.milliseconds = answer.milliseconds;
   t.evidence = answer.evidence;
   t.cab = answer.cab;
@@ -109,9 +113,29 @@ Trial judge(const Scene& scene, const app::RecognisedTruck& answer) {
   t.height_error = answer.height - k.wall_height;
   Vector8d error;
   error << answer.pose.middle - middle, t.yaw_error, answer.pose.pitch - k.pitch, answer.pose.roll - k.roll, t.length_error, t.width_error;
+  for (int i = 0; i < 8; ++i) {
+    t.error[static_cast<std::size_t>(i)] = error[i];
+    t.deviation[static_cast<std::size_t>(i)] = std::sqrt(answer.pose_covariance(i, i));
+  }
   t.nees = error.dot(answer.pose_covariance.ldlt().solve(error));
   t.recognised = *std::max_element(t.corner_errors.begin(), t.corner_errors.end()) <= kCornerGate;
   return t;
+}
+
+std::string table(const std::vector<Trial>& trials) {
+  std::string out = "scene,truck,found,recognised,class,tailgate,wall_hidden,look_alike,hidden_share,occluded_share,corner_0_m,corner_1_m,corner_2_m,corner_3_m";
+  for (const char* what : {"error", "deviation"})
+    for (const char* of : {"x_m", "y_m", "z_m", "yaw_rad", "pitch_rad", "roll_rad", "length_m", "width_m"}) out += fmt::format(",{}_{}", what, of);
+  out += ",height_error_m,nees,evidence,cab,true_evidence,true_cab,milliseconds,reason\n";
+  for (const Trial& t : trials) {
+    out += fmt::format("{},{:d},{:d},{:d},{},{},{},{},{:.3f},{:.3f}", t.scene, t.truck, t.found, t.recognised, t.truck_class, t.tailgate, t.wall_hidden, t.look_alike,
+                       t.hidden_share, t.occluded_share);
+    for (const double e : t.corner_errors) out += fmt::format(",{:.4f}", e);
+    for (const auto& all : {t.error, t.deviation})
+      for (const double e : all) out += fmt::format(",{:.5f}", e);
+    out += fmt::format(",{:.3f},{:.2f},{:.1f},{:.1f},{:.1f},{:.1f},{:.2f},\"{}\"\n", t.height_error, t.nees, t.evidence.score, t.cab, t.true_score, t.true_cab, t.milliseconds, t.reason);
+  }
+  return out;
 }
 
 Json summary(const std::vector<Trial>& trials) {
@@ -125,6 +149,7 @@ Json summary(const std::vector<Trial>& trials) {
       with.push_back(t);
       classes[t.truck_class].push_back(t);
       classes["tailgate " + t.tailgate].push_back(t);
+      classes[t.wall_hidden.empty() ? "both ends in sight" : "an end hidden"].push_back(t);
     } else {
       ++without;
       accepted += t.found ? 1 : 0;

@@ -18,9 +18,14 @@ struct TrialOptions {
   int only = -1;
   int jobs = 1;
   bool trucks = false, no_trucks = false, list = false;
-  std::string json, drawn = BERM_TRUCK_CLASSES, ranges = BERM_TRUCK_RANGES;
+  std::string json, table, drawn = BERM_TRUCK_CLASSES, ranges = BERM_TRUCK_RANGES;
   SceneOptions scene;
 };
+
+std::string unseen(const Trial& t) {
+  return fmt::format("{:.0f} % of the edge without a return, {:.0f} % occluded{}{}", 100 * t.hidden_share, 100 * t.occluded_share,
+                     t.wall_hidden.empty() ? "" : ", all of ", t.wall_hidden);
+}
 
 void report(const Trial& t, const TrialOptions& o) {
   const bool failed = t.truck ? !t.recognised : t.found;
@@ -31,11 +36,11 @@ void report(const Trial& t, const TrialOptions& o) {
     fmt::print("{} {}: {} [{}]\n", t.found ? "ACCEPTED" : "none", t.look_alike.empty() ? "clutter" : t.look_alike,
                t.found ? fmt::format("{:.2f} x {:.2f}", t.pose.length, t.pose.width) : t.reason, again);
   } else if (!t.found) {
-    fmt::print("MISSED {} (tailgate {}, {:.0f} % of the edge hidden): {} [{}]\n", t.truck_class, t.tailgate, 100 * t.hidden_share, t.reason, again);
+    fmt::print("MISSED {} (tailgate {}, {}): {} [{}]\n", t.truck_class, t.tailgate, unseen(t), t.reason, again);
   } else {
-    fmt::print("{} {} (tailgate {}, {:.0f} % of the edge hidden): corners off by {:.3f} {:.3f} {:.3f} {:.3f} m, yaw {:.2f} deg, length {:.3f}, width "
+    fmt::print("{} {} (tailgate {}, {}): corners off by {:.3f} {:.3f} {:.3f} {:.3f} m, yaw {:.2f} deg, length {:.3f}, width "
                "{:.3f}, height {:.3f} m, nees {:.1f}, {:.1f} ms [{}]\n",
-               t.recognised ? "found" : "MISPLACED", t.truck_class, t.tailgate, 100 * t.hidden_share, t.corner_errors[0], t.corner_errors[1],
+               t.recognised ? "found" : "MISPLACED", t.truck_class, t.tailgate, unseen(t), t.corner_errors[0], t.corner_errors[1],
                t.corner_errors[2], t.corner_errors[3], t.yaw_error * 180 / pi, t.length_error, t.width_error, t.height_error, t.nees, t.milliseconds,
                again);
   }
@@ -69,6 +74,7 @@ int run(int argc, char** argv) {
   app.add_option("--scenes", o.scenes, "this many with a truck, and this many without")->required()->check(CLI::Range(1, 1000000));
   app.add_option("--seed", o.seed, "seed of every draw")->capture_default_str();
   app.add_option("--json", o.json, "write the result");
+  app.add_option("--table", o.table, "writes a row for each scene (CSV): errors, the recogniser's own deviations, evidence, times");
   app.add_option("--only", o.only, "this one scene alone")->check(CLI::Range(0, 999999));
   app.add_option("--jobs", o.jobs, "so many scenes at a time; their CPU times are larger on a computer that has more to do")->check(CLI::Range(1, 256))->capture_default_str();
   auto* with = app.add_flag("--trucks", o.trucks, "only the scenes with a truck");
@@ -77,6 +83,8 @@ int run(int argc, char** argv) {
   app.add_option("--points", o.scene.samples, "samples of a sweep")->check(CLI::Range(9200, 1000000))->capture_default_str();
   app.add_option("--noise", o.scene.noise.stddev, "standard deviation of a range, m")->check(CLI::Range(0.0, 0.5))->capture_default_str();
   app.add_option("--hidden", o.scene.hidden_max, "most of the edge that an occluder hides")->check(CLI::Range(0.0, 0.3))->capture_default_str();
+  app.add_option("--end-hidden", o.scene.end_hidden_share, "share of the trucks of which an occluder hides an end wall whole, where their place allows it")
+      ->check(CLI::Range(0.0, 1.0))->capture_default_str();
   app.add_option("--swinging", o.scene.swinging_share, "share of scenes in which the machine swings")
       ->check(CLI::Range(0.0, 1.0))->capture_default_str();
   app.add_option("--classes", o.drawn, "file of truck classes that are drawn")->capture_default_str();
@@ -104,6 +112,7 @@ int run(int argc, char** argv) {
   if (terminal) fmt::print(stderr, "\n");
   const nlohmann::ordered_json json = summary(trials);
   fmt::print("{}\n", json.dump(1));
+  if (!o.table.empty()) config::write_whole_file(o.table, table(trials));
   if (!o.json.empty()) config::write_whole_file(o.json, json.dump(1) + "\n");
   return json["trucks"] == json["recognised"] && json["false_accepts"] == 0 ? 0 : 1;
 }

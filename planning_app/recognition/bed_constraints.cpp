@@ -103,7 +103,7 @@ class Collector {
       case Meeting::before:
       case Meeting::none: break;
     }
-    if (m.what == Meeting::none) beside(ray);
+    if (m.what == Meeting::none || m.by_open_end) beside(ray);
     if (pose_.open_end != 0) at_open_end(ray);
     const bool no_top = m.what == Meeting::wall_top && m.end.z() > kNoTop;
     if (m.what == Meeting::above_face || m.what == Meeting::before || no_top) above_tops(ray);
@@ -142,8 +142,8 @@ class Collector {
         if (!(axis == 0 && side == pose_.open_end)) past(ray, rim, {axis, side, false}, 1, at_rim);
   }
 
-  // Rays that go from within or from behind towards a side near the end where no wall stands: what its inner face stops, or its thickness at that end,
-  // would have met its outer face before the end; what passes, beyond it.
+  // Rays that go from within or from behind towards a side near the end where no wall stands. One that goes to that end meets the inner face before it, or
+  // passes; one that comes in over it is stopped by the inner face or by the side's thickness at the end, and so by all that lies before the outer face.
   void at_open_end(const LocalRay& ray) {
     const Eigen::Vector3d &a = ray.a, &end = ray.end;
     for (const int s : {-1, 1}) {
@@ -153,9 +153,11 @@ class Collector {
       const Eigen::Vector3d at = crossing(ray, inner);
       if (at.z() > -0.05 || at.z() < -kWallSeen) continue;
       const bool stopped = (end - at).norm() <= kRangeGate;
-      if (stopped || s * end.y() > limit + pose_.thickness + kRangeGate) past(ray, outer, {0, pose_.open_end, false}, stopped ? 1 : -1, crossing(ray, outer));
+      const BedPlane& plane = goes_to_open_end(ray) ? inner : outer;
+      if (stopped || s * end.y() > limit + pose_.thickness + kRangeGate) past(ray, plane, {0, pose_.open_end, false}, stopped ? 1 : -1, crossing(ray, plane));
     }
   }
+  [[nodiscard]] bool goes_to_open_end(const LocalRay& ray) const { return (ray.end.x() - ray.a.x()) * pose_.open_end > 0.0; }
 
   void over_wall(const LocalRay& ray, const RayMeeting& m) {
     if (m.axis < 0 || (m.axis == 0 && m.side == pose_.open_end)) return;
@@ -171,10 +173,14 @@ class Collector {
       if (axis == 0 && side == pose_.open_end) continue;
       const double limit = pose_.face(axis, side, true);
       if (side * a[axis] < limit || side * end[axis] > limit - kRangeGate) continue;  // not from outside to well behind it
-      const Eigen::Vector3d at = crossing(ray, {axis, side, true});
-      if (at.z() > -0.05 || at.z() < -kWallSeen) continue;
-      for (const int end_side : {-1, 1})
-        if (end_side * at[1 - axis] > pose_.face(1 - axis, end_side, true)) past(ray, {axis, side, true}, {1 - axis, end_side, true}, -1, at);
+      for (const int end_side : {-1, 1}) {
+        // What comes in over an open end would have been stopped by the side's thickness there.
+        const bool thickness = axis == 1 && end_side == pose_.open_end && !goes_to_open_end(ray);
+        const BedPlane plane{axis, side, !thickness};
+        const Eigen::Vector3d at = crossing(ray, plane);
+        if (at.z() > -0.05 || at.z() < -kWallSeen) continue;
+        if (end_side * at[1 - axis] > pose_.face(1 - axis, end_side, true)) past(ray, plane, {1 - axis, end_side, true}, -1, at);
+      }
     }
   }
 
