@@ -94,7 +94,7 @@ Trial judge(const Scene& scene, const app::RecognisedTruck& answer) {
   t.pose = answer.pose;
   if (!t.truck) return t;
   const app::BedPose true_pose = pose_of(k);
-  app::FanSweep sweep = app::make_fans(scene.cloud, viewpoint_of(scene));
+  app::FanSweep sweep = app::thinned(app::make_fans(scene.cloud, viewpoint_of(scene)));
   app::upright_segments(sweep);  // marks what is upright
   app::BedInterpretation truly;
   truly.pose = true_pose;

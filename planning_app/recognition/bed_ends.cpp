@@ -106,7 +106,7 @@ class Weighing {
       if (r.a.z() + r.d.z() > 0.0) over_opening(r, ray.upright);
     }
     for (PairSums* s : {&common, &rear_wall, &front_wall, &open_rear, &open_front}) s->finish();
-    for (EndSums* s : {&rear_face, &front_face}) s->finish();
+    for (EndSums* s : {&rear_face, &front_face, &side_faces}) s->finish();
     cab.finish();
   }
 
@@ -119,9 +119,15 @@ class Weighing {
   PairSums rear_wall, front_wall;   // inner faces of walls at the ends
   PairSums open_rear, open_front;   // what enters where the wall is missing, below the tops
   EndSums rear_face, front_face;    // their outer faces
+  // Returns on the sides' outer faces between the ends. share: as best_ends.
+  [[nodiscard]] float sides(int rear, int front, double share) const {
+    return static_cast<float>(saturated(share * static_cast<double>(side_faces.at(front) - side_faces.at(rear))) / share);
+  }
   CabProfile cab;
 
  private:
+  EndSums side_faces;               // running along the strip
+
   // False when the ray has nothing to say of this strip.
   bool enter(StripRay& r) const {
     r.range = r.d.norm();
@@ -171,7 +177,7 @@ class Weighing {
   void side_face(const StripRay& r) {
     const Vector3d at = r.at(r.in);
     if (at.z() < -kWallSeen) return;
-    if (std::abs(1.0 - r.in) <= r.gate) between(at.x(), -thickness_, fit((1.0 - r.in) * r.range, kRangeGate));
+    if (std::abs(1.0 - r.in) <= r.gate) side_faces.add(at.x(), kNever, fit((1.0 - r.in) * r.range, kRangeGate));
     else if (r.in < 1.0 && at.z() < -slack_) between(at.x(), -thickness_, -kThrough);
     end_face(r, r.in);
   }
@@ -302,7 +308,7 @@ std::vector<BedEnds> best_ends(const BedStrip& strip, const std::vector<Ray>& ra
   std::vector<Pair> pairs;
   for (int i = 0; i + shortest < kEnds; ++i)
     for (int j = i + shortest; j <= std::min(i + longest, kEnds - 1); ++j) {
-      const float common = w.common.at(i, j), rear = w.rear_wall.at(i, j) + w.rear_face.at(i), front = w.front_wall.at(i, j) + w.front_face.at(j);
+      const float common = w.common.at(i, j) + w.sides(i, j, share), rear = w.rear_wall.at(i, j) + w.rear_face.at(i), front = w.front_wall.at(i, j) + w.front_face.at(j);
       const float cab_at_front = cab_front[static_cast<std::size_t>(j)], cab_at_rear = cab_rear[static_cast<std::size_t>(i)];
       Pair p = pair(i, j, 0, cab_at_front >= cab_at_rear ? 1 : -1, common + rear + front, std::max(cab_at_front, cab_at_rear));
       for (const Pair& open : {pair(i, j, -1, 1, common + front + w.open_rear.at(i, j) - open_weight, cab_at_front), pair(i, j, 1, -1, common + rear + w.open_front.at(i, j) - open_weight, cab_at_rear)})

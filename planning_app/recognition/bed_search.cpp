@@ -15,9 +15,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr std::size_t kRegionsMost = 10;
+constexpr std::size_t kRegionsMost = 14;
 constexpr std::size_t kCoarseRays = 900;                                // that first decide between interpretations
-constexpr std::size_t kEndsOfStrip = 4, kOfRegion = 5, kFitted = 10, kFittedEnds = 12;  // most candidates
+constexpr std::size_t kEndsOfStrip = 4, kOfRegion = 5, kOfPairs = 8, kFitted = 10, kFittedEnds = 12;  // most candidates
 constexpr double kRoughWorth = 0.5, kFittedWorth = 0.6;  // of the best one's evidence, to be fitted
 constexpr double kLengthSlack = 0.25;                                   // m, of what is fitted later
 constexpr double kRefineStep = 0.12;                                     // m
@@ -70,6 +70,19 @@ std::vector<BedEnds> interpret_region(const FanSweep& sweep, const UprightRegion
   return distinct(std::move(found), kOfRegion);
 }
 
+// Beds of which two regions may be the sides.
+std::vector<BedEnds> interpret_pairs(const FanSweep& sweep, const std::vector<UprightRegion>& regions, const TruckRangeSet& ranges, const SizeRange& lengths) {
+  std::vector<BedEnds> found;
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    for (std::size_t k = i + 1; k < regions.size(); ++k)
+      for (const BedStrip& strip : strips_of(regions[i], regions[k], ranges)) {
+        const std::vector<Ray> all = rays_around(sweep, strip.middle);
+        const std::size_t stride = std::max<std::size_t>(2, all.size() / kCoarseRays);
+        for (BedEnds& e : best_ends(strip, every(all, stride), lengths, static_cast<double>(stride), kEndsOfStrip)) found.push_back(std::move(e));
+      }
+  return distinct(std::move(found), kOfPairs);
+}
+
 struct Weighed {
   BedPose pose;
   double score = 0.0;
@@ -120,6 +133,8 @@ std::vector<BedEnds> rough_beds(const FanSweep& sweep, const std::vector<Upright
   std::vector<BedEnds> found;
   for (std::size_t k = 0; k < std::min(regions.size(), kRegionsMost); ++k)
     for (BedEnds& e : interpret_region(sweep, regions[k], ranges, lengths)) found.push_back(std::move(e));
+  const std::vector<UprightRegion> largest(regions.begin(), regions.begin() + static_cast<std::ptrdiff_t>(std::min(regions.size(), kRegionsMost)));
+  for (BedEnds& e : interpret_pairs(sweep, largest, ranges, lengths)) found.push_back(std::move(e));
   return found;
 }
 

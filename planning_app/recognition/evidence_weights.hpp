@@ -4,7 +4,7 @@
 namespace berm::app {
 
 constexpr double kInside = 0.08;   // a return somewhere inside
-constexpr double kThrough = 2.5;   // a ray through a wall, or a return deeper than any floor
+constexpr double kThrough = 4.0;   // a ray through a wall, or a return deeper than any floor
 constexpr double kTop = 0.7;       // a return on a wall's top
 constexpr double kAbove = 1.0;     // a return where a wall goes on above its top
 constexpr double kLevel = 0.35;    // a return over the opening in the plane of the tops: a lid

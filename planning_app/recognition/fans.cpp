@@ -1,13 +1,16 @@
 #include "recognition/fans.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace berm::app {
 namespace {
 
 constexpr double kRangeLimit = 30.0;     // m
 constexpr std::size_t kLeastReturns = 8; // of a fan
+constexpr double kSearchStep = 0.0175;   // rad between fans
 constexpr double kOffPlane = 0.02;       // m, root mean square of the sensor's place over the fans' planes
 
 using Eigen::Vector2d;
@@ -66,7 +69,7 @@ FanSweep make_fans(const std::vector<ScanPoint>& points, const std::array<double
     i = end;
   }
   sweep.begin.push_back(sweep.returns.size());
-  if (planes.size() < 10) return {{}, {}, {}, 0.0, "the sweep has fewer than 10 scanlines with 8 returns within 30 m"};
+  if (planes.size() < 10) return {{}, {}, {}, 0.0, 0.0, "the sweep has fewer than 10 scanlines with 8 returns within 30 m"};
 
   double middle = 0.0;
   for (const FanPlane& p : planes) middle += p.time / static_cast<double>(planes.size());
@@ -93,10 +96,33 @@ FanSweep make_fans(const std::vector<ScanPoint>& points, const std::array<double
     if (step.norm() < 1e-9) break;
   }
   if (!(std::sqrt(error) < kOffPlane))
-    return {{}, {}, {}, 0.0, "the scanlines are no upright fans through the viewpoint, standing or swinging"};
+    return {{}, {}, {}, 0.0, 0.0, "the scanlines are no upright fans through the viewpoint, standing or swinging"};
   for (std::size_t k = 0; k < planes.size(); ++k) sweep.heads[k].head<2>() = turned(head.head<2>(), angle + rate * (planes[k].time - middle));
   sweep.swing_rate = rate;
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < planes.size(); ++k) {
+    const Vector2d &a = planes[k - 1].normal, &b = planes[k].normal;
+    steps.push_back(std::abs(std::remainder(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)), std::numbers::pi)));
+  }
+  const auto middle_step = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle_step, steps.end());
+  sweep.step = *middle_step;
   return sweep;
+}
+
+FanSweep thinned(const FanSweep& sweep) {
+  const auto stride = static_cast<std::size_t>(std::max(1.0, std::round(kSearchStep / std::max(sweep.step, 1e-4))));
+  FanSweep out;
+  out.swing_rate = sweep.swing_rate;
+  out.step = static_cast<double>(stride) * sweep.step;
+  out.returns.reserve(sweep.returns.size() / stride + 1);
+  for (std::size_t fan = 0; fan < sweep.heads.size(); fan += stride) {
+    out.begin.push_back(out.returns.size());
+    for (const FanReturn& r : sweep.of(fan)) out.returns.push_back({r.at, static_cast<std::uint32_t>(out.heads.size())});
+    out.heads.push_back(sweep.heads[fan]);
+  }
+  out.begin.push_back(out.returns.size());
+  return out;
 }
 
 }  // namespace berm::app

@@ -24,6 +24,7 @@ struct FanSweep {
   std::vector<std::size_t> begin;        // of each fan in returns, and the end of the last
   std::vector<FanReturn> returns;        // in measuring order
   double swing_rate = 0.0;               // rad/s, as found
+  double step = 0.0;                     // rad between neighbouring fans, the median
   std::string reason;                    // why the sweep cannot be used; empty when it can
 
   [[nodiscard]] std::span<const FanReturn> of(std::size_t fan) const { return {returns.data() + begin[fan], begin[fan + 1] - begin[fan]}; }
@@ -33,5 +34,9 @@ struct FanSweep {
 // swinging the sensor moves on a circle about the frame's z axis, and angle and rate are found from the fans' planes by least squares. Scanlines with
 // fewer than 8 returns within 30 m are left out. On failure only reason is set.
 FanSweep make_fans(const std::vector<ScanPoint>& points, const std::array<double, 3>& viewpoint);
+
+// Every second, third ... fan of a sweep whose fans lie closer than a degree, so that they lie about a degree apart: what a search for a truck needs, and
+// what its weights of evidence are meant for. Nothing is marked upright yet.
+FanSweep thinned(const FanSweep& sweep);
 
 }  // namespace berm::app

@@ -14,6 +14,12 @@ constexpr std::size_t kTopLines = 2;
 constexpr double kTiltMost = 0.07;      // rad
 constexpr double kHeightSlack = 0.12;   // m; a bed may tilt where a region does not show it
 constexpr double kExtentSlack = 0.25;   // m
+constexpr double kParallel = 0.05;      // rad, of two sides
+constexpr double kApartSlack = 0.10;    // m
+constexpr double kRollMost = 0.09;      // rad
+constexpr double kPairSlack = 0.06;     // m, of the height that two sides give
+constexpr double kLongRegion = 1.5;     // m: its slope tells the bed's pitch
+constexpr double kAlongMost = 6.0;      // m between the middles of two regions of one bed
 
 // Segments of a region whose tops lie on one line: height = z + slope * x, x along the region.
 struct TopLine {
@@ -97,6 +103,47 @@ std::vector<BedStrip> strips_of(const UprightRegion& region, const TruckRangeSet
     offer(region.normal, centre - slack, 0.0);
     offer(region.normal, centre + slack, 0.0);
   }
+  return out;
+}
+
+std::vector<BedStrip> strips_of(const UprightRegion& a, const UprightRegion& b, const TruckRangeSet& ranges) {
+  const double facing = a.normal.dot(b.normal);
+  if (std::abs(facing) < std::cos(kParallel)) return {};
+  const SizeRange widths = ranges.hull(&TruckRanges::inside_width), thick = ranges.hull(&TruckRanges::wall_thickness);
+  const double thickness = 0.5 * (thick[0] + thick[1]), of_faces = facing > 0.0 ? thickness : 0.0;
+  const UprightRegion& longer = (a.last - a.first).norm() >= (b.last - b.first).norm() ? a : b;
+  const Vector2d along(longer.normal.y(), -longer.normal.x()), across(-along.y(), along.x());  // across: to the left of `along`, that is v
+  const Vector2d middle_a = 0.5 * (a.first + a.last), middle_b = 0.5 * (b.first + b.last), between = middle_b - middle_a;
+  const double apart = std::abs(across.dot(between)), width = apart - of_faces;
+  if (width < widths[0] - kApartSlack || width > widths[1] + kApartSlack || std::abs(along.dot(between)) > kAlongMost) return {};
+  // Two inner faces look at each other; of an outer and an inner one the nearer is the outer.
+  if (facing < 0.0 && a.normal.dot(between) < 0.0) return {};
+  const double side_of_b = across.dot(between) > 0.0 ? 1.0 : -1.0;
+  const bool a_is_outer = facing > 0.0 && a.normal.dot(between) < 0.0, b_is_outer = facing > 0.0 && !a_is_outer;
+  BedStrip strip;
+  strip.width = std::clamp(width, widths[0], widths[1]);
+  strip.thickness = thickness;
+  strip.slack = kPairSlack;
+  strip.yaw = std::atan2(along.y(), along.x());
+  // Half-way between the inner faces, at the middle of both regions.
+  const double inner_a = a_is_outer ? thickness : 0.0, inner_b = b_is_outer ? thickness : 0.0;
+  const Vector2d centre = 0.5 * (middle_a + middle_b) + 0.5 * side_of_b * (inner_a - inner_b) * across;
+  std::vector<BedStrip> out;
+  for (const TopLine& top_a : top_lines(a, along, centre))
+    for (const TopLine& top_b : top_lines(b, along, centre)) {
+      const TopLine& longest = top_a.last - top_a.first >= top_b.last - top_b.first ? top_a : top_b;
+      const double slope = longest.last - longest.first > kLongRegion ? longest.slope : 0.0;
+      const auto high_at_centre = [&](const TopLine& t) {  // by its middle, where its own slope says nothing yet
+        const double at = 0.5 * (t.first + t.last);
+        return t.z + t.slope * at - slope * at;
+      };
+      const double rise = side_of_b * (high_at_centre(top_b) - high_at_centre(top_a)) / apart;  // to the left
+      if (std::abs(rise) > kRollMost) continue;
+      strip.middle = {centre.x(), centre.y(), 0.5 * (high_at_centre(top_a) + high_at_centre(top_b)) + kTopOverSegment};
+      strip.pitch = -std::atan(slope);
+      strip.roll = std::atan(rise);
+      out.push_back(strip);
+    }
   return out;
 }
 

@@ -12,4 +12,8 @@ namespace berm::app {
 
 std::vector<BedStrip> strips_of(const UprightRegion& region, const TruckRangeSet& ranges);
 
+// Of two regions that may be both sides of one bed: the outer face of the near one and the inner face of the far one, or the inner faces of both. Their
+// distance is the width, their tops give height, roll and pitch.
+std::vector<BedStrip> strips_of(const UprightRegion& a, const UprightRegion& b, const TruckRangeSet& ranges);
+
 }  // namespace berm::app

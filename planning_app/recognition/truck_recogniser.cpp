@@ -193,9 +193,10 @@ double thread_milliseconds() {
 
 RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array<double, 3>& viewpoint, const TruckRangeSet& ranges) {
   RecognisedTruck out;
-  FanSweep sweep = make_fans(points, viewpoint);
-  out.reason = sweep.reason;
+  const FanSweep whole = make_fans(points, viewpoint);
+  out.reason = whole.reason;
   if (!out.reason.empty()) return out;
+  FanSweep sweep = thinned(whole);
   const std::vector<UprightRegion> regions = upright_regions(sweep, upright_segments(sweep));
   out.reason = "the sweep shows no upright wall";
   if (regions.empty()) return out;
@@ -217,6 +218,10 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
   const Verified& chosen = choose(verified);
   const BedInterpretation& best = chosen.interpretation;
   FittedBed fit = chosen.fit;
+  if (chosen.refusal.empty()) {  // with every ray
+    const FittedBed last = fit_bed(fit.pose, rays_near(whole, fit.pose), kLastRounds);
+    if (last.converged && ranges.find(last.pose.length, last.pose.width, last.pose.open_end != 0) != nullptr) fit = last;
+  }
   out.evidence = best.evidence;
   out.cab = best.cab;
   out.pose = fit.pose;
@@ -235,7 +240,7 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
   out.yaw = fit.pose.yaw;
   out.length = fit.pose.length;
   out.width = fit.pose.width;
-  out.height = wall_height(fit.pose, rays_near(sweep, fit.pose, 2.5), ranges);
+  out.height = wall_height(fit.pose, rays_near(whole, fit.pose, 2.5), ranges);
   out.open_rear = fit.pose.open_end != 0;
   out.pose_covariance = fit.covariance;
   out.covariance = corner_covariance(fit);
