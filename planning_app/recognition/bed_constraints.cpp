@@ -101,6 +101,7 @@ class Collector {
         break;
       case Meeting::above_face:
       case Meeting::before:
+      case Meeting::below_side:
       case Meeting::none: break;
     }
     if (m.what == Meeting::none || m.by_open_end) beside(ray);

@@ -178,7 +178,7 @@ class Weighing {
     const Vector3d at = r.at(r.in);
     if (at.z() < -kWallSeen) return;
     if (std::abs(1.0 - r.in) <= r.gate) side_faces.add(at.x(), kNever, fit((1.0 - r.in) * r.range, kRangeGate));
-    else if (r.in < 1.0 && at.z() < -slack_) between(at.x(), -thickness_, -kThrough);
+    else if (r.in < 1.0 && at.z() < -slack_ && !below_pipe(r.a, r.d, outer_, r.gate)) between(at.x(), -thickness_, -kThrough);
     end_face(r, r.in);
   }
 

@@ -28,7 +28,7 @@ struct Known {
   BedValue which;
   double mean, deviation;
 };
-constexpr std::array<Known, 4> kKnown{{{kBedThickness, 0.095, 0.025}, {kBedWidth, 2.38, 0.15}, {kBedPitch, 0.0, 0.03}, {kBedRoll, 0.0, 0.03}}};
+constexpr std::array<Known, 4> kKnown{{{kBedThickness, 0.095, 0.025}, {kBedWidth, 2.38, 0.075}, {kBedPitch, 0.0, 0.03}, {kBedRoll, 0.0, 0.03}}};
 
 // Of a length whose end no ray shows the classes tell so much; where one is seen it must not pull.
 constexpr double kLengthSpread = 0.7;  // m

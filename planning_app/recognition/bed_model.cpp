@@ -42,6 +42,12 @@ double BedPose::face(int axis, int side, bool outer) const {
   return outer && !(axis == 0 && side == open_end) ? inner + thickness : inner;
 }
 
+bool below_pipe(const Eigen::Vector3d& a, const Eigen::Vector3d& d, double half_outer, double slack) {
+  const double y = a.y(), z = a.z() + kPipeUpright, along = d.y() * d.y() + d.z() * d.z(), half = y * d.y() + z * d.z();
+  const double root = half * half - along * (y * y + z * z - half_outer * half_outer);
+  return root <= 0.0 || 1.0 <= (-half - std::sqrt(root)) / along + slack;
+}
+
 RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& end) {
   RayMeeting m;
   const Eigen::Vector3d d = end - a;
@@ -73,7 +79,9 @@ RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eige
       m.by_open_end = true;
       stopped_within();
     } else {
-      m.what = m.off <= kRangeGate ? Meeting::outer_face : Meeting::through_face;
+      m.what = m.off <= kRangeGate                                                                        ? Meeting::outer_face
+               : m.axis == 1 && below_pipe(a, d, pose.face(1, m.side, true), kRangeGate / range) ? Meeting::below_side
+                                                                                                          : Meeting::through_face;
     }
     return m;
   }
@@ -123,7 +131,8 @@ BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays) {
     if (ray.head != head) head = ray.head, a = turn * (head - pose.middle);  // that of a whole fan
     const RayMeeting m = meet_in_bed(pose, a, turn * (ray.at - pose.middle));
     switch (m.what) {
-      case Meeting::none: break;
+      case Meeting::none:
+      case Meeting::below_side: break;
       case Meeting::before: ++e.before; break;
       case Meeting::outer_face: ++e.outer_face, face[m.axis] += fit(m.off, kRangeGate); break;
       case Meeting::above_face: ++e.above_face, e.score -= kAbove; break;
@@ -138,7 +147,7 @@ BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays) {
       case Meeting::through_inner: ++e.through, e.score -= kThrough; break;
       case Meeting::through_top: ++e.through, e.score -= 0.5 * kThrough; break;
     }
-    if (m.what == Meeting::none || m.what == Meeting::outer_face) continue;
+    if (m.what == Meeting::none || m.what == Meeting::outer_face || m.what == Meeting::below_side) continue;
     const Eigen::Vector3d& p = m.end;
     const double to_wall = std::min(pose.length / 2 - std::abs(p.x()), pose.width / 2 - std::abs(p.y()));
     if (to_wall < 0.0) continue;

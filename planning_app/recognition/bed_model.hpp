@@ -31,6 +31,7 @@ enum class Meeting {
   none,          // the ray does not come to the bed, or below the walls
   before,        // ends before the bed, or above the plane of the tops: hidden, or heap
   outer_face,    // as predicted
+  below_side,    // through the side's outer face as if it were upright, but where a half pipe's side may have drawn in
   above_face,    // in the plane of an outer face, but above the walls' tops
   wall_top,      // as predicted
   inside,        // between the tops' plane and the far wall's inner face
@@ -48,6 +49,11 @@ struct RayMeeting {
   bool by_open_end = false;         // entered below the tops where no wall stands; rim says nothing then
   Eigen::Vector3d entry, rim, end;  // in the bed frame: on the entered face's plane, on the plane of the tops, the return
 };
+
+// A side that may be that of a half pipe is upright for 0.08 m at least, and below that no farther in than a circle about the bed's axis. Whether a ray
+// that goes from a by d to its return at 1, through the upright side's outer face (half the outer width from the middle), misses that circle, or ends
+// no more than slack, a share of d, behind it.
+bool below_pipe(const Eigen::Vector3d& a, const Eigen::Vector3d& d, double half_outer, double slack);
 
 // a: the sensor, end: the return, in the bed frame.
 RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& end);

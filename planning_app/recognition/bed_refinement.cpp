@@ -10,6 +10,7 @@ using Eigen::Vector2d;
 
 constexpr double kEndsMost = 0.2;   // m
 constexpr double kRefinedTiltMost = 0.09;  // rad
+constexpr double kWidthMiddle = 2.38, kWidthOff = 0.2;  // m
 constexpr int kRounds = 4;          // with one step
 constexpr int kMoves = 8;
 constexpr double kHalfLength = 2.5, kHalfWidth = 1.2;  // m: a turn that moves an end, a side, by a step
@@ -51,6 +52,7 @@ BedPose refined(const BedPose& start, const std::vector<Ray>& rays, double first
           const std::array<double, 2> now = ends_along(p, origin);
           if (std::max(std::abs(now[0] - ends[0]), std::abs(now[1] - ends[1])) > kEndsMost) continue;
           if (std::max(std::abs(p.pitch), std::abs(p.roll)) > kRefinedTiltMost) continue;
+          if (std::abs(p.width - kWidthMiddle) > kWidthOff) continue;
           const double here = weigh(p, rays).score;
           if (here <= score + 1e-9) continue;
           best = p, score = here;

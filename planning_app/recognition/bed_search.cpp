@@ -17,13 +17,13 @@ using Eigen::Vector2d;
 
 constexpr std::size_t kRegionsMost = 14;
 constexpr std::size_t kCoarseRays = 900;                                // that first decide between interpretations
-constexpr std::size_t kEndsOfStrip = 4, kOfRegion = 5, kOfPairs = 8, kFitted = 10, kFittedEnds = 12;  // most candidates
-constexpr double kRoughWorth = 0.5, kFittedWorth = 0.6;  // of the best one's evidence, to be fitted
+constexpr std::size_t kEndsOfStrip = 4, kOfRegion = 5, kOfPairs = 8, kFitted = 24, kFittedEnds = 16;  // most candidates
+constexpr double kRoughWorth = 0.2, kFittedWorth = 0.4;  // of the best one's evidence, to be fitted
 constexpr double kLengthSlack = 0.25;                                   // m, of what is fitted later
 constexpr double kRefineStep = 0.12;                                     // m
 constexpr int kRefineHalvings = 3;
 constexpr std::size_t kRefineStride = 2;                                // of rays, while walls are moved
-constexpr int kFitRounds = 3;                                           // of a fit
+constexpr int kFitRounds = 5;                                           // of a fit
 constexpr double kLongest = 2.5;                                        // m, by which something longer is looked for
 constexpr double kLongerBy = 1.04;                                      // its evidence, to be taken for it
 
@@ -143,7 +143,9 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
   const SizeRange lengths = fitted_lengths(ranges);
   std::vector<BedEnds> ends;
   for (const BedEnds& rough : distinct(rough_ones, kFitted, kRoughWorth, refused)) {
-    const auto [p, score] = fitted(sweep, rough.pose);
+    const std::vector<Ray> near = rays_near(sweep, rough.pose);
+    const BedPose lifted = refined(rough.pose, every(near, std::max<std::size_t>(1, near.size() / 500)), kRefineStep, 2);
+    const auto [p, score] = fitted(sweep, lifted);
     ends.push_back({p, rough.cab_end, score, rough.cab});
     for (BedEnds& e : best_ends(strip_of(p), rays_around(sweep, p.middle), lengths, 1.0, kEndsOfStrip)) ends.push_back(std::move(e));
   }

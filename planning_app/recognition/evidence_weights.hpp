@@ -13,6 +13,7 @@ constexpr double kCabShare = 1.0;  // of the bed's evidence, at most
 constexpr double kOpenEnd = 12.0;  // for an end without a wall: a wall more would explain less
 
 constexpr double kWallSeen = 0.6;    // m below the top down to which every class has wall, a half pipe within the gate
+constexpr double kPipeUpright = 0.08;  // m below the top down to which a half pipe's side is upright
 constexpr double kRangeGate = 0.12;  // m, four standard deviations of a range
 constexpr double kTopGate = 0.15;    // m, along the ray
 constexpr double kLevelWithin = 0.05, kLevelMargin = 0.3;  // m
