@@ -10,6 +10,8 @@ using Eigen::Vector2d;
 
 constexpr double kEndsMost = 0.2;   // m
 constexpr double kRefinedTiltMost = 0.09;  // rad
+constexpr double kLevelTilt = 0.025, kLevelStep = 0.03;  // rad; m
+constexpr int kLevelSteps = 3;
 constexpr double kWidthMiddle = 2.38, kWidthOff = 0.2;  // m
 constexpr int kRounds = 4;          // with one step
 constexpr int kMoves = 8;
@@ -61,6 +63,20 @@ BedPose refined(const BedPose& start, const std::vector<Ray>& rays, double first
         }
       if (!better) break;
     }
+  return best;
+}
+
+BedPose levelled(const BedPose& start, const std::vector<Ray>& rays) {
+  BedPose best = start;
+  double score = weigh(best, rays).score;
+  for (const double pitch : {-kLevelTilt, 0.0, kLevelTilt})
+    for (const double roll : {-kLevelTilt, 0.0, kLevelTilt})
+      for (int step = -kLevelSteps; step <= kLevelSteps; ++step) {
+        BedPose p = start;
+        p.pitch += pitch, p.roll += roll, p.middle.z() += kLevelStep * step;
+        const double here = weigh(p, rays).score;
+        if (here > score) best = p, score = here;
+      }
   return best;
 }
 

@@ -20,7 +20,7 @@ constexpr std::size_t kCoarseRays = 900;                                // that 
 constexpr std::size_t kEndsOfStrip = 4, kOfRegion = 5, kOfPairs = 8, kFitted = 24, kFittedEnds = 16;  // most candidates
 constexpr double kRoughWorth = 0.2, kFittedWorth = 0.4;  // of the best one's evidence, to be fitted
 constexpr double kLengthSlack = 0.25;                                   // m, of what is fitted later
-constexpr double kRefineStep = 0.12;                                     // m
+constexpr double kRefineStep = 0.06;                                     // m
 constexpr int kRefineHalvings = 3;
 constexpr std::size_t kRefineStride = 2;                                // of rays, while walls are moved
 constexpr int kFitRounds = 5;                                           // of a fit
@@ -144,7 +144,8 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
   std::vector<BedEnds> ends;
   for (const BedEnds& rough : distinct(rough_ones, kFitted, kRoughWorth, refused)) {
     const std::vector<Ray> near = rays_near(sweep, rough.pose);
-    const BedPose lifted = refined(rough.pose, every(near, std::max<std::size_t>(1, near.size() / 500)), kRefineStep, 2);
+    const std::vector<Ray> some = every(near, std::max<std::size_t>(1, near.size() / 500));
+    const BedPose lifted = refined(levelled(rough.pose, some), some, kRefineStep, 2);
     const auto [p, score] = fitted(sweep, lifted);
     ends.push_back({p, rough.cab_end, score, rough.cab});
     for (BedEnds& e : best_ends(strip_of(p), rays_around(sweep, p.middle), lengths, 1.0, kEndsOfStrip)) ends.push_back(std::move(e));
