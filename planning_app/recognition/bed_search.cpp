@@ -6,6 +6,7 @@
 
 #include "recognition/bed_ends.hpp"
 #include "recognition/bed_fit.hpp"
+#include "recognition/bed_ground.hpp"
 #include "recognition/bed_refinement.hpp"
 #include "recognition/cab_profile.hpp"
 #include "recognition/region_strips.hpp"
@@ -24,6 +25,8 @@ constexpr double kRefineStep = 0.06;                                     // m
 constexpr int kRefineHalvings = 3;
 constexpr std::size_t kRefineStride = 2;                                // of rays, while walls are moved
 constexpr int kFitRounds = 5;                                           // of a fit
+constexpr double kHeightUnsure = 0.15;                                  // m, before a fit
+constexpr std::size_t kGroundStride = 8;                                // of returns
 constexpr double kLongest = 2.5;                                        // m, by which something longer is looked for
 constexpr double kLongerBy = 1.04;                                      // its evidence, to be taken for it
 
@@ -138,11 +141,19 @@ std::vector<BedEnds> rough_beds(const FanSweep& sweep, const std::vector<Upright
   return found;
 }
 
+// Those whose tops are as high over what lies about them as a truck's. One that is not, a bench's face, may agree with far more rays.
+std::vector<BedEnds> over_ground(const FanSweep& sweep, std::vector<BedEnds> all, const TruckRangeSet& ranges) {
+  SizeRange high = ranges.hull(&TruckRanges::top_over_ground);
+  high[0] -= kHeightUnsure, high[1] += kHeightUnsure;
+  std::erase_if(all, [&](const BedEnds& e) { return share_of_ground(sweep, e.pose, high, kGroundStride) < 0.5 * kGroundLeast; });
+  return all;
+}
+
 std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vector<BedEnds>& rough_ones, const TruckRangeSet& ranges,
                                          const std::vector<BedPose>& refused) {
   const SizeRange lengths = fitted_lengths(ranges);
   std::vector<BedEnds> ends;
-  for (const BedEnds& rough : distinct(rough_ones, kFitted, kRoughWorth, refused)) {
+  for (const BedEnds& rough : distinct(over_ground(sweep, rough_ones, ranges), kFitted, kRoughWorth, refused)) {
     const std::vector<Ray> near = rays_near(sweep, rough.pose);
     const std::vector<Ray> some = every(near, std::max<std::size_t>(1, near.size() / 500));
     const BedPose lifted = refined(levelled(rough.pose, some), some, kRefineStep, 2);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "recognition/bed_ground.hpp"
+
 namespace berm::app {
 namespace {
 
@@ -20,8 +22,6 @@ constexpr double kBelowFloor = 0.1;       // m
 constexpr int kFootLeast = 12;            // returns
 constexpr double kFloorFlat = 0.15;       // m between its returns: a floor, not a load
 constexpr double kLengthUnsure = 0.5;  // m, standard deviation
-constexpr double kGroundSlack = 0.15;   // m: ruts
-constexpr double kGroundLeast = 0.02;   // share of returns
 constexpr double kMuchBetter = 1.1;
 constexpr double kCabOfWhole = 0.5;     // of the bed's evidence: what its cab counts at most against something larger
 constexpr int kPasses = 2;              // where all that a pass found was refused, one looks at the rest
@@ -92,21 +92,6 @@ double wall_height(const BedPose& pose, const std::vector<Ray>& rays, const Truc
   return best;
 }
 
-// Of the returns within 2.5 m outside the walls, the share that lies as deep below their tops as the ground that a truck stands on; 1 with too few
-// returns. On the near side the bench may be higher, so a small share tells enough.
-double share_of_ground(const FanSweep& sweep, const BedPose& pose, const SizeRange& top_over_ground) {
-  const Eigen::Matrix3d turn = pose.rotation().transpose();
-  int all = 0, ground = 0;
-  for (const FanReturn& r : sweep.returns) {
-    const Eigen::Vector3d p = turn * (r.at - pose.middle);
-    const double beyond = std::max(std::abs(p.x()) - pose.length / 2, std::abs(p.y()) - pose.width / 2) - pose.thickness;
-    if (beyond < 0.2 || beyond > 2.5) continue;
-    ++all;
-    ground += -p.z() > top_over_ground[0] - kGroundSlack && -p.z() < top_over_ground[1] + 2 * kGroundSlack ? 1 : 0;
-  }
-  return all < 25 ? 1.0 : static_cast<double>(ground) / all;
-}
-
 // Why the bed is none; empty when it is one.
 std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const FittedBed& fit, const TruckRangeSet& ranges) {
   const BedEvidence& e = i.evidence;
@@ -119,7 +104,7 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
   if (e.outer_face < kOuterLeast && (p.open_end == 0 || e.inner_face < (i.cab < kCabFaint ? kInnerAlone : kInnerBeforeCab)))
     return fmt::format("the bed has {} returns on outer faces of its walls, and needs {}", e.outer_face, kOuterLeast);
   const int over_opening = e.level_inside + e.below_inside + e.above_inside;
-  if (e.level_inside > 0.75 * over_opening && over_opening >= 10)
+  if (e.level_inside > 0.75 * over_opening && over_opening >= 30)
     return fmt::format("it is closed on top: {} of {} returns over its opening lie in the plane of the walls' tops", e.level_inside, over_opening);
   // A closed box, a lorry's board or a trench box matches as well from outside: the far walls' inside tells a bed.
   if (e.inner_face < kInnerLeast) return fmt::format("the bed has {} returns on inner faces of its far walls, and needs {}", e.inner_face, kInnerLeast);

@@ -1,0 +1,16 @@
+// The ground beside a bed: a truck's walls have their tops so far over it, and a pit's or a wall's foot does not.
+#pragma once
+
+#include "recognition/bed_model.hpp"
+#include "recognition/fans.hpp"
+#include "recognition/truck_ranges.hpp"
+
+namespace berm::app {
+
+constexpr double kGroundLeast = 0.02;  // share of the returns beside a bed
+
+// Of the returns within 2.5 m outside the walls, the share that lies as deep below their tops as the ground that a truck stands on; 1 with too few
+// returns. On the near side the bench may be higher, so a small share tells enough. Of every stride-th return.
+double share_of_ground(const FanSweep& sweep, const BedPose& pose, const SizeRange& top_over_ground, std::size_t stride = 1);
+
+}  // namespace berm::app
