@@ -19,7 +19,7 @@ constexpr double kEdgeKept = 0.2;         // m: nor do those on its right side, 
 
 class Collector {
  public:
-  Collector(const BedPose& pose, const std::vector<Ray>& rays) : pose_(pose) {
+  Collector(const BedPose& pose, const std::vector<Ray>& rays) : pose_(pose), faces_(pose) {
     const Eigen::Matrix3d turn = pose.rotation().transpose();
     for (const Ray& ray : rays) take({ray.head, ray.at, turn * (ray.head - pose_.middle), turn * (ray.at - pose_.middle)});
   }
@@ -56,7 +56,7 @@ class Collector {
   }
 
   void take(const LocalRay& ray) {
-    const RayMeeting m = meet_in_bed(pose_, ray.a, ray.end);
+    const RayMeeting m = faces_.meet(ray.a, ray.end);
     const BedPlane rim{2, 1, false};
     switch (m.what) {
       case Meeting::outer_face: {
@@ -179,6 +179,7 @@ class Collector {
   }
 
   const BedPose& pose_;
+  const BedFaces faces_;
 };
 
 }  // namespace

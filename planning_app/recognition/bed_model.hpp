@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "recognition/evidence_weights.hpp"
@@ -49,7 +50,23 @@ struct RayMeeting {
   Eigen::Vector3d entry, rim, end;  // in the bed frame: on the entered face's plane, on the plane of the tops, the return
 };
 
-// a: the sensor, end: the return, in the bed frame.
+// A bed's faces in plan, in its frame: those of the ends, and the left one, opposite the right one.
+struct BedRectangle {
+  double rear, front, side;
+};
+
+// A bed's faces, for many rays.
+class BedFaces {
+ public:
+  explicit BedFaces(const BedPose& pose);
+  // a: the sensor, end: the return, in the bed frame.
+  [[nodiscard]] RayMeeting meet(const Eigen::Vector3d& a, const Eigen::Vector3d& end) const;
+
+ private:
+  BedPose pose_;
+  BedRectangle outer_, inner_;
+};
+
 RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& end);
 RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray& ray);
 
