@@ -6,6 +6,7 @@
 namespace berm::app {
 namespace {
 
+constexpr double kTiltedAside = 0.15;  // m, by which faces move aside where a ray passes high over a bed that is tilted
 constexpr double kAlongFace = 1e-12;  // m: a ray whose ends differ by less goes along the faces of an axis
 
 // A ray's way through a rectangle of faces in plan, in shares of the ray: by each axis it is between the faces from in to out. No branches: what a ray
@@ -122,6 +123,23 @@ RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eige
 
 RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray& ray) {
   return meet_in_bed(pose, rotation.transpose() * (ray.head - pose.middle), rotation.transpose() * (ray.at - pose.middle));
+}
+
+std::vector<Ray> rays_meeting(const BedPose& pose, const std::vector<Ray>& rays, double moved) {
+  const double wider = moved + kTiltedAside;
+  const double u = pose.length / 2 + pose.thickness + wider, v = pose.width / 2 + pose.thickness + wider;
+  const BedRectangle about{-u, u, v};
+  const Eigen::Matrix3d turn = pose.rotation().transpose();
+  const Eigen::Vector3d shift = -(turn * pose.middle);
+  std::vector<Ray> out;
+  out.reserve(rays.size());
+  for (const Ray& ray : rays) {
+    const Eigen::Vector3d a = placed(turn, ray.head, shift), d = placed(turn, ray.at, shift) - a;
+    const Crossing crossing(a.x(), a.y(), one_by(d.x()), one_by(d.y()), about);
+    const double in = std::max(crossing.in(), 0.0), highest = a.z() + (d.z() < 0.0 ? in : crossing.out()) * d.z();
+    if (in < crossing.out() && highest >= -kWallSeen - moved) out.push_back(ray);
+  }
+  return out;
 }
 
 BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays) {

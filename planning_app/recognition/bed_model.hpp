@@ -70,6 +70,9 @@ class BedFaces {
 RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& end);
 RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray& ray);
 
+// Those of the rays that may meet the bed when no corner of it is moved by more than so many metres; the others are no evidence of it.
+std::vector<Ray> rays_meeting(const BedPose& pose, const std::vector<Ray>& rays, double moved);
+
 struct BedEvidence {
   double score = 0.0;
   int outer_face = 0, inner_face = 0, wall_top = 0, inside = 0, through = 0, before = 0, over = 0, above_face = 0;
