@@ -99,7 +99,10 @@ void weigh_whole(const FanSweep& sweep, BedInterpretation& i) {
   i.evidence = weigh(p, i.rays);
   CabProfile profile;
   const Eigen::Matrix3d turn = p.rotation().transpose();
-  for (const Ray& r : rays_around(sweep, p.middle)) profile.take(turn * (r.head - p.middle), turn * (r.at - r.head), r.upright);
+  visit_around(sweep, p.middle, [&](std::size_t fan, std::size_t k) {
+    const FanReturn& r = sweep.returns[k];
+    profile.take(turn * (sweep.heads[fan] - p.middle), turn * (r.at - sweep.heads[fan]), r.upright);
+  });
   profile.finish();
   const double front = profile.beyond(p.face(0, 1, true), 1, 1.0), rear = profile.beyond(-p.face(0, -1, true), -1, 1.0);
   i.cab_end = p.open_end != 0 ? -p.open_end : front >= rear ? 1 : -1;

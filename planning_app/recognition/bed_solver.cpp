@@ -45,8 +45,10 @@ class Sums {
   void add(const BedVector& slope, double of_products, double of_slope) {
     double row[kRow] = {};
     for (int i = 0; i < kBedValues; ++i) row[i] = slope[i];
+#pragma GCC unroll 9
     for (int i = 0; i < kBedValues; ++i) {
       const double factor = of_products * row[i];
+#pragma GCC unroll 10
       for (int j = i & ~1; j < kRow; ++j) products_[i][j] += factor * row[j];  // in pairs, from the diagonal on
       downhill[i] -= of_slope * row[i];
     }
