@@ -25,11 +25,6 @@ struct Crossing {
   [[nodiscard]] int out_axis() const { return out_v < out_u ? 1 : 0; }
 };
 
-// turn * at + shift
-Eigen::Vector3d placed(const Eigen::Matrix3d& turn, const Eigen::Vector3d& at, const Eigen::Vector3d& shift) {
-  return turn.col(0) * at.x() + turn.col(1) * at.y() + turn.col(2) * at.z() + shift;
-}
-
 double one_by(double d) { return 1.0 / (std::abs(d) < kAlongFace ? std::copysign(kAlongFace, d) : d); }
 
 }  // namespace
@@ -126,18 +121,16 @@ RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray&
 }
 
 std::vector<Ray> rays_meeting(const BedPose& pose, const std::vector<Ray>& rays, double moved) {
-  const double wider = moved + kTiltedAside;
-  const double u = pose.length / 2 + pose.thickness + wider, v = pose.width / 2 + pose.thickness + wider;
-  const BedRectangle about{-u, u, v};
-  const Eigen::Matrix3d turn = pose.rotation().transpose();
-  const Eigen::Vector3d shift = -(turn * pose.middle);
+  const double wider = moved + kTiltedAside, u = pose.length / 2 + pose.thickness + wider, v = pose.width / 2 + pose.thickness + wider;
+  const BedRectangle around{-u, u, v};
+  const Placing place(pose);
   std::vector<Ray> out;
   out.reserve(rays.size());
   for (const Ray& ray : rays) {
-    const Eigen::Vector3d a = placed(turn, ray.head, shift), d = placed(turn, ray.at, shift) - a;
-    const Crossing crossing(a.x(), a.y(), one_by(d.x()), one_by(d.y()), about);
-    const double in = std::max(crossing.in(), 0.0), highest = a.z() + (d.z() < 0.0 ? in : crossing.out()) * d.z();
-    if (in < crossing.out() && highest >= -kWallSeen - moved) out.push_back(ray);
+    const Eigen::Vector3d a = place.of(ray.head), d = place.of(ray.at) - a;
+    const Crossing crossing(a.x(), a.y(), one_by(d.x()), one_by(d.y()), around);
+    const double from = std::max(crossing.in(), 0.0), to = crossing.out(), highest = a.z() + (d.z() < 0.0 ? from : to) * d.z();
+    if (from < to && highest >= -kWallSeen - moved) out.push_back(ray);
   }
   return out;
 }
@@ -146,12 +139,11 @@ BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays) {
   BedEvidence e;
   double face[2] = {0.0, 0.0};  // on outer faces of ends and of sides
   const BedFaces faces(pose);
-  const Eigen::Matrix3d turn = pose.rotation().transpose();
-  const Eigen::Vector3d shift = -(turn * pose.middle);
-  Eigen::Vector3d head(0.0, 0.0, 0.0), a = shift;
+  const Placing place(pose);
+  Eigen::Vector3d head(0.0, 0.0, 0.0), a = place.of(head);
   for (const Ray& ray : rays) {
-    if (ray.head != head) head = ray.head, a = placed(turn, head, shift);  // that of a whole fan
-    const RayMeeting m = faces.meet(a, placed(turn, ray.at, shift));
+    if (ray.head != head) head = ray.head, a = place.of(head);  // that of a whole fan
+    const RayMeeting m = faces.meet(a, place.of(ray.at));
     switch (m.what) {
       case Meeting::none: break;
       case Meeting::before: ++e.before; break;

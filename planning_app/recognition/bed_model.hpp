@@ -22,6 +22,17 @@ struct BedPose {
   [[nodiscard]] double face(int axis, int side, bool outer) const;
 };
 
+// Takes places into a bed's frame.
+class Placing {
+ public:
+  explicit Placing(const BedPose& pose) : turn_(pose.rotation().transpose()), shift_(-(turn_ * pose.middle)) {}
+  [[nodiscard]] Eigen::Vector3d of(const Eigen::Vector3d& at) const { return turn_.col(0) * at.x() + turn_.col(1) * at.y() + turn_.col(2) * at.z() + shift_; }
+
+ private:
+  Eigen::Matrix3d turn_;
+  Eigen::Vector3d shift_;
+};
+
 struct Ray {
   Eigen::Vector3d head, at;  // from the sensor to the return
   bool upright = false;      // one of several returns one above the other

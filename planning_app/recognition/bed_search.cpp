@@ -19,6 +19,7 @@ constexpr std::size_t kRegionsMost = 10;
 constexpr std::size_t kCoarseRays = 900;                                // that first decide between interpretations
 constexpr std::size_t kEndsOfStrip = 4, kOfRegion = 5, kFitted = 10, kFittedEnds = 12;  // most candidates
 constexpr double kRoughWorth = 0.5, kFittedWorth = 0.6;  // of the best one's evidence, to be fitted
+constexpr double kHopeful = 50.0;  // evidence of a bed, from which a fit, or moving its walls, may come to that of one that is accepted
 constexpr double kLengthSlack = 0.25;                                   // m, of what is fitted later
 constexpr double kRefineStep = 0.12;                                     // m
 constexpr int kRefineHalvings = 3;
@@ -48,6 +49,22 @@ std::vector<Candidate> distinct(std::vector<Candidate> all, std::size_t most, do
     if (std::none_of(out.begin(), out.end(), [&](const Candidate& o) { return alike(c.pose, o.pose); })) out.push_back(std::move(c));
   }
   return out;
+}
+
+double bed(const BedEnds& e) { return e.bed; }
+double bed(const BedInterpretation& i) { return i.evidence.score; }
+
+// Leaves those that may still become a bed; where none may, the one that is most like one, so that something can be said of it.
+template <typename Candidate>
+void leave_hopeful(std::vector<Candidate>& all) {
+  const auto hopeless = [](const Candidate& c) { return bed(c) < kHopeful; };
+  if (all.size() < 2) return;
+  if (!std::all_of(all.begin(), all.end(), hopeless)) {
+    std::erase_if(all, hopeless);
+    return;
+  }
+  std::iter_swap(all.begin(), std::max_element(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return bed(a) < bed(b); }));
+  all.erase(all.begin() + 1, all.end());
 }
 
 std::vector<Ray> every(const std::vector<Ray>& rays, std::size_t stride) {
@@ -135,6 +152,7 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
     ends.push_back({p, rough.cab_end, score, rough.cab});
     for (BedEnds& e : best_ends(strip_of(p), rays_around(sweep, p.middle), lengths, 1.0, kEndsOfStrip)) ends.push_back(std::move(e));
   }
+  leave_hopeful(ends);
   std::vector<BedInterpretation> out;
   for (const BedEnds& e : distinct(std::move(ends), kFittedEnds, kFittedWorth, refused)) {
     BedInterpretation i;
@@ -143,6 +161,8 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
     out.push_back(std::move(i));
   }
   out = distinct(std::move(out), kInterpretations, kFittedWorth, refused);
+  leave_hopeful(out);
+  if (out.size() == 1 && bed(out.front()) < kHopeful) return out;
   for (BedInterpretation& i : out) {
     i.pose = refined(i.pose, every(i.rays, kRefineStride), kRefineStep, kRefineHalvings);
     i.pose = fitted(sweep, i.pose).pose;
