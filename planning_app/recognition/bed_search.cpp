@@ -28,11 +28,6 @@ constexpr int kFitRounds = 3;                                           // of a 
 constexpr double kLongest = 2.5;                                        // m, by which something longer is looked for
 constexpr double kLongerBy = 1.04;                                      // its evidence, to be taken for it
 
-bool alike(const BedPose& a, const BedPose& b) {
-  return a.open_end == b.open_end && (a.middle - b.middle).norm() < 0.25 && std::abs(std::remainder(a.yaw - b.yaw, std::numbers::pi)) < 0.1 &&
-         std::abs(a.length - b.length) < 0.3;
-}
-
 double whole(const BedEnds& e) { return with_cab(e.bed, e.cab); }
 double whole(const BedInterpretation& i) { return i.whole(); }
 
@@ -108,6 +103,11 @@ SizeRange fitted_lengths(const TruckRangeSet& ranges) {
 
 }  // namespace
 
+bool alike(const BedPose& a, const BedPose& b) {
+  return a.open_end == b.open_end && (a.middle - b.middle).norm() < 0.25 && std::abs(std::remainder(a.yaw - b.yaw, std::numbers::pi)) < 0.1 &&
+         std::abs(a.length - b.length) < 0.3;
+}
+
 double BedInterpretation::whole() const { return with_cab(evidence.score, cab); }
 
 void weigh_whole(const FanSweep& sweep, BedInterpretation& i) {
@@ -162,13 +162,14 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
   }
   out = distinct(std::move(out), kInterpretations, kFittedWorth, refused);
   leave_hopeful(out);
-  if (out.size() == 1 && bed(out.front()) < kHopeful) return out;
-  for (BedInterpretation& i : out) {
-    i.pose = refined(i.pose, every(i.rays, kRefineStride), kRefineStep, kRefineHalvings);
-    i.pose = fitted(sweep, i.pose).pose;
-    weigh_whole(sweep, i);
-  }
-  return distinct(std::move(out), kInterpretations);
+  return out;
+}
+
+void move_walls(const FanSweep& sweep, BedInterpretation& i) {
+  if (bed(i) < kHopeful) return;
+  i.pose = refined(i.pose, every(i.rays, kRefineStride), kRefineStep, kRefineHalvings);
+  i.pose = fitted(sweep, i.pose).pose;
+  weigh_whole(sweep, i);
 }
 
 }  // namespace berm::app
