@@ -19,16 +19,20 @@ constexpr double kEdgeKept = 0.2;         // m: nor do those on its right side, 
 
 class Collector {
  public:
-  Collector(const BedPose& pose, const std::vector<Ray>& rays) : pose_(pose) {
-    const Eigen::Matrix3d turn = pose.rotation().transpose();
-    for (const Ray& ray : rays) take({ray.head, ray.at, turn * (ray.head - pose_.middle), turn * (ray.at - pose_.middle)});
+  Collector(const BedPose& pose, const std::vector<Ray>& rays) : pose_(pose), faces_(pose) {
+    const Placing place(pose);
+    Eigen::Vector3d head(0.0, 0.0, 0.0), a = place.of(head);
+    for (const Ray& ray : rays) {
+      if (ray.head != head) head = ray.head, a = place.of(head);  // that of a whole fan
+      take({ray.head, ray.at, a, place.of(ray.at)});
+    }
   }
   std::vector<BedConstraint> out;
 
  private:
   struct LocalRay {
-    Eigen::Vector3d head, at;  // in the base frame
-    Eigen::Vector3d a, end;    // the same in the bed frame
+    const Eigen::Vector3d &head, &at;  // in the base frame
+    const Eigen::Vector3d a, end;      // the same in the bed frame
   };
   void on_plane(const LocalRay& ray, BedPlane plane, double offset, double deviation) {
     BedConstraint c{ray.head, ray.at, false, plane, {}, 1, offset, deviation};
@@ -56,7 +60,7 @@ class Collector {
   }
 
   void take(const LocalRay& ray) {
-    const RayMeeting m = meet_in_bed(pose_, ray.a, ray.end);
+    const RayMeeting m = faces_.meet(ray.a, ray.end);
     const BedPlane rim{2, 1, false};
     switch (m.what) {
       case Meeting::outer_face: {
@@ -186,6 +190,7 @@ class Collector {
   }
 
   const BedPose& pose_;
+  const BedFaces faces_;
 };
 
 }  // namespace

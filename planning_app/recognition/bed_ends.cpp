@@ -46,35 +46,48 @@ class EndSums {
   std::array<float, kEnds + 1> sum_{};
 };
 
-// Sums of weights over pairs of ends (rear, front).
+// Lengths of beds, in steps between their ends.
+struct Steps {
+  int shortest, longest;
+};
+
+// Sums of weights over pairs of ends (rear, front) that are a bed's length apart: a band beside the table's diagonal. A corner of a rectangle stands for
+// all pairs at or beyond it at both ends, so it may as well lie where the first of these lie in the band.
 class PairSums {
  public:
-  PairSums() : sum_(static_cast<std::size_t>((kEnds + 1) * (kEnds + 1)), 0.0F) {}
+  explicit PairSums(const Steps& steps) : shortest_(steps.shortest), longest_(steps.longest), width_(longest_ - shortest_ + 1), sum_(static_cast<std::size_t>(kEnds * width_), 0.0F) {}
   // For the rear ends in [rear_from, rear_to) with the front ends in [front_from, front_to).
   void add(double rear_from, double rear_to, double front_from, double front_to, double weight) {
     const int a = first_end(rear_from), b = first_end(rear_to), c = first_end(front_from), d = first_end(front_to);
     if (b <= a || d <= c) return;
     const auto w = static_cast<float>(weight);
-    cell(a, c) += w;
-    cell(b, c) -= w;
-    cell(a, d) -= w;
-    cell(b, d) += w;
+    corner(a, c, w);
+    corner(b, c, -w);
+    corner(a, d, -w);
+    corner(b, d, w);
   }
   void finish() {
-    for (int i = 0; i <= kEnds; ++i) {
-      float row = 0.0F;
-      float* const here = &cell(i, 0);
-      const float* const above = i > 0 ? &cell(i - 1, 0) : nullptr;
-      for (int j = 0; j <= kEnds; ++j) {
-        row += here[j];
-        here[j] = row + (above != nullptr ? above[j] : 0.0F);
+    std::array<float, 2 * kEnds> column{};  // of each front end, of the rear ends until now
+    float before = 0.0F;                    // all front ends nearer than the shortest
+    for (int rear = 0; rear < kEnds; ++rear) {
+      float row = before;
+      float *const here = &sum_[static_cast<std::size_t>(rear * width_)], *const ends = &column[static_cast<std::size_t>(rear + shortest_)];
+      for (int k = 0; k < width_; ++k) {
+        ends[k] += here[k];
+        row += ends[k];
+        here[k] = row;
       }
+      before += ends[0];
     }
   }
-  [[nodiscard]] float at(int rear, int front) const { return sum_[static_cast<std::size_t>(rear * (kEnds + 1) + front)]; }
+  [[nodiscard]] float at(int rear, int front) const { return sum_[static_cast<std::size_t>(rear * width_ + front - rear - shortest_)]; }
 
  private:
-  float& cell(int i, int j) { return sum_[static_cast<std::size_t>(i * (kEnds + 1) + j)]; }
+  void corner(int rear, int front, float weight) {
+    const int row = std::max(rear, front - longest_), column = std::max(front, row + shortest_);
+    if (row < kEnds && front < kEnds) sum_[static_cast<std::size_t>(row * width_ + column - row - shortest_)] += weight;
+  }
+  int shortest_, longest_, width_;
   std::vector<float> sum_;
 };
 
@@ -91,7 +104,9 @@ struct StripRay {
 
 class Weighing {
  public:
-  Weighing(const BedStrip& strip, const std::vector<Ray>& rays) : inner_(strip.width / 2), outer_(inner_ + strip.thickness), thickness_(strip.thickness), slack_(strip.slack) {
+  Weighing(const BedStrip& strip, const std::vector<Ray>& rays, const Steps& steps)
+      : common(steps), rear_wall(steps), front_wall(steps), open_rear(steps), open_front(steps), inner_(strip.width / 2), outer_(inner_ + strip.thickness),
+        thickness_(strip.thickness), slack_(strip.slack) {
     BedPose pose;
     pose.yaw = strip.yaw, pose.pitch = strip.pitch, pose.roll = strip.roll;
     const Eigen::Matrix3d turn = pose.rotation().transpose();
@@ -297,8 +312,8 @@ BedPose pose_of(const BedStrip& strip, const Pair& pair) {
 }  // namespace
 
 std::vector<BedEnds> best_ends(const BedStrip& strip, const std::vector<Ray>& rays, const SizeRange& lengths, double share, std::size_t most) {
-  const Weighing w(strip, rays);
-  const int shortest = static_cast<int>(lengths[0] / kEndStep), longest = static_cast<int>(std::ceil(lengths[1] / kEndStep));
+  const int shortest = static_cast<int>(lengths[0] / kEndStep), longest = std::min(static_cast<int>(std::ceil(lengths[1] / kEndStep)), kEnds - 1);
+  const Weighing w(strip, rays, {shortest, longest});
   const auto open_weight = static_cast<float>(kOpenEnd / share);
   std::array<float, kEnds> cab_front{}, cab_rear{};
   for (int k = 0; k < kEnds; ++k) {

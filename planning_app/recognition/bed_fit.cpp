@@ -1,19 +1,18 @@
 #include "recognition/bed_fit.hpp"
 
-#include <ceres/tiny_solver.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "recognition/bed_ceres.hpp"
 #include "recognition/bed_constraints.hpp"
 #include "recognition/bed_residuals.hpp"
+#include "recognition/bed_solver.hpp"
 
 namespace berm::app {
 namespace {
 
-constexpr double kRobust = 2.0;               // of the Cauchy loss, in standard deviations
 constexpr double kBlur = 3.0;                 // of edges, from round to round
 constexpr int kIterations = 12;
 constexpr double kCostStep = 1e-2;            // in squared standard deviations: the fit ends
@@ -24,49 +23,17 @@ constexpr double kShared = 3.0;               // rays that count as one
 constexpr std::array<double, 8> kBodyDeviation{0.008, 0.008, 0.004, 0.001, 0.002, 0.003, 0.012, 0.010};
 
 // What is known beforehand: walls of the classes, beds that drive on roads, ground that is nearly level.
-struct Known {
-  BedValue which;
-  double mean, deviation;
-};
-constexpr std::array<Known, 4> kKnown{{{kBedThickness, 0.095, 0.025}, {kBedWidth, 2.38, 0.075}, {kBedPitch, 0.0, 0.03}, {kBedRoll, 0.0, 0.03}}};
+constexpr std::array<KnownValue, 4> kKnown{{{kBedThickness, 0.095, 0.025}, {kBedWidth, 2.38, 0.075}, {kBedPitch, 0.0, 0.03}, {kBedRoll, 0.0, 0.03}}};
 
 // Of a length whose end no ray shows the classes tell so much; where one is seen it must not pull.
 constexpr double kLengthSpread = 0.7;  // m
 
 using Normal = Eigen::Matrix<double, kBedValues, kBedValues>;
 
-// All statements and what is known, for Ceres' small solver. A statement's residual t is that whose square is the Cauchy loss of the residual r.
+// What a fit goes by.
 class Statements {
  public:
-  using Scalar = double;
-  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = kBedValues };
-
   Statements(const std::vector<BedConstraint>& all, int open_end) : all_(all), open_end_(open_end) {}
-  [[nodiscard]] int NumResiduals() const { return static_cast<int>(all_.size() + kKnown.size()); }
-
-  bool operator()(const double* parameters, double* residuals, double* jacobian) const {
-    const BedVector values = Eigen::Map<const BedVector>(parameters);
-    const BedAxes axes(values);
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, kBedValues>> slopes(jacobian, jacobian != nullptr ? NumResiduals() : 0, kBedValues);
-    BedVector slope;
-    Eigen::Index row = 0;
-    for (const BedConstraint& c : all_) {
-      const double r = residual(c, axes, values, open_end_, jacobian != nullptr ? &slope : nullptr);
-      const double s = r * r / (kRobust * kRobust), t = std::copysign(kRobust * std::sqrt(std::log1p(s)), r);
-      residuals[row] = t;
-      if (jacobian != nullptr) slopes.row(row) = (std::abs(t) > 1e-9 ? r / (t * (1.0 + s)) : 1.0) * slope.transpose();
-      ++row;
-    }
-    for (const Known& k : kKnown) {
-      residuals[row] = (parameters[k.which] - k.mean) / k.deviation;
-      if (jacobian != nullptr) {
-        slopes.row(row).setZero();
-        slopes(row, k.which) = 1.0 / k.deviation;
-      }
-      ++row;
-    }
-    return true;
-  }
 
   // Of the residuals, each weighted as the loss weights it, and of what is known. Rays that share a wall share its mud, its bends and what was wrongly
   // decided of an edge, so they tell less than as many that do not; returns in a corner may be of either wall, and tell nothing of one.
@@ -80,7 +47,7 @@ class Statements {
       sum += slope * slope.transpose() / (1.0 + r * r / (kRobust * kRobust));
     }
     sum = sum / kShared + Normal::Identity() * 1e-6;
-    for (const Known& k : kKnown) sum(k.which, k.which) += 1.0 / (k.deviation * k.deviation);
+    for (const KnownValue& k : kKnown) sum(k.which, k.which) += 1.0 / (k.deviation * k.deviation);
     sum(kBedLength, kBedLength) += 1.0 / (kLengthSpread * kLengthSpread);
     return sum;
   }
@@ -92,28 +59,25 @@ class Statements {
 
 }  // namespace
 
-FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds) {
+FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds, BedSolver solver) {
   FittedBed fit;
   fit.pose = start;
-  ceres::TinySolver<Statements> solver;
-  solver.options.max_num_iterations = kIterations;
-  solver.options.function_tolerance = kCostStep;
   for (int round = 0; round < rounds; ++round) {
     std::vector<BedConstraint> statements = constraints(fit.pose, rays);
     for (BedConstraint& c : statements)
       if (c.edge && c.bound.axis != 0) c.deviation *= std::pow(kBlur, std::max(0, rounds - 2 - round));
     fit.residuals = static_cast<int>(statements.size());
     if (fit.residuals < kResidualsLeast) return fit;
-    const Statements problem(statements, start.open_end);
     BedVector values = values_of(fit.pose);
-    solver.Solve(problem, &values);
+    const auto solve = solver == BedSolver::ceres ? solve_bed_by_ceres : solve_bed;
+    solve(statements, start.open_end, kKnown, kIterations, kCostStep, values);
     if (!values.allFinite()) return fit;
     set_values(fit.pose, values);
     fit.pose.yaw = std::remainder(fit.pose.yaw, 2 * std::numbers::pi);
     fit.pose.thickness = std::clamp(fit.pose.thickness, kThinnest, kThickest);
     if (round + 1 < rounds) continue;
     fit.converged = true;
-    const Normal inverse = Eigen::LDLT<Normal>(problem.information(values)).solve(Normal::Identity());
+    const Normal inverse = Eigen::LDLT<Normal>(Statements(statements, start.open_end).information(values)).solve(Normal::Identity());
     fit.covariance = inverse.topLeftCorner<8, 8>();
     for (int i = 0; i < 8; ++i) fit.covariance(i, i) += kBodyDeviation[static_cast<std::size_t>(i)] * kBodyDeviation[static_cast<std::size_t>(i)];
   }

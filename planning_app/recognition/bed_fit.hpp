@@ -25,7 +25,8 @@ struct FittedBed {
 // apart two rays of one scanline are. What a ray passed is decided by the pose, which must be near already (0.2 m, 3 degrees), and decided again in
 // every round. In all rounds but the last two edges are blurred, so that a wall some centimetres too high or low comes to where it is; not those of
 // the bed's ends, which would wander off where no ray shows them.
-FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds);
+enum class BedSolver { sums, ceres };  // bed_solver for the many fits of a search, Ceres for the one that is the answer
+FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds, BedSolver solver = BedSolver::sums);
 
 // Of the opening on the inner top edge: (+u, +v), (-u, +v), (-u, -v), (+u, -v).
 std::array<Eigen::Vector3d, 4> opening_corners(const BedPose& pose);

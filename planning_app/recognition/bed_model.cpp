@@ -6,27 +6,26 @@
 namespace berm::app {
 namespace {
 
+constexpr double kTiltedAside = 0.15;  // m, by which faces move aside where a ray passes high over a bed that is tilted
+constexpr double kAlongFace = 1e-12;  // m: a ray whose ends differ by less goes along the faces of an axis
+
+// A ray's way through a rectangle of faces in plan, in shares of the ray: by each axis it is between the faces from in to out. No branches: what a ray
+// meets is as good as random, and a branch that is foretold wrongly costs more than all of this.
 struct Crossing {
-  double in = -1e9, out = 1e9;
-  int in_axis = -1, in_side = 0, out_axis = -1, out_side = 0;
+  double in_u, out_u, in_v, out_v;
+  Crossing(double a_u, double a_v, double one_by_u, double one_by_v, const BedRectangle& faces) {
+    const double rear = (faces.rear - a_u) * one_by_u, front = (faces.front - a_u) * one_by_u;
+    const double right = (-faces.side - a_v) * one_by_v, left = (faces.side - a_v) * one_by_v;
+    in_u = std::min(rear, front), out_u = std::max(rear, front);
+    in_v = std::min(right, left), out_v = std::max(right, left);
+  }
+  [[nodiscard]] double in() const { return std::max(in_u, in_v); }
+  [[nodiscard]] double out() const { return std::min(out_u, out_v); }
+  [[nodiscard]] int in_axis() const { return in_v > in_u ? 1 : 0; }
+  [[nodiscard]] int out_axis() const { return out_v < out_u ? 1 : 0; }
 };
 
-// Where a ray crosses the rectangle of the walls' faces in plan; in >= out: not at all.
-Crossing cross(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& d, bool outer) {
-  Crossing c;
-  for (int axis = 0; axis < 2; ++axis) {
-    const double low = -pose.face(axis, -1, outer), high = pose.face(axis, 1, outer);
-    if (std::abs(d[axis]) < 1e-12) {
-      if (a[axis] < low || a[axis] > high) c.out = -1e9;
-      continue;
-    }
-    const int entered = d[axis] > 0.0 ? -1 : 1;
-    const double in = ((entered < 0 ? low : high) - a[axis]) / d[axis], out = ((entered < 0 ? high : low) - a[axis]) / d[axis];
-    if (in > c.in) c.in = in, c.in_axis = axis, c.in_side = entered;
-    if (out < c.out) c.out = out, c.out_axis = axis, c.out_side = -entered;
-  }
-  return c;
-}
+double one_by(double d) { return 1.0 / (std::abs(d) < kAlongFace ? std::copysign(kAlongFace, d) : d); }
 
 }  // namespace
 
@@ -48,48 +47,53 @@ bool below_pipe(const Eigen::Vector3d& a, const Eigen::Vector3d& d, double half_
   return root <= 0.0 || 1.0 <= (-half - std::sqrt(root)) / along + slack;
 }
 
-RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& end) {
+BedFaces::BedFaces(const BedPose& pose)
+    : pose_(pose), outer_{-pose.face(0, -1, true), pose.face(0, 1, true), pose.face(1, 1, true)},
+      inner_{-pose.face(0, -1, false), pose.face(0, 1, false), pose.face(1, 1, false)} {}
+
+RayMeeting BedFaces::meet(const Eigen::Vector3d& a, const Eigen::Vector3d& end) const {
   RayMeeting m;
   const Eigen::Vector3d d = end - a;
   m.end = end;
-  const Crossing outer = cross(pose, a, d, true);
-  if (outer.in >= outer.out || outer.out <= 0.0 || outer.in <= 0.0) return m;
+  const double one_by_u = one_by(d.x()), one_by_v = one_by(d.y());
+  const Crossing outer(a.x(), a.y(), one_by_u, one_by_v, outer_);
+  const double in = outer.in(), out = outer.out();
+  if (in >= out || in <= 0.0 || a.z() + in * d.z() < -kWallSeen) return m;
+  m.entry = a + in * d;
   const double range = d.norm();
-  m.entry = a + outer.in * d;
-  m.axis = outer.in_axis;
-  m.side = outer.in_side;
-  const auto leave = [&](const Crossing& c) { m.axis = c.out_axis, m.side = c.out_side; };
+  m.axis = outer.in_axis();
+  m.side = d[m.axis] > 0.0 ? -1 : 1;
+  const auto leave = [&](const Crossing& c) { m.axis = c.out_axis(), m.side = d[m.axis] > 0.0 ? 1 : -1; };
   // From within: stopped by load or floor, by the face that it comes to, or not at all.
   const auto stopped_within = [&]() {
-    const Crossing inner = cross(pose, a, d, false);
+    const Crossing inner(a.x(), a.y(), one_by_u, one_by_v, inner_);
     leave(inner);
-    m.off = (1.0 - inner.out) * range;
-    const bool out_of_end = m.axis == 0 && m.side == pose.open_end;
+    m.off = (1.0 - inner.out()) * range;
+    const bool out_of_end = m.axis == 0 && m.side == pose_.open_end;
     if (m.off < -kRangeGate || (out_of_end && m.off <= kRangeGate)) m.what = Meeting::inside;
     else if (out_of_end) m.what = Meeting::over;
     else m.what = m.off <= kRangeGate ? Meeting::inner_face : Meeting::through_inner;
   };
-  const bool open = m.axis == 0 && m.side == pose.open_end;
+  const bool open = m.axis == 0 && m.side == pose_.open_end;
   if (m.entry.z() < 0.0) {
-    if (m.entry.z() < -kWallSeen) return m;
-    m.off = (1.0 - outer.in) * range;
+    m.off = (1.0 - in) * range;
     if (m.off < -kRangeGate) {
       m.what = Meeting::before;
-    } else if (open && std::abs(m.entry.y()) < pose.width / 2) {
+    } else if (open && std::abs(m.entry.y()) < pose_.width / 2) {
       m.by_open_end = true;
       stopped_within();
     } else {
-      m.what = m.off <= kRangeGate                                                                        ? Meeting::outer_face
-               : m.axis == 1 && below_pipe(a, d, pose.face(1, m.side, true), kRangeGate / range) ? Meeting::below_side
-                                                                                                          : Meeting::through_face;
+      m.what = m.off <= kRangeGate                                                           ? Meeting::outer_face
+               : m.axis == 1 && below_pipe(a, d, outer_.side, kRangeGate / range) ? Meeting::below_side
+                                                                                             : Meeting::through_face;
     }
     return m;
   }
-  if (m.entry.z() > 0.1 && std::abs(1.0 - outer.in) * range < kRangeGate) {
+  if (m.entry.z() > 0.1 && std::abs(1.0 - in) * range < kRangeGate) {
     m.what = Meeting::above_face;
     return m;
   }
-  if (outer.in * range > range + kRangeGate) {
+  if (in * range > range + kRangeGate) {
     m.what = Meeting::before;
     return m;
   }
@@ -99,18 +103,18 @@ RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eige
   }
   const double to_rim = -a.z() / d.z();
   m.rim = a + to_rim * d;
-  if (to_rim >= outer.out) {
+  if (to_rim >= out) {
     leave(outer);
-    m.what = outer.out > 1.0 ? Meeting::before : Meeting::over;
+    m.what = out > 1.0 ? Meeting::before : Meeting::over;
     return m;
   }
   m.off = (1.0 - to_rim) * range;
-  const bool over_opening = m.rim.x() < pose.face(0, 1, false) && m.rim.x() > -pose.face(0, -1, false) && std::abs(m.rim.y()) < pose.width / 2;
+  const bool over_opening = m.rim.x() < inner_.front && m.rim.x() > inner_.rear && std::abs(m.rim.y()) < pose_.width / 2;
   if (!over_opening) {
     m.what = m.off < -kTopGate ? Meeting::before : m.off <= kTopGate ? Meeting::wall_top : Meeting::through_top;
     for (int axis = 0; axis < 2; ++axis)
       for (int side = -1; side <= 1; side += 2)
-        if (m.rim[axis] * side >= pose.face(axis, side, false)) m.axis = axis, m.side = side;
+        if (m.rim[axis] * side >= pose_.face(axis, side, false)) m.axis = axis, m.side = side;
     return m;
   }
   if (m.off < -0.1) m.what = Meeting::before;
@@ -118,18 +122,36 @@ RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eige
   return m;
 }
 
+RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& end) { return BedFaces(pose).meet(a, end); }
+
 RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray& ray) {
   return meet_in_bed(pose, rotation.transpose() * (ray.head - pose.middle), rotation.transpose() * (ray.at - pose.middle));
+}
+
+std::vector<Ray> rays_meeting(const BedPose& pose, const std::vector<Ray>& rays, double moved) {
+  const double wider = moved + kTiltedAside, u = pose.length / 2 + pose.thickness + wider, v = pose.width / 2 + pose.thickness + wider;
+  const BedRectangle around{-u, u, v};
+  const Placing place(pose);
+  std::vector<Ray> out;
+  out.reserve(rays.size());
+  for (const Ray& ray : rays) {
+    const Eigen::Vector3d a = place.of(ray.head), d = place.of(ray.at) - a;
+    const Crossing crossing(a.x(), a.y(), one_by(d.x()), one_by(d.y()), around);
+    const double from = std::max(crossing.in(), 0.0), to = crossing.out(), highest = a.z() + (d.z() < 0.0 ? from : to) * d.z();
+    if (from < to && highest >= -kWallSeen - moved) out.push_back(ray);
+  }
+  return out;
 }
 
 BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays) {
   BedEvidence e;
   double face[2] = {0.0, 0.0};  // on outer faces of ends and of sides
-  const Eigen::Matrix3d turn = pose.rotation().transpose();
-  Eigen::Vector3d head(0.0, 0.0, 0.0), a = -(turn * pose.middle);
+  const BedFaces faces(pose);
+  const Placing place(pose);
+  Eigen::Vector3d head(0.0, 0.0, 0.0), a = place.of(head);
   for (const Ray& ray : rays) {
-    if (ray.head != head) head = ray.head, a = turn * (head - pose.middle);  // that of a whole fan
-    const RayMeeting m = meet_in_bed(pose, a, turn * (ray.at - pose.middle));
+    if (ray.head != head) head = ray.head, a = place.of(head);  // that of a whole fan
+    const RayMeeting m = faces.meet(a, place.of(ray.at));
     switch (m.what) {
       case Meeting::none:
       case Meeting::below_side: break;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "recognition/evidence_weights.hpp"
@@ -19,6 +20,17 @@ struct BedPose {
   [[nodiscard]] Eigen::Matrix3d rotation() const;
   // From the middle to a wall's inner or outer face; axis 0: u, 1: v; side: 1 or -1. Where the end is open both are the side walls' end.
   [[nodiscard]] double face(int axis, int side, bool outer) const;
+};
+
+// Takes places into a bed's frame.
+class Placing {
+ public:
+  explicit Placing(const BedPose& pose) : turn_(pose.rotation().transpose()), shift_(-(turn_ * pose.middle)) {}
+  [[nodiscard]] Eigen::Vector3d of(const Eigen::Vector3d& at) const { return turn_.col(0) * at.x() + turn_.col(1) * at.y() + turn_.col(2) * at.z() + shift_; }
+
+ private:
+  Eigen::Matrix3d turn_;
+  Eigen::Vector3d shift_;
 };
 
 struct Ray {
@@ -55,9 +67,28 @@ struct RayMeeting {
 // no more than slack, a share of d, behind it.
 bool below_pipe(const Eigen::Vector3d& a, const Eigen::Vector3d& d, double half_outer, double slack);
 
-// a: the sensor, end: the return, in the bed frame.
+// A bed's faces in plan, in its frame: those of the ends, and the left one, opposite the right one.
+struct BedRectangle {
+  double rear, front, side;
+};
+
+// A bed's faces, for many rays.
+class BedFaces {
+ public:
+  explicit BedFaces(const BedPose& pose);
+  // a: the sensor, end: the return, in the bed frame.
+  [[nodiscard]] RayMeeting meet(const Eigen::Vector3d& a, const Eigen::Vector3d& end) const;
+
+ private:
+  BedPose pose_;
+  BedRectangle outer_, inner_;
+};
+
 RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& end);
 RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray& ray);
+
+// Those of the rays that may meet the bed when no corner of it is moved by more than so many metres; the others are no evidence of it.
+std::vector<Ray> rays_meeting(const BedPose& pose, const std::vector<Ray>& rays, double moved);
 
 struct BedEvidence {
   double score = 0.0;

@@ -1,7 +1,10 @@
 #include "recognition/bed_refinement.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "recognition/bed_fit.hpp"
 
 namespace berm::app {
 namespace {
@@ -15,6 +18,7 @@ constexpr int kLevelSteps = 3;
 constexpr double kWidthMiddle = 2.38, kWidthOff = 0.2;  // m
 constexpr int kRounds = 4;          // with one step
 constexpr int kMoves = 8;
+constexpr double kNear = 0.25;      // m: more than any corner goes by one move
 constexpr double kHalfLength = 2.5, kHalfWidth = 1.2;  // m: a turn that moves an end, a side, by a step
 
 BedPose moved(const BedPose& from, int which, double by) {
@@ -38,31 +42,40 @@ std::array<double, 2> ends_along(const BedPose& p, const Vector2d& origin) {
   return {middle - p.length / 2, middle + p.length / 2};
 }
 
+// The most by which a corner of the opening lies elsewhere.
+double most_apart(const BedPose& a, const BedPose& b) {
+  const std::array<Eigen::Vector3d, 4> one = opening_corners(a), other = opening_corners(b);
+  double most = 0.0;
+  for (std::size_t k = 0; k < one.size(); ++k) most = std::max(most, (one[k] - other[k]).norm());
+  return most;
+}
+
 }  // namespace
 
 BedPose refined(const BedPose& start, const std::vector<Ray>& rays, double first_step, int halvings) {
   const Vector2d origin = start.middle.head<2>();
   const std::array<double, 2> ends = ends_along(start, origin);
   BedPose best = start;
-  double score = weigh(best, rays).score, step = first_step;
-  for (int halving = 0; halving < halvings; ++halving, step /= 2)
-    for (int round = 0; round < kRounds; ++round) {
-      bool better = false;
-      for (int which = 0; which < kMoves; ++which)
-        for (const double sense : {1.0, -1.0}) {
-          const BedPose p = moved(best, which, sense * step);
-          const std::array<double, 2> now = ends_along(p, origin);
-          if (std::max(std::abs(now[0] - ends[0]), std::abs(now[1] - ends[1])) > kEndsMost) continue;
-          if (std::max(std::abs(p.pitch), std::abs(p.roll)) > kRefinedTiltMost) continue;
-          if (std::abs(p.width - kWidthMiddle) > kWidthOff) continue;
-          const double here = weigh(p, rays).score;
-          if (here <= score + 1e-9) continue;
-          best = p, score = here;
-          better = true;
-          break;
-        }
-      if (!better) break;
-    }
+  std::vector<Ray> near = rays_meeting(best, rays, kNear);
+  BedPose near_of = best;
+  double score = weigh(best, near).score, step = first_step;
+  for (int halving = 0; halving < halvings; ++halving, step /= 2) {
+    int idle = 0;  // moves since one was kept: after all of them none is left to try
+    for (int k = 0; k < kRounds * kMoves && idle < kMoves; ++k, ++idle)
+      for (const double sense : {1.0, -1.0}) {
+        const BedPose p = moved(best, k % kMoves, sense * step);
+        const std::array<double, 2> now = ends_along(p, origin);
+        if (std::max(std::abs(now[0] - ends[0]), std::abs(now[1] - ends[1])) > kEndsMost) continue;
+        if (std::max(std::abs(p.pitch), std::abs(p.roll)) > kRefinedTiltMost) continue;
+        if (std::abs(p.width - kWidthMiddle) > kWidthOff) continue;
+        if (most_apart(p, near_of) > kNear) near = rays_meeting(best, rays, kNear), near_of = best;
+        const double here = weigh(p, near).score;
+        if (here <= score + 1e-9) continue;
+        best = p, score = here;
+        idle = -1;
+        break;
+      }
+  }
   return best;
 }
 

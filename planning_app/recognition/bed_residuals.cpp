@@ -54,7 +54,7 @@ double of_edge(const BedConstraint& c, const BedAxes& a, const BedVector& values
     if (slope != nullptr) slope->setZero();
     return 0.0;
   }
-  const double e = std::exp(std::min(y, kCertain)), r = std::sqrt(2.0 * (y > kCertain ? y : std::log1p(e)));
+  const double e = std::exp(std::min(y, kCertain)), r = std::sqrt(2.0 * (y > kCertain ? y : std::log(1.0 + e)));
   if (slope == nullptr) return r;
   // The crossing moves along the ray as the plane moves against it, and in the bed's frame as the bed does.
   const Vector3d at = c.head + share * (c.at - c.head);

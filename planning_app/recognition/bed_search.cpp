@@ -20,6 +20,7 @@ constexpr std::size_t kRegionsMost = 14;
 constexpr std::size_t kCoarseRays = 900;                                // that first decide between interpretations
 constexpr std::size_t kEndsOfStrip = 4, kOfRegion = 5, kOfPairs = 8, kFitted = 24, kFittedEnds = 16;  // most candidates
 constexpr double kRoughWorth = 0.2, kFittedWorth = 0.4;  // of the best one's evidence, to be fitted
+constexpr double kHopeful = 50.0;  // evidence of a bed, from which a fit, or moving its walls, may come to that of one that is accepted
 constexpr double kLengthSlack = 0.25;                                   // m, of what is fitted later
 constexpr double kRefineStep = 0.06;                                     // m
 constexpr int kRefineHalvings = 3;
@@ -29,11 +30,6 @@ constexpr double kHeightUnsure = 0.15;                                  // m, be
 constexpr std::size_t kGroundStride = 8;                                // of returns
 constexpr double kLongest = 2.5;                                        // m, by which something longer is looked for
 constexpr double kLongerBy = 1.04;                                      // its evidence, to be taken for it
-
-bool alike(const BedPose& a, const BedPose& b) {
-  return a.open_end == b.open_end && (a.middle - b.middle).norm() < 0.25 && std::abs(std::remainder(a.yaw - b.yaw, std::numbers::pi)) < 0.1 &&
-         std::abs(a.length - b.length) < 0.3;
-}
 
 double whole(const BedEnds& e) { return with_cab(e.bed, e.cab); }
 double whole(const BedInterpretation& i) { return i.whole(); }
@@ -51,6 +47,22 @@ std::vector<Candidate> distinct(std::vector<Candidate> all, std::size_t most, do
     if (std::none_of(out.begin(), out.end(), [&](const Candidate& o) { return alike(c.pose, o.pose); })) out.push_back(std::move(c));
   }
   return out;
+}
+
+double bed(const BedEnds& e) { return e.bed; }
+double bed(const BedInterpretation& i) { return i.evidence.score; }
+
+// Leaves those that may still become a bed; where none may, the one that is most like one, so that something can be said of it.
+template <typename Candidate>
+void leave_hopeful(std::vector<Candidate>& all) {
+  const auto hopeless = [](const Candidate& c) { return bed(c) < kHopeful; };
+  if (all.size() < 2) return;
+  if (!std::all_of(all.begin(), all.end(), hopeless)) {
+    std::erase_if(all, hopeless);
+    return;
+  }
+  std::iter_swap(all.begin(), std::max_element(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return bed(a) < bed(b); }));
+  all.erase(all.begin() + 1, all.end());
 }
 
 std::vector<Ray> every(const std::vector<Ray>& rays, std::size_t stride) {
@@ -107,6 +119,11 @@ SizeRange fitted_lengths(const TruckRangeSet& ranges) {
 
 }  // namespace
 
+bool alike(const BedPose& a, const BedPose& b) {
+  return a.open_end == b.open_end && (a.middle - b.middle).norm() < 0.25 && std::abs(std::remainder(a.yaw - b.yaw, std::numbers::pi)) < 0.1 &&
+         std::abs(a.length - b.length) < 0.3;
+}
+
 double BedInterpretation::whole() const { return with_cab(evidence.score, cab); }
 
 void weigh_whole(const FanSweep& sweep, BedInterpretation& i) {
@@ -115,7 +132,10 @@ void weigh_whole(const FanSweep& sweep, BedInterpretation& i) {
   i.evidence = weigh(p, i.rays);
   CabProfile profile;
   const Eigen::Matrix3d turn = p.rotation().transpose();
-  for (const Ray& r : rays_around(sweep, p.middle)) profile.take(turn * (r.head - p.middle), turn * (r.at - r.head), r.upright);
+  visit_around(sweep, p.middle, [&](std::size_t fan, std::size_t k) {
+    const FanReturn& r = sweep.returns[k];
+    profile.take(turn * (sweep.heads[fan] - p.middle), turn * (r.at - sweep.heads[fan]), r.upright);
+  });
   profile.finish();
   const double front = profile.beyond(p.face(0, 1, true), 1, 1.0), rear = profile.beyond(-p.face(0, -1, true), -1, 1.0);
   i.cab_end = p.open_end != 0 ? -p.open_end : front >= rear ? 1 : -1;
@@ -161,6 +181,7 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
     ends.push_back({p, rough.cab_end, score, rough.cab});
     for (BedEnds& e : best_ends(strip_of(p), rays_around(sweep, p.middle), lengths, 1.0, kEndsOfStrip)) ends.push_back(std::move(e));
   }
+  leave_hopeful(ends);
   std::vector<BedInterpretation> out;
   for (const BedEnds& e : distinct(std::move(ends), kFittedEnds, kFittedWorth, refused)) {
     BedInterpretation i;
@@ -169,12 +190,15 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
     out.push_back(std::move(i));
   }
   out = distinct(std::move(out), kInterpretations, kFittedWorth, refused);
-  for (BedInterpretation& i : out) {
-    i.pose = refined(i.pose, every(i.rays, kRefineStride), kRefineStep, kRefineHalvings);
-    i.pose = fitted(sweep, i.pose).pose;
-    weigh_whole(sweep, i);
-  }
-  return distinct(std::move(out), kInterpretations);
+  leave_hopeful(out);
+  return out;
+}
+
+void move_walls(const FanSweep& sweep, BedInterpretation& i) {
+  if (bed(i) < kHopeful) return;
+  i.pose = refined(i.pose, every(i.rays, kRefineStride), kRefineStep, kRefineHalvings);
+  i.pose = fitted(sweep, i.pose).pose;
+  weigh_whole(sweep, i);
 }
 
 }  // namespace berm::app

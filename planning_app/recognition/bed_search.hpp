@@ -30,6 +30,12 @@ constexpr std::size_t kInterpretations = 6;
 std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vector<BedEnds>& rough_ones, const TruckRangeSet& ranges,
                                          const std::vector<BedPose>& refused);
 
+// Moves the walls of one of them while its evidence grows; the fit stands in a hollow of its own.
+void move_walls(const FanSweep& sweep, BedInterpretation& interpretation);
+
+// Whether two beds are nearly one.
+bool alike(const BedPose& a, const BedPose& b);
+
 // The evidence for the pose as it is: of the bed, and of a cab beyond the end where there is more of it, or opposite an open end.
 void weigh_whole(const FanSweep& sweep, BedInterpretation& interpretation);
 

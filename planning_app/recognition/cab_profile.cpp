@@ -22,6 +22,16 @@ constexpr double kPassedCab = 0.15;                             // m beyond the 
 
 int cab_cell(double u) { return std::clamp(static_cast<int>(std::floor((u + kCabReach) / kCabStep)), 0, kCabCells); }
 
+// From where to where on a ray, in its shares, a coordinate is between two values.
+struct Stretch {
+  double in, out;
+};
+
+Stretch between(double from, double by, double low, double high) {
+  const double one = 1.0 / (std::abs(by) < 1e-9 ? std::copysign(1e-9, by) : by), s = (low - from) * one, t = (high - from) * one;
+  return {std::min(s, t), std::max(s, t)};
+}
+
 }  // namespace
 
 CabProfile::CabProfile() : returns_(kCabCells + 2, 0.0F), within_(kCabCells + 2, 0.0F), begins_(kCabCells + 2, 0.0F), ends_(kCabCells + 2, 0.0F) {}
@@ -33,17 +43,9 @@ void CabProfile::take(const Eigen::Vector3d& a, const Eigen::Vector3d& d, bool u
   if (std::abs(end.y()) < kCoreHalf - 0.05 && end.z() > kCoreLow && end.z() < kCoreHigh && std::abs(end.x()) < kCabReach)
     within_[static_cast<std::size_t>(cab_cell(end.x())) + 1] += 1.0F;
   // Through the core's slab, and on.
-  double in = 0.0, out = 1e9;
-  for (const auto& [axis, low, high] : {std::tuple{1, -kCoreHalf, kCoreHalf}, std::tuple{2, kCoreLow, kCoreHigh}}) {
-    if (std::abs(d[axis]) < 1e-9) {
-      if (a[axis] < low || a[axis] > high) return;
-      continue;
-    }
-    const double s = (low - a[axis]) / d[axis], t = (high - a[axis]) / d[axis];
-    in = std::max(in, std::min(s, t));
-    out = std::min(out, std::max(s, t));
-  }
-  if (in >= out || out > 1.0 - kPassedCab / d.norm()) return;
+  const Stretch across = between(a.y(), d.y(), -kCoreHalf, kCoreHalf), upright_way = between(a.z(), d.z(), kCoreLow, kCoreHigh);
+  const double in = std::max({0.0, across.in, upright_way.in}), out = std::min(across.out, upright_way.out);
+  if (in >= out || out >= 1.0 || (1.0 - out) * (1.0 - out) * d.squaredNorm() < kPassedCab * kPassedCab) return;
   const double u = a.x() + in * d.x(), v = a.x() + out * d.x();
   begins_[static_cast<std::size_t>(cab_cell(std::min(u, v))) + 1] += 1.0F;
   ends_[static_cast<std::size_t>(cab_cell(std::max(u, v))) + 1] += 1.0F;

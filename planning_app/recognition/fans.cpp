@@ -43,6 +43,30 @@ Vector2d turned(const Vector2d& v, double angle) {
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }
 
+FanSweep failed(const char* reason) {
+  FanSweep sweep;
+  sweep.reason = reason;
+  return sweep;
+}
+
+void find_directions(FanSweep& sweep) {
+  sweep.directions.resize(sweep.returns.size());
+  sweep.plans.reserve(sweep.heads.size());
+  for (std::size_t fan = 0; fan < sweep.heads.size(); ++fan) {
+    const Eigen::Vector3d& head = sweep.heads[fan];
+    FanPlan plan{Vector2d::Zero(), 0.0};
+    double farthest = 0.0;  // the longest ray's direction is the fan's
+    for (std::size_t k = sweep.begin[fan]; k < sweep.begin[fan + 1]; ++k) {
+      const Eigen::Vector3d d = sweep.returns[k].at - head;
+      const double level = std::max(d.head<2>().norm(), 1e-9);
+      sweep.directions[k] = {d.head<2>() / level, d.z() / level};
+      if (level > farthest) farthest = level, plan.normal = {-sweep.directions[k].level.y(), sweep.directions[k].level.x()};
+    }
+    for (std::size_t k = sweep.begin[fan]; k < sweep.begin[fan + 1]; ++k) plan.spread = std::max(plan.spread, std::abs(plan.normal.dot(sweep.directions[k].level)));
+    sweep.plans.push_back(plan);
+  }
+}
+
 }  // namespace
 
 FanSweep make_fans(const std::vector<ScanPoint>& points, const std::array<double, 3>& viewpoint) {
@@ -69,7 +93,7 @@ FanSweep make_fans(const std::vector<ScanPoint>& points, const std::array<double
     i = end;
   }
   sweep.begin.push_back(sweep.returns.size());
-  if (planes.size() < 10) return {{}, {}, {}, 0.0, 0.0, "the sweep has fewer than 10 scanlines with 8 returns within 30 m"};
+  if (planes.size() < 10) return failed("the sweep has fewer than 10 scanlines with 8 returns within 30 m");
 
   double middle = 0.0;
   for (const FanPlane& p : planes) middle += p.time / static_cast<double>(planes.size());
@@ -96,7 +120,7 @@ FanSweep make_fans(const std::vector<ScanPoint>& points, const std::array<double
     if (step.norm() < 1e-9) break;
   }
   if (!(std::sqrt(error) < kOffPlane))
-    return {{}, {}, {}, 0.0, 0.0, "the scanlines are no upright fans through the viewpoint, standing or swinging"};
+    return failed("the scanlines are no upright fans through the viewpoint, standing or swinging");
   for (std::size_t k = 0; k < planes.size(); ++k) sweep.heads[k].head<2>() = turned(head.head<2>(), angle + rate * (planes[k].time - middle));
   sweep.swing_rate = rate;
   std::vector<double> steps;
@@ -107,6 +131,7 @@ FanSweep make_fans(const std::vector<ScanPoint>& points, const std::array<double
   const auto middle_step = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle_step, steps.end());
   sweep.step = *middle_step;
+  find_directions(sweep);
   return sweep;
 }
 
@@ -119,7 +144,10 @@ FanSweep thinned(const FanSweep& sweep) {
   for (std::size_t fan = 0; fan < sweep.heads.size(); fan += stride) {
     out.begin.push_back(out.returns.size());
     for (const FanReturn& r : sweep.of(fan)) out.returns.push_back({r.at, static_cast<std::uint32_t>(out.heads.size())});
+    const auto begin = sweep.directions.begin() + static_cast<std::ptrdiff_t>(sweep.begin[fan]);
+    out.directions.insert(out.directions.end(), begin, begin + static_cast<std::ptrdiff_t>(sweep.begin[fan + 1] - sweep.begin[fan]));
     out.heads.push_back(sweep.heads[fan]);
+    out.plans.push_back(sweep.plans[fan]);
   }
   out.begin.push_back(out.returns.size());
   return out;

@@ -19,10 +19,24 @@ struct FanReturn {
   bool upright = false;   // of an upright segment (upright_regions)
 };
 
+// Where a ray goes: its unit direction in plan, and how much it rises with every metre of that.
+struct FanDirection {
+  Eigen::Vector2d level;
+  double slope;
+};
+
+// The upright plane in which the rays of a fan go: in plan its normal, unit, and the most that a ray's direction has along it.
+struct FanPlan {
+  Eigen::Vector2d normal;
+  double spread;
+};
+
 struct FanSweep {
   std::vector<Eigen::Vector3d> heads;    // of each fan: where the sensor was
+  std::vector<FanPlan> plans;            // of each fan
   std::vector<std::size_t> begin;        // of each fan in returns, and the end of the last
   std::vector<FanReturn> returns;        // in measuring order
+  std::vector<FanDirection> directions;  // of the rays to each return
   double swing_rate = 0.0;               // rad/s, as found
   double step = 0.0;                     // rad between neighbouring fans, the median
   std::string reason;                    // why the sweep cannot be used; empty when it can

@@ -6,26 +6,19 @@
 namespace berm::app {
 namespace {
 
-constexpr double kAround = 7.0;                        // m: half of the longest bed and a cab
-constexpr double kAroundBelow = 2.2, kAroundAbove = 1.0;  // m of the walls' tops
-constexpr double kBeside = 0.6;                        // m
+using Eigen::Vector2d;
+
+constexpr double kBeside = 0.6;           // m
+constexpr std::size_t kExpected = 4096;  // rays
 
 }  // namespace
 
-std::vector<Ray> rays_round(const FanSweep& sweep, const Eigen::Vector2d& middle, double radius, double low, double high) {
+std::vector<Ray> rays_round(const FanSweep& sweep, const Vector2d& middle, double radius, double low, double high) {
   std::vector<Ray> out;
-  for (std::size_t fan = 0; fan < sweep.heads.size(); ++fan) {
-    const Eigen::Vector3d& head = sweep.heads[fan];
-    const Eigen::Vector2d to = middle - head.head<2>();
-    for (const FanReturn& r : sweep.of(fan)) {
-      const Eigen::Vector3d d = r.at - head;
-      const double level = d.head<2>().norm(), along = d.head<2>().dot(to) / std::max(level, 1e-9);
-      if (along <= 0.0 || to.squaredNorm() - along * along > radius * radius) continue;
-      const double slope = d.z() / std::max(level, 1e-9), near = head.z() + slope * (along - radius), far = head.z() + slope * (along + radius);
-      if (std::max(near, far) < low || std::min(near, far) > high) continue;
-      out.push_back({head, r.at, r.upright});
-    }
-  }
+  out.reserve(kExpected);
+  visit_rays(sweep, middle, radius, low, high, [&](std::size_t fan, std::size_t k) {
+    out.push_back({sweep.heads[fan], sweep.returns[k].at, sweep.returns[k].upright});
+  });
   return out;
 }
 

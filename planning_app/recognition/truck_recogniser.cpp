@@ -24,6 +24,7 @@ constexpr double kFloorFlat = 0.15;       // m between its returns: a floor, not
 constexpr double kLengthUnsure = 0.5;  // m, standard deviation
 constexpr double kMuchBetter = 1.1;
 constexpr double kCabOfWhole = 0.5;     // of the bed's evidence: what its cab counts at most against something larger
+constexpr double kMovesGain = 1.25;     // of evidence, by moves of walls: seldom more, where a bed with more is at hand
 constexpr int kPasses = 2;              // where all that a pass found was refused, one looks at the rest
 constexpr double kPi = 3.14159265358979323846;
 
@@ -169,6 +170,16 @@ const Verified& choose(const std::vector<Verified>& all) {
   return *whole;
 }
 
+// What its walls' moves can add to an interpretation does not make it better than a bed that was found, nor something of which that is but a part.
+bool may_be_chosen(const BedInterpretation& i, const std::vector<Verified>& all) {
+  return std::none_of(all.begin(), all.end(), [&](const Verified& v) {
+    return v.refusal.empty() && kMovesGain * i.whole() < v.interpretation.whole() &&
+           kMovesGain * i.evidence.score < kMuchBetter * with_own_cab(v.interpretation);
+  });
+}
+
+bool same_and_better(const BedInterpretation& than, const BedInterpretation& i) { return alike(than.pose, i.pose) && than.whole() >= i.whole(); }
+
 // Of CPU, so that a busy machine measures the same.
 double thread_milliseconds() {
   timespec t{};
@@ -191,8 +202,12 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
   for (int pass = 0; pass < kPasses; ++pass) {
     std::vector<BedInterpretation> interpretations = interpret(sweep, rough, ranges, refused);
     if (interpretations.empty()) break;
+    const std::size_t before = verified.size();
     for (BedInterpretation& i : interpretations) {
+      if (!may_be_chosen(i, verified)) continue;
+      move_walls(sweep, i);
       refused.push_back(i.pose);
+      if (std::any_of(verified.begin() + static_cast<std::ptrdiff_t>(before), verified.end(), [&](const Verified& v) { return same_and_better(v.interpretation, i); })) continue;
       verified.push_back(verify(sweep, std::move(i), ranges));
       refused.push_back(verified.back().fit.pose);
     }
@@ -204,7 +219,7 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
   const BedInterpretation& best = chosen.interpretation;
   FittedBed fit = chosen.fit;
   if (chosen.refusal.empty()) {  // with every ray
-    const FittedBed last = fit_bed(fit.pose, rays_near(whole, fit.pose), kLastRounds);
+    const FittedBed last = fit_bed(fit.pose, rays_near(whole, fit.pose), kLastRounds, BedSolver::ceres);
     if (last.converged && ranges.find(last.pose.length, last.pose.width, last.pose.open_end != 0) != nullptr) fit = last;
   }
   out.evidence = best.evidence;

@@ -1,0 +1,25 @@
+// The least squares of a bed's fit, by the method of Levenberg and Marquardt: the steps of Ceres' TinySolver (Madsen, Nielsen and Tingleff, 2004), on
+// sums over the statements instead of a Jacobian, of which a row would be written, scaled and read again for every statement.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "recognition/bed_residuals.hpp"
+
+namespace berm::app {
+
+// What is known of a value beforehand.
+struct KnownValue {
+  BedValue which;
+  double mean, deviation;
+};
+
+// Of the Cauchy loss, in standard deviations. The loss of a residual r is kRobust^2 log(1 + r^2 / kRobust^2).
+constexpr double kRobust = 2.0;
+
+// Moves the values to where all losses and what is known come to least, in at most so many steps; it ends where a step changes their sum by less than
+// cost_step, in squared standard deviations.
+void solve_bed(const std::vector<BedConstraint>& statements, int open_end, std::span<const KnownValue> known, int steps, double cost_step, BedVector& values);
+
+}  // namespace berm::app
