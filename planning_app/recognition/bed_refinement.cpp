@@ -17,7 +17,7 @@ constexpr double kLevelTilt = 0.025, kLevelStep = 0.03;  // rad; m
 constexpr int kLevelSteps = 3;
 constexpr double kWidthMiddle = 2.38, kWidthOff = 0.2;  // m
 constexpr int kRounds = 4;          // with one step
-constexpr int kMoves = 8;
+constexpr int kMoves = 10;
 constexpr double kNear = 0.25;      // m: more than any corner goes by one move
 constexpr double kHalfLength = 2.5, kHalfWidth = 1.2;  // m: a turn that moves an end, a side, by a step
 
@@ -26,12 +26,15 @@ BedPose moved(const BedPose& from, int which, double by) {
   const Vector2d u(std::cos(p.yaw), std::sin(p.yaw)), v(-u.y(), u.x());
   switch (which) {
     case 0: p.middle.z() += by; break;
-    case 1: p.pitch += by / kHalfLength; break;
-    case 2: p.roll += by / kHalfWidth; break;
-    case 3: p.yaw += by / kHalfLength; break;
-    case 4: p.width += by, p.middle.head<2>() += 0.5 * by * v; break;
-    case 5: p.width += by, p.middle.head<2>() -= 0.5 * by * v; break;
-    case 6: p.length += by, p.middle.head<2>() += 0.5 * by * u; break;
+    // One end's or one side's top, the other's where it is: what hides the one shows the other.
+    case 1: p.middle.z() += 0.5 * by, p.pitch -= 0.5 * by / kHalfLength; break;
+    case 2: p.middle.z() += 0.5 * by, p.pitch += 0.5 * by / kHalfLength; break;
+    case 3: p.middle.z() += 0.5 * by, p.roll += 0.5 * by / kHalfWidth; break;
+    case 4: p.middle.z() += 0.5 * by, p.roll -= 0.5 * by / kHalfWidth; break;
+    case 5: p.yaw += by / kHalfLength; break;
+    case 6: p.width += by, p.middle.head<2>() += 0.5 * by * v; break;
+    case 7: p.width += by, p.middle.head<2>() -= 0.5 * by * v; break;
+    case 8: p.length += by, p.middle.head<2>() += 0.5 * by * u; break;
     default: p.length += by, p.middle.head<2>() -= 0.5 * by * u; break;
   }
   return p;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "recognition/bed_ground.hpp"
+#include "recognition/bed_refinement.hpp"
 
 namespace berm::app {
 namespace {
@@ -18,6 +19,8 @@ constexpr double kCabFaint = 2.0;      // evidence of anything at all where the 
 constexpr double kCabLeast = -30.0;   // evidence of its cab
 constexpr int kInnerBeforeCab = 50, kInnerAlone = 150;  // returns on inner faces of a bed that shows no outer one, with its cab and without
 constexpr int kLastRounds = 4;           // of the last fit
+constexpr double kPolishStep = 0.06;     // m
+constexpr int kPolishHalvings = 3, kPolishRounds = 2;
 constexpr double kBelowFloor = 0.1;       // m
 constexpr int kFootLeast = 12;            // returns
 constexpr double kFloorFlat = 0.15;       // m between its returns: a floor, not a load
@@ -127,6 +130,14 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
   return {};
 }
 
+// The fit, and another that begins where moves of its walls agree better with the rays, for a fit may have ended in a hollow: the better of both.
+FittedBed polished(const BedPose& start, const std::vector<Ray>& rays) {
+  const FittedBed first = fit_bed(start, rays, kLastRounds);
+  const double start_score = weigh(start, rays).score, first_score = first.converged ? weigh(first.pose, rays).score : -1e9;
+  const FittedBed second = fit_bed(refined(first_score >= start_score ? first.pose : start, rays, kPolishStep, kPolishHalvings), rays, kPolishRounds);
+  return second.converged && weigh(second.pose, rays).score > first_score ? second : first;
+}
+
 struct Verified {
   BedInterpretation interpretation;
   FittedBed fit;
@@ -136,7 +147,7 @@ struct Verified {
 Verified verify(const FanSweep& sweep, BedInterpretation interpretation, const TruckRangeSet& ranges) {
   Verified v;
   v.interpretation = std::move(interpretation);
-  v.fit = fit_bed(v.interpretation.pose, v.interpretation.rays, kLastRounds);
+  v.fit = polished(v.interpretation.pose, v.interpretation.rays);
   v.interpretation.pose = v.fit.pose;
   weigh_whole(sweep, v.interpretation);
   v.refusal = refusal(sweep, v.interpretation, v.fit, ranges);
@@ -219,7 +230,7 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
   const BedInterpretation& best = chosen.interpretation;
   FittedBed fit = chosen.fit;
   if (chosen.refusal.empty()) {  // with every ray
-    const FittedBed last = fit_bed(fit.pose, rays_near(whole, fit.pose), kLastRounds, BedSolver::ceres);
+    const FittedBed last = fit_bed(fit.pose, rays_near(whole, fit.pose), kPolishRounds, BedSolver::ceres);
     if (last.converged && ranges.find(last.pose.length, last.pose.width, last.pose.open_end != 0) != nullptr) fit = last;
   }
   out.evidence = best.evidence;
