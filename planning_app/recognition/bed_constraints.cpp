@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kRangeDeviation = 0.03;  // m
 constexpr double kFaceDeviation = 0.010;  // m, of a wall's face: mud
-constexpr double kMud = 0.006;            // m, its mean on the part of the faces that is seen
+constexpr double kMud = 0.010;            // m, its mean on the part of the faces that is seen
 constexpr double kEdgeDeviation = 0.010;  // m, scale of the logistic function
 constexpr double kOpenEndDeviation = 0.03;  // m, the same where a side ends without a wall across: between two scanlines
 constexpr double kUprightSeen = 0.4;      // m below the top down to which a side is upright: below it may be a pipe

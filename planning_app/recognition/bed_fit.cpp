@@ -20,7 +20,7 @@ constexpr int kResidualsLeast = 20;
 constexpr double kThinnest = 0.03, kThickest = 0.2;  // m, of walls
 constexpr double kShared = 3.0;               // rays that count as one
 // Of middle x y z (m), yaw, pitch, roll (rad), length and width (m) by the body alone; calibrated on drawn scenes.
-constexpr std::array<double, 8> kBodyDeviation{0.008, 0.008, 0.004, 0.001, 0.002, 0.003, 0.012, 0.010};
+constexpr std::array<double, 8> kBodyDeviation{0.007, 0.007, 0.007, 0.001, 0.002, 0.0045, 0.013, 0.012};
 
 // What is known beforehand: walls of the classes, beds that drive on roads, ground that is nearly level.
 constexpr std::array<KnownValue, 4> kKnown{{{kBedThickness, 0.095, 0.025}, {kBedWidth, 2.38, 0.075}, {kBedPitch, 0.0, 0.03}, {kBedRoll, 0.0, 0.03}}};
