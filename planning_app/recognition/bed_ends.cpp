@@ -23,8 +23,9 @@ constexpr double kAsGood = 2.0;  // rays
 double place_of(int end) { return -kEndReach + kEndStep * end; }
 // The first end at or beyond u; kEnds when there is none.
 int first_end(double u) {
-  const double k = std::ceil((u + kEndReach) / kEndStep);
-  return k <= 0.0 ? 0 : k >= kEnds ? kEnds : static_cast<int>(k);
+  const double k = std::clamp((u + kEndReach) * (1.0 / kEndStep), 0.0, static_cast<double>(kEnds));
+  const int whole = static_cast<int>(k);
+  return whole + (whole < k ? 1 : 0);
 }
 
 // Sums of weights over ends.
@@ -109,11 +110,14 @@ class Weighing {
         thickness_(strip.thickness), slack_(strip.slack) {
     BedPose pose;
     pose.yaw = strip.yaw, pose.pitch = strip.pitch, pose.roll = strip.roll;
-    const Eigen::Matrix3d turn = pose.rotation().transpose();
+    pose.middle = strip.middle;
+    const Placing place(pose);
+    Vector3d head(0.0, 0.0, 0.0), a = place.of(head);
     for (const Ray& ray : rays) {
+      if (ray.head != head) head = ray.head, a = place.of(head);  // that of a whole fan
       StripRay r;
-      r.a = turn * (ray.head - strip.middle);
-      r.d = turn * (ray.at - ray.head);
+      r.a = a;
+      r.d = place.of(ray.at) - a;
       if (std::abs(r.a.y()) < outer_ + kSensorClear) sensor_first_ = std::min(sensor_first_, r.a.x()), sensor_last_ = std::max(sensor_last_, r.a.x());
       cab.take(r.a, r.d, ray.upright);
       if (!enter(r)) continue;
@@ -139,8 +143,6 @@ class Weighing {
  private:
   // False when the ray has nothing to say of this strip.
   bool enter(StripRay& r) const {
-    r.range = r.d.norm();
-    r.gate = kRangeGate / r.range;
     if (r.a.z() <= 0.1) return false;
     if (r.a.y() > outer_) r.near_side = 1;
     if (r.a.y() < -outer_) r.near_side = -1;
@@ -153,6 +155,8 @@ class Weighing {
       return false;
     }
     if (r.d.z() < 0.0) r.rim = -r.a.z() / r.d.z();
+    r.range = r.d.norm();
+    r.gate = kRangeGate / r.range;
     return true;
   }
 
