@@ -15,11 +15,13 @@ constexpr double kTopHigher = 0.35;       // m
 constexpr double kNoTop = 0.08;           // m above the tops: a return there is none of them
 constexpr double kEdgeReach = 0.45;       // m: rays that pass an edge on its wrong side farther away say nothing of it
 constexpr double kCorner = 0.15;          // m
+constexpr std::size_t kStatementsExpected = 1024;   // statements
 constexpr double kEdgeKept = 0.2;         // m: nor do those on its right side, before a fit would come to them
 
 class Collector {
  public:
   Collector(const BedPose& pose, const std::vector<Ray>& rays) : pose_(pose), faces_(pose) {
+    out.reserve(kStatementsExpected);
     const Placing place(pose);
     Eigen::Vector3d head(0.0, 0.0, 0.0), a = place.of(head);
     for (const Ray& ray : rays) {

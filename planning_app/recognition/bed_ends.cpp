@@ -23,8 +23,9 @@ constexpr double kAsGood = 2.0;  // rays
 double place_of(int end) { return -kEndReach + kEndStep * end; }
 // The first end at or beyond u; kEnds when there is none.
 int first_end(double u) {
-  const double k = std::ceil((u + kEndReach) / kEndStep);
-  return k <= 0.0 ? 0 : k >= kEnds ? kEnds : static_cast<int>(k);
+  const double k = std::clamp((u + kEndReach) * (1.0 / kEndStep), 0.0, static_cast<double>(kEnds));
+  const int whole = static_cast<int>(k);
+  return whole + (whole < k ? 1 : 0);
 }
 
 // Sums of weights over ends.
@@ -51,27 +52,32 @@ struct Steps {
   int shortest, longest;
 };
 
-// Sums of weights over pairs of ends (rear, front) that are a bed's length apart: a band beside the table's diagonal. A corner of a rectangle stands for
+// Which of a pair's ends have a wall: both, the front one alone, the rear one alone; the fourth makes it a vector register.
+using Ways = Eigen::Array4f;
+const Ways kAnyWay(1.0F, 1.0F, 1.0F, 0.0F), kWithRearWall(1.0F, 0.0F, 1.0F, 0.0F), kWithFrontWall(1.0F, 1.0F, 0.0F, 0.0F);
+const Ways kOpenRear(0.0F, 1.0F, 0.0F, 0.0F), kOpenFront(0.0F, 0.0F, 1.0F, 0.0F);
+
+// Sums of weights, of each way, over pairs of ends (rear, front) that are a bed's length apart: a band beside the table's diagonal. A corner of a rectangle stands for
 // all pairs at or beyond it at both ends, so it may as well lie where the first of these lie in the band.
 class PairSums {
  public:
-  explicit PairSums(const Steps& steps) : shortest_(steps.shortest), longest_(steps.longest), width_(longest_ - shortest_ + 1), sum_(static_cast<std::size_t>(kEnds * width_), 0.0F) {}
+  explicit PairSums(const Steps& steps) : shortest_(steps.shortest), longest_(steps.longest), width_(longest_ - shortest_ + 1), sum_(static_cast<std::size_t>(kEnds * width_), Ways::Zero()) {}
   // For the rear ends in [rear_from, rear_to) with the front ends in [front_from, front_to).
-  void add(double rear_from, double rear_to, double front_from, double front_to, double weight) {
+  void add(double rear_from, double rear_to, double front_from, double front_to, double weight, const Ways& ways) {
     const int a = first_end(rear_from), b = first_end(rear_to), c = first_end(front_from), d = first_end(front_to);
     if (b <= a || d <= c) return;
-    const auto w = static_cast<float>(weight);
+    const Ways w = static_cast<float>(weight) * ways;
     corner(a, c, w);
     corner(b, c, -w);
     corner(a, d, -w);
     corner(b, d, w);
   }
   void finish() {
-    std::array<float, 2 * kEnds> column{};  // of each front end, of the rear ends until now
-    float before = 0.0F;                    // all front ends nearer than the shortest
+    std::vector<Ways> column(static_cast<std::size_t>(kEnds + longest_ + 1), Ways::Zero());  // of each front end, of the rear ends until now
+    Ways before = Ways::Zero();                                                             // all front ends nearer than the shortest
     for (int rear = 0; rear < kEnds; ++rear) {
-      float row = before;
-      float *const here = &sum_[static_cast<std::size_t>(rear * width_)], *const ends = &column[static_cast<std::size_t>(rear + shortest_)];
+      Ways row = before;
+      Ways *const here = &sum_[static_cast<std::size_t>(rear * width_)], *const ends = &column[static_cast<std::size_t>(rear + shortest_)];
       for (int k = 0; k < width_; ++k) {
         ends[k] += here[k];
         row += ends[k];
@@ -80,15 +86,15 @@ class PairSums {
       before += ends[0];
     }
   }
-  [[nodiscard]] float at(int rear, int front) const { return sum_[static_cast<std::size_t>(rear * width_ + front - rear - shortest_)]; }
+  [[nodiscard]] const Ways& at(int rear, int front) const { return sum_[static_cast<std::size_t>(rear * width_ + front - rear - shortest_)]; }
 
  private:
-  void corner(int rear, int front, float weight) {
+  void corner(int rear, int front, const Ways& weight) {
     const int row = std::max(rear, front - longest_), column = std::max(front, row + shortest_);
     if (row < kEnds && front < kEnds) sum_[static_cast<std::size_t>(row * width_ + column - row - shortest_)] += weight;
   }
   int shortest_, longest_, width_;
-  std::vector<float> sum_;
+  std::vector<Ways> sum_;
 };
 
 // One ray in the strip's frame; t runs from the sensor, 0, to the return, 1.
@@ -105,22 +111,24 @@ struct StripRay {
 class Weighing {
  public:
   Weighing(const BedStrip& strip, const std::vector<Ray>& rays, const Steps& steps)
-      : common(steps), rear_wall(steps), front_wall(steps), open_rear(steps), open_front(steps), inner_(strip.width / 2), outer_(inner_ + strip.thickness),
-        thickness_(strip.thickness), slack_(strip.slack) {
+      : sums(steps), inner_(strip.width / 2), outer_(inner_ + strip.thickness), thickness_(strip.thickness), slack_(strip.slack) {
     BedPose pose;
     pose.yaw = strip.yaw, pose.pitch = strip.pitch, pose.roll = strip.roll;
-    const Eigen::Matrix3d turn = pose.rotation().transpose();
+    pose.middle = strip.middle;
+    const Placing place(pose);
+    Vector3d head(0.0, 0.0, 0.0), a = place.of(head);
     for (const Ray& ray : rays) {
+      if (ray.head != head) head = ray.head, a = place.of(head);  // that of a whole fan
       StripRay r;
-      r.a = turn * (ray.head - strip.middle);
-      r.d = turn * (ray.at - ray.head);
+      r.a = a;
+      r.d = place.of(ray.at) - a;
       if (std::abs(r.a.y()) < outer_ + kSensorClear) sensor_first_ = std::min(sensor_first_, r.a.x()), sensor_last_ = std::max(sensor_last_, r.a.x());
       cab.take(r.a, r.d, ray.upright);
       if (!enter(r)) continue;
       take(r, ray.upright);
       if (r.a.z() + r.d.z() > 0.0) over_opening(r, ray.upright);
     }
-    for (PairSums* s : {&common, &rear_wall, &front_wall, &open_rear, &open_front}) s->finish();
+    sums.finish();
     for (EndSums* s : {&rear_face, &front_face, &side_faces}) s->finish();
     cab.finish();
   }
@@ -130,10 +138,8 @@ class Weighing {
     return sensor_last_ < rear - kSensorClear || sensor_first_ > front + kSensorClear;
   }
 
-  PairSums common;                  // whatever the ends are
-  PairSums rear_wall, front_wall;   // inner faces of walls at the ends
-  PairSums open_rear, open_front;   // what enters where the wall is missing, below the tops
-  EndSums rear_face, front_face;    // their outer faces
+  PairSums sums;                  // of all but the outer faces of walls
+  EndSums rear_face, front_face;  // of these
   // Returns on the sides' outer faces between the ends. share: as best_ends.
   [[nodiscard]] float sides(int rear, int front, double share) const {
     return static_cast<float>(saturated(share * static_cast<double>(side_faces.at(front) - side_faces.at(rear))) / share);
@@ -145,8 +151,6 @@ class Weighing {
 
   // False when the ray has nothing to say of this strip.
   bool enter(StripRay& r) const {
-    r.range = r.d.norm();
-    r.gate = kRangeGate / r.range;
     if (r.a.z() <= 0.1) return false;
     if (r.a.y() > outer_) r.near_side = 1;
     if (r.a.y() < -outer_) r.near_side = -1;
@@ -159,11 +163,13 @@ class Weighing {
       return false;
     }
     if (r.d.z() < 0.0) r.rim = -r.a.z() / r.d.z();
+    r.range = r.d.norm();
+    r.gate = kRangeGate / r.range;
     return true;
   }
 
   // For the pairs that have u between them, by so much at least (less than 0: beyond them).
-  void between(double u, double margin, double weight) { common.add(-kNever, u - margin, u + margin, kNever, weight); }
+  void between(double u, double margin, double weight) { sums.add(-kNever, u - margin, u + margin, kNever, weight, kAnyWay); }
 
   void take(const StripRay& r, bool is_upright) {
     if (r.near_side != 0 && r.rim < r.in) {
@@ -230,11 +236,11 @@ class Weighing {
     if (off < -0.1) return;
     const double low = std::min(at.x(), end.x()), high = std::max(at.x(), end.x());
     if (std::abs(end.y()) < inner_ && end.z() < -kDeepest) {
-      common.add(-kNever, low, high, kNever, -kThrough);
+      sums.add(-kNever, low, high, kNever, -kThrough, kAnyWay);
       return;
     }
     if (is_upright && std::abs(end.y()) < inner_ - kUprightMargin)
-      common.add(-kNever, std::min(at.x(), end.x() - kUprightMargin), std::max(at.x(), end.x() + kUprightMargin), kNever, -kUpright);
+      sums.add(-kNever, std::min(at.x(), end.x() - kUprightMargin), std::max(at.x(), end.x() + kUprightMargin), kNever, -kUpright, kAnyWay);
     opening(r, at.x());
   }
 
@@ -248,29 +254,29 @@ class Weighing {
     if (r.near_side != 0) first = std::max(first, (r.near_side * inner_ - r.a.y()) / r.d.y());
     last = std::min(last, far_side(r));
     if (last <= first) return;
-    PairSums& open = r.d.x() > 0.0 ? open_rear : open_front;
+    const Ways& open = r.d.x() > 0.0 ? kOpenRear : kOpenFront;
     within(r, {r.u(first), r.u(last)}, r.u(first), -kNever, open, open);
   }
 
   // The ray enters the opening at rim_u: the end that it comes from lies behind.
   void opening(const StripRay& r, double rim_u) {
     const bool forward = r.d.x() > 0.0;
-    within(r, {forward ? -kNever : kNever, rim_u}, rim_u, (-slack_ - r.a.z()) / r.d.z(), common, forward ? front_wall : rear_wall);
+    within(r, {forward ? -kNever : kNever, rim_u}, rim_u, (-slack_ - r.a.z()) / r.d.z(), kAnyWay, forward ? kWithFrontWall : kWithRearWall);
   }
 
   // From came_in on the ray is in the bed: it ends within, or on the far side, or on the end that it goes to, which lies beyond came_in. The end that it comes from
   // lies in own, in the ray's sense. Sums of what is so whether the other end has a wall or not, and of what only such a wall says; low: t from which the
   // ray is below its top.
-  void within(const StripRay& r, std::array<double, 2> own, double came_in, double low, PairSums& anyhow, PairSums& wall) {
+  void within(const StripRay& r, std::array<double, 2> own, double came_in, double low, const Ways& anyhow, const Ways& wall) {
     const bool forward = r.d.x() > 0.0, straight_across = std::abs(r.d.x()) < 1e-9;
     const double side = far_side(r), onwards = forward ? kNever : -kNever;
     const bool sure = !std::isinf(side) && r.at(side).z() < -slack_;
     const double far = side > 1.0 + r.gate ? kInside : side < 1.0 - r.gate ? (sure ? -kThrough : 0.0) : kInside + (1.0 - kInside) * fit((1.0 - side) * r.range, kRangeGate);
     const double side_u = straight_across ? came_in : std::isinf(side) ? onwards : r.u(side);
     // The end that the ray goes to lies between from and to, in the ray's sense.
-    const auto add = [&](PairSums& sums, double from, double to, double weight) {
-      if (forward) sums.add(own[0], own[1], std::max(from, came_in), to, weight);
-      else sums.add(to, std::min(from, came_in), own[1], own[0], weight);
+    const auto add = [&](const Ways& ways, double from, double to, double weight) {
+      if (forward) sums.add(own[0], own[1], std::max(from, came_in), to, weight, ways);
+      else sums.add(to, std::min(from, came_in), own[1], own[0], weight, ways);
     };
     const auto before_side = [&](double u) { return forward ? std::min(side_u, u) : std::max(side_u, u); };
     add(anyhow, side_u, onwards, far);
@@ -323,10 +329,11 @@ std::vector<BedEnds> best_ends(const BedStrip& strip, const std::vector<Ray>& ra
   std::vector<Pair> pairs;
   for (int i = 0; i + shortest < kEnds; ++i)
     for (int j = i + shortest; j <= std::min(i + longest, kEnds - 1); ++j) {
-      const float common = w.common.at(i, j) + w.sides(i, j, share), rear = w.rear_wall.at(i, j) + w.rear_face.at(i), front = w.front_wall.at(i, j) + w.front_face.at(j);
+      const Ways& sums = w.sums.at(i, j);
+      const float sides = w.sides(i, j, share), rear = sides + w.rear_face.at(i), front = sides + w.front_face.at(j);
       const float cab_at_front = cab_front[static_cast<std::size_t>(j)], cab_at_rear = cab_rear[static_cast<std::size_t>(i)];
-      Pair p = pair(i, j, 0, cab_at_front >= cab_at_rear ? 1 : -1, common + rear + front, std::max(cab_at_front, cab_at_rear));
-      for (const Pair& open : {pair(i, j, -1, 1, common + front + w.open_rear.at(i, j) - open_weight, cab_at_front), pair(i, j, 1, -1, common + rear + w.open_front.at(i, j) - open_weight, cab_at_rear)})
+      Pair p = pair(i, j, 0, cab_at_front >= cab_at_rear ? 1 : -1, sums[0] + rear + front - sides, std::max(cab_at_front, cab_at_rear));
+      for (const Pair& open : {pair(i, j, -1, 1, sums[1] + front - open_weight, cab_at_front), pair(i, j, 1, -1, sums[2] + rear - open_weight, cab_at_rear)})
         if (open.score > p.score) p = open;
       if (p.score > 0.0 && w.clear_of_sensor(place_of(i), place_of(j))) pairs.push_back(p);
     }

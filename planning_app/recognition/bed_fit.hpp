@@ -1,4 +1,4 @@
-// The fit of a bed to the rays of a sweep: pose, inside length, width, plane of the tops and wall thickness by robust least squares (Ceres), with the
+// The fit of a bed to the rays of a sweep: pose, inside length, width, plane of the tops and wall thickness by robust least squares (bed_solver), with the
 // covariance that the rays carry. Frames and units as in bed_model.hpp.
 #pragma once
 

@@ -46,8 +46,8 @@ double of_return(const BedConstraint& c, const BedAxes& a, const BedVector& valu
 
 double of_edge(const BedConstraint& c, const BedAxes& a, const BedVector& values, int open_end, BedVector* slope) {
   const double side = c.plane.side, bound_side = c.bound.side, scale = c.sense / c.deviation;
-  const double begin = in_bed(a, c.plane.axis, c.head) * side, end = in_bed(a, c.plane.axis, c.at) * side, across = end - begin;
-  const double share = (face(c.plane, values, open_end) - begin) / across;
+  const double begin = in_bed(a, c.plane.axis, c.head) * side, end = in_bed(a, c.plane.axis, c.at) * side, one_by_across = 1.0 / (end - begin);
+  const double share = (face(c.plane, values, open_end) - begin) * one_by_across;
   const double first = in_bed(a, c.bound.axis, c.head), way = in_bed(a, c.bound.axis, c.at) - first;
   const double y = (bound_side * (first + share * way) - face(c.bound, values, open_end)) * scale;
   if (y < -kCertain) {
@@ -58,7 +58,7 @@ double of_edge(const BedConstraint& c, const BedAxes& a, const BedVector& values
   if (slope == nullptr) return r;
   // The crossing moves along the ray as the plane moves against it, and in the bed's frame as the bed does.
   const Vector3d at = c.head + share * (c.at - c.head);
-  const double factor = scale * (y > kCertain ? 1.0 : e / (1.0 + e)) / r, along = factor * bound_side * way / across;
+  const double factor = scale * (y > kCertain ? 1.0 / r : e / ((1.0 + e) * r)), along = factor * bound_side * way * one_by_across;
   slope->setZero();
   add_in_bed(a, c.bound.axis, at, factor * bound_side, *slope);
   add_face(c.bound, open_end, -factor, *slope);

@@ -20,7 +20,7 @@ constexpr std::size_t kRegionsMost = 14;
 constexpr std::size_t kCoarseRays = 900;                                // that first decide between interpretations
 constexpr std::size_t kEndsOfStrip = 4, kOfRegion = 5, kOfPairs = 8, kFitted = 24, kFittedEnds = 16;  // most candidates
 constexpr double kRoughWorth = 0.2, kFittedWorth = 0.4;  // of the best one's evidence, to be fitted
-constexpr double kHopeful = 50.0;  // evidence of a bed, from which a fit, or moving its walls, may come to that of one that is accepted
+constexpr double kHopeful = 10.0;  // evidence of a bed, from which a fit, or moving its walls, may come to that of one that is accepted
 constexpr double kLengthSlack = 0.25;                                   // m, of what is fitted later
 constexpr double kRefineStep = 0.06;                                     // m
 constexpr int kRefineHalvings = 3;

@@ -23,9 +23,9 @@ class Sums {
     for (const BedConstraint& c : statements) {
       const double r = residual(c, axes, values, open_end, &slope), s = r * r / (kRobust * kRobust), outer = 1.0 + s;
       if (r == 0.0) continue;
-      const double loss = s > kNoLoss ? std::log(outer) : s;
+      const double loss = s > kNoLoss ? std::log(outer) : s, one_by_both = 1.0 / (loss * outer), one_by_outer = one_by_both * loss;
       square += kRobust * kRobust * loss;
-      add(slope, s / (loss * outer * outer), r / outer);
+      add(slope, s * one_by_both * one_by_outer, r * one_by_outer);
     }
     for (const KnownValue& k : known) {
       const double one = 1.0 / k.deviation, r = (values[k.which] - k.mean) * one;

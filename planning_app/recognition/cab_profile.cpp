@@ -20,7 +20,7 @@ constexpr double kFlatLow = -0.5;                           // m: lower it may b
 constexpr double kPassWeight = 1.0, kPassesMost = 150.0;
 constexpr double kPassedCab = 0.15;                             // m beyond the core
 
-int cab_cell(double u) { return std::clamp(static_cast<int>(std::floor((u + kCabReach) / kCabStep)), 0, kCabCells); }
+int cab_cell(double u) { return static_cast<int>(std::clamp((u + kCabReach) / kCabStep, 0.0, static_cast<double>(kCabCells))); }
 
 // From where to where on a ray, in its shares, a coordinate is between two values.
 struct Stretch {
