@@ -28,6 +28,7 @@ constexpr std::size_t kRefineStride = 2;                                // of ra
 constexpr int kFitRounds = 5;                                           // of a fit
 constexpr double kHeightUnsure = 0.15;                                  // m, before a fit
 constexpr std::size_t kGroundStride = 8;                                // of returns
+constexpr double kBeyondFrom = 0.25, kBeyondTo = 1.2, kBeyondGate = 0.07, kBeyondBelow = 0.05;  // m: beyond an end; of a return from a side
 constexpr double kLongest = 2.5;                                        // m, by which something longer is looked for
 constexpr double kLongerBy = 1.04;                                      // its evidence, to be taken for it
 
@@ -149,6 +150,23 @@ double longer_length(const FanSweep& sweep, const BedPose& pose, const TruckRang
   const auto longer = best_ends(strip_of(pose), rays, {usual[1] + kLengthSlack, usual[1] + kLongest}, 1.0, 1);
   if (within.empty() || longer.empty() || longer.front().bed < kLongerBy * (within.front().bed + std::max(0.0, cab))) return 0.0;
   return longer.front().pose.length;
+}
+
+int sides_beyond(const FanSweep& sweep, const BedPose& pose, int cab_end) {
+  const Eigen::Matrix3d turn = pose.rotation().transpose();
+  int count = 0;
+  visit_around(sweep, pose.middle, [&](std::size_t fan, std::size_t k) {
+    const Eigen::Vector3d p = turn * (sweep.returns[k].at - pose.middle);
+    if (p.z() > -kBeyondBelow || p.z() < -kWallSeen) return;
+    const int end = p.x() > 0.0 ? 1 : -1;
+    const double beyond = end * p.x() - pose.length / 2;
+    if (beyond < kBeyondFrom || beyond > kBeyondTo) return;
+    const double sensor = (turn * (sweep.heads[fan] - pose.middle)).y();
+    const bool far_inner = std::abs(std::abs(p.y()) - pose.width / 2) < kBeyondGate && p.y() * sensor < 0.0;
+    const bool near_outer = std::abs(std::abs(p.y()) - pose.face(1, 1, true)) < kBeyondGate && p.y() * sensor > 0.0 && end != cab_end;
+    count += far_inner || near_outer ? 1 : 0;
+  });
+  return count;
 }
 
 std::vector<BedEnds> rough_beds(const FanSweep& sweep, const std::vector<UprightRegion>& regions, const TruckRangeSet& ranges) {

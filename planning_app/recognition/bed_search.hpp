@@ -39,6 +39,10 @@ bool alike(const BedPose& a, const BedPose& b);
 // The evidence for the pose as it is: of the bed, and of a cab beyond the end where there is more of it, or opposite an open end.
 void weigh_whole(const FanSweep& sweep, BedInterpretation& interpretation);
 
+// Returns that lie where the sides would go on beyond the ends: in the plane of the far side's inner face beyond either end, of the near side's outer face
+// beyond the end without a cab. A truck has none there, a container that is taken for a shorter bed has.
+int sides_beyond(const FanSweep& sweep, const BedPose& pose, int cab_end);
+
 // The length at which the bed's sides, taken for something longer than every class of trucks, agree better with the rays than bed and cab (its evidence);
 // 0 when they do not.
 double longer_length(const FanSweep& sweep, const BedPose& pose, const TruckRangeSet& ranges, double cab);

@@ -16,7 +16,7 @@ constexpr double kScoreLeast = 115.0;  // evidence of a bed
 constexpr int kOuterLeast = 12, kInnerLeast = 12;  // returns on outer faces of its walls, on inner faces of its far ones
 constexpr double kCabSeen = 100.0;     // evidence of a cab that leaves little doubt
 constexpr double kCabFaint = 2.0;      // evidence of anything at all where the cab would stand
-constexpr double kCabLeast = -30.0;   // evidence of its cab
+constexpr double kCabLeast = -12.0;   // evidence of its cab
 constexpr int kInnerBeforeCab = 50, kInnerAlone = 150;  // returns on inner faces of a bed that shows no outer one, with its cab and without
 constexpr int kLastRounds = 4;           // of the last fit
 constexpr double kPolishStep = 0.06;     // m
@@ -28,6 +28,8 @@ constexpr double kLengthUnsure = 0.5;  // m, standard deviation
 constexpr double kMuchBetter = 1.1;
 constexpr double kCabOfWhole = 0.5;     // of the bed's evidence: what its cab counts at most against something larger
 constexpr double kMovesGain = 1.6;      // of evidence, by moves of walls: hardly more; 1.25 lost two trucks in 300
+constexpr double kThroughFew = 5.0, kThroughShare = 0.018;  // rays through walls; of those that agree with them: truly placed beds have half as many at most
+constexpr int kBeyondMost = 12;
 constexpr int kPasses = 2;              // where all that a pass found was refused, one looks at the rest
 constexpr double kPi = 3.14159265358979323846;
 
@@ -113,7 +115,9 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
   // A closed box, a lorry's board or a trench box matches as well from outside: the far walls' inside tells a bed.
   if (e.inner_face < kInnerLeast) return fmt::format("the bed has {} returns on inner faces of its far walls, and needs {}", e.inner_face, kInnerLeast);
   const int explained = e.outer_face + e.inner_face + e.wall_top + e.inside;
-  if (e.through > 0.1 * explained) return fmt::format("{} rays pass through its walls, {} agree with them", e.through, explained);
+  if (e.through > kThroughFew + kThroughShare * explained) return fmt::format("{} rays pass through its walls, {} agree with them", e.through, explained);
+  const int beyond = sides_beyond(sweep, p, i.cab_end);
+  if (beyond > kBeyondMost) return fmt::format("{} returns lie where its sides would go on beyond its ends", beyond);
   const SizeRange over_ground = ranges.hull(&TruckRanges::top_over_ground);
   const double ground = share_of_ground(sweep, p, over_ground);
   if (ground < kGroundLeast)
