@@ -12,44 +12,55 @@ namespace {
 constexpr int block_side = 8;
 constexpr double never = std::numeric_limits<double>::infinity();
 
-// Walks the squares of a given side that a ray crosses, in units of patches.
+// Steps through the squares of a given side that a ray crosses, in units of patches: first by sums, which find in little time where the surface may be
+// met, and then by the quotients that the hit is computed from.
 class Walk {
  public:
-  Walk(const Ray& r, double t, int side) : ray_(r), side_(side), t_(t) {
+  Walk(const Ray& r, double t, int side) : ray_(r), side_(side), step_i_(r.direction.x > 0 ? 1 : -1), step_j_(r.direction.y > 0 ? 1 : -1) {
     const double s = side;
     const Vec3 p = r.at(t);
-    i_ = static_cast<int>(std::floor(p.x / s));
-    j_ = static_cast<int>(std::floor(p.y / s));
-    step_i_ = r.direction.x > 0 ? 1 : -1;
-    step_j_ = r.direction.y > 0 ? 1 : -1;
+    i_ = whole(p.x / s);
+    j_ = whole(p.y / s);
   }
   [[nodiscard]] int i() const { return i_; }
   [[nodiscard]] int j() const { return j_; }
-  void clamp_start(int i_low, int i_high, int j_low, int j_high) {
+  // Begins in the nearest square of these.
+  void begin(int i_low, int i_high, int j_low, int j_high) {
     i_ = std::clamp(i_, i_low, i_high);
     j_ = std::clamp(j_, j_low, j_high);
+    next_i_ = exit_i();
+    next_j_ = exit_j();
+    each_i_ = ray_.direction.x == 0 ? 0 : side_ / std::abs(ray_.direction.x);
+    each_j_ = ray_.direction.y == 0 ? 0 : side_ / std::abs(ray_.direction.y);
   }
-  // Where the ray leaves the present square.
-  [[nodiscard]] double exit() const { return std::max(t_, std::min(exit_i(), exit_j())); }
+  // About where the ray leaves the present square.
+  [[nodiscard]] double leaves() const { return std::min(next_i_, next_j_); }
   void advance() {
-    const double ei = exit_i(), ej = exit_j();
-    t_ = std::max(t_, std::min(ei, ej));
-    if (ei <= ej) i_ += step_i_;
-    else j_ += step_j_;
+    if (next_i_ <= next_j_) {
+      i_ += step_i_;
+      next_i_ += each_i_;
+    } else {
+      j_ += step_j_;
+      next_j_ += each_j_;
+    }
   }
+  // Where it enters the present square, having begun at t, and leaves it, to the last bit.
+  [[nodiscard]] double enter_exactly(double t) const {
+    const double ei = ray_.direction.x == 0 ? t : border(i_ + (step_i_ > 0 ? 0 : 1), ray_.origin.x, ray_.direction.x);
+    const double ej = ray_.direction.y == 0 ? t : border(j_ + (step_j_ > 0 ? 0 : 1), ray_.origin.y, ray_.direction.y);
+    return std::max({t, ei, ej});
+  }
+  [[nodiscard]] double leave_exactly(double entered) const { return std::max(entered, std::min(exit_i(), exit_j())); }
 
  private:
-  [[nodiscard]] double exit_i() const {
-    if (ray_.direction.x == 0) return never;
-    return ((i_ + (step_i_ > 0 ? 1 : 0)) * static_cast<double>(side_) - ray_.origin.x) / ray_.direction.x;
-  }
-  [[nodiscard]] double exit_j() const {
-    if (ray_.direction.y == 0) return never;
-    return ((j_ + (step_j_ > 0 ? 1 : 0)) * static_cast<double>(side_) - ray_.origin.y) / ray_.direction.y;
-  }
+  static int whole(double v) { return static_cast<int>(v) - (v < 0 ? 1 : 0); }  // rounded down; a negative whole number one less, which begin() mends
+  [[nodiscard]] double border(int index, double origin, double direction) const { return (index * static_cast<double>(side_) - origin) / direction; }
+  [[nodiscard]] double exit_i() const { return ray_.direction.x == 0 ? never : border(i_ + (step_i_ > 0 ? 1 : 0), ray_.origin.x, ray_.direction.x); }
+  [[nodiscard]] double exit_j() const { return ray_.direction.y == 0 ? never : border(j_ + (step_j_ > 0 ? 1 : 0), ray_.origin.y, ray_.direction.y); }
+
   const Ray& ray_;
   int side_, i_, j_, step_i_, step_j_;
-  double t_;
+  double next_i_ = never, next_j_ = never, each_i_ = 0, each_j_ = 0;
 };
 
 // Narrows [low, high] to where origin + t * direction lies in [a, b]; false when nothing is left.
@@ -117,8 +128,14 @@ double HeightGrid::surface(double x, double y) const {
   return h11 + (h01 - h11) * (1 - fu) + (h10 - h11) * (1 - fv);
 }
 
-std::optional<double> HeightGrid::cast_cell(int i, int j, const Ray& r, double t_in, double t_out) const {
-  const double h00 = clamped(i - 1, j - 1), h10 = clamped(i, j - 1), h01 = clamped(i - 1, j), h11 = clamped(i, j);
+HeightGrid::Patch HeightGrid::patch(int i, int j) const {
+  if (i < 1 || j < 1 || i >= count_x_ || j >= count_y_) return {clamped(i - 1, j - 1), clamped(i, j - 1), clamped(i - 1, j), clamped(i, j)};
+  const double* const corner = height_.data() + static_cast<size_t>(j - 1) * static_cast<size_t>(count_x_) + static_cast<size_t>(i - 1);
+  return {corner[0], corner[1], corner[count_x_], corner[count_x_ + 1]};
+}
+
+std::optional<double> HeightGrid::cast_patch(const Patch& patch, int i, int j, const Ray& r, double t_in, double t_out) {
+  const auto [h00, h10, h01, h11] = patch;
   const double z_in = r.origin.z + t_in * r.direction.z, z_out = r.origin.z + t_out * r.direction.z;
   if (std::min(z_in, z_out) > std::max({h00, h10, h01, h11})) return std::nullopt;
   // Height over the surface at t, which is linear on either side of the patch's diagonal.
@@ -143,38 +160,45 @@ std::optional<double> HeightGrid::cast_cell(int i, int j, const Ray& r, double t
   return std::nullopt;
 }
 
+// The part of the ray in [t_in, t_out], which lies in the block.
 std::optional<double> HeightGrid::cast_block(int bi, int bj, const Ray& r, double t_in, double t_out) const {
   Walk walk(r, t_in, 1);
-  walk.clamp_start(bi * block_side, bi * block_side + block_side - 1, bj * block_side, bj * block_side + block_side - 1);
-  double t = t_in;
-  while (t < t_out && walk.i() / block_side == bi && walk.j() / block_side == bj && walk.i() >= 0 && walk.j() >= 0) {
-    const double leave = std::min(walk.exit(), t_out);
-    if (const auto hit = cast_cell(walk.i(), walk.j(), r, t, leave)) return hit;
-    t = leave;
-    walk.advance();
+  const int i_low = bi * block_side, i_high = i_low + block_side - 1, j_low = bj * block_side, j_high = j_low + block_side - 1;
+  walk.begin(i_low, i_high, j_low, j_high);
+  double z = r.origin.z + t_in * r.direction.z;
+  for (double t = t_in; t < t_out && walk.i() >= i_low && walk.i() <= i_high && walk.j() >= j_low && walk.j() <= j_high; walk.advance()) {
+    t = std::min(walk.leaves(), t_out);
+    const double z_out = r.origin.z + t * r.direction.z;
+    const Patch here = patch(walk.i(), walk.j());
+    if (std::min(z, z_out) <= std::max(std::max(here.h00, here.h10), std::max(here.h01, here.h11)) + rounding) {
+      const double enters = std::min(walk.enter_exactly(t_in), t_out), leaves = std::min(walk.leave_exactly(enters), t_out);
+      if (enters < leaves)
+        if (const auto hit = cast_patch(here, walk.i(), walk.j(), r, enters, leaves)) return hit;
+    }
+    z = z_out;
   }
   return std::nullopt;
 }
 
-std::optional<double> HeightGrid::cast(const Ray& ray, double range_max) const {
+std::optional<double> HeightGrid::cast_low(const Ray& ray, double range_max) const {
   // In units of patches, so that the walk's squares have integer corners; the parameter stays the range.
   const Ray r{{(ray.origin.x - x_low_) / cell_x_ + 0.5, (ray.origin.y - y_low_) / cell_y_ + 0.5, ray.origin.z},
               {ray.direction.x / cell_x_, ray.direction.y / cell_y_, ray.direction.z}};
   double t_in = 0, t_out = range_max;
-  if (!clip(r.origin.z, r.direction.z, -never, highest_ + 1e-9, t_in, t_out)) return std::nullopt;
+  if (!clip(r.origin.z, r.direction.z, -never, highest_ + rounding, t_in, t_out)) return std::nullopt;
   if (!clip(r.origin.x, r.direction.x, 0.5, count_x_ + 0.5, t_in, t_out)) return std::nullopt;
   if (!clip(r.origin.y, r.direction.y, 0.5, count_y_ + 0.5, t_in, t_out)) return std::nullopt;
   Walk walk(r, t_in, block_side);
-  walk.clamp_start(0, blocks_x_ - 1, 0, blocks_y_ - 1);
-  double t = t_in;
-  while (t < t_out && walk.i() >= 0 && walk.j() >= 0 && walk.i() < blocks_x_ && walk.j() < blocks_y_) {
-    const double leave = std::min(walk.exit(), t_out);
-    const double lowest = std::min(r.origin.z + t * r.direction.z, r.origin.z + leave * r.direction.z);
-    if (lowest <= block_max_[static_cast<size_t>(walk.j() * blocks_x_ + walk.i())]) {
-      if (const auto hit = cast_block(walk.i(), walk.j(), r, t, leave)) return hit;
+  walk.begin(0, blocks_x_ - 1, 0, blocks_y_ - 1);
+  double z = r.origin.z + t_in * r.direction.z;
+  for (double t = t_in; t < t_out && walk.i() >= 0 && walk.j() >= 0 && walk.i() < blocks_x_ && walk.j() < blocks_y_; walk.advance()) {
+    t = std::min(walk.leaves(), t_out);
+    const double z_out = r.origin.z + t * r.direction.z, top = block_max_[static_cast<size_t>(walk.j() * blocks_x_ + walk.i())];
+    if (std::min(z, z_out) <= top + rounding) {
+      const double enters = std::min(walk.enter_exactly(t_in), t_out), leaves = std::min(walk.leave_exactly(enters), t_out);
+      if (const auto hit = cast_block(walk.i(), walk.j(), r, enters, leaves)) return hit;
     }
-    t = leave;
-    walk.advance();
+    z = z_out;
   }
   return std::nullopt;
 }

@@ -57,21 +57,36 @@ SpinningLidar::SpinningLidar(const ScannerConfig& noise, const LidarMount& mount
 
 Vec3 SpinningLidar::turned(const Vec3& v) const { return v.x * x_ + v.y * y_ + v.z * z_; }
 
-// What is drawn does not depend on what is hit. Dust sends back less than the target behind it: the target is the last and the strongest, and the
-// strongest but that is the dust (VLP-16 manual, dual return mode).
-SpinningLidar::Returns SpinningLidar::received(const std::optional<double>& hit, double noise) {
+// What is drawn does not depend on what is hit.
+SpinningLidar::Drawn SpinningLidar::draw() {
+  Drawn d{random_.normal(), random_.uniform(), 0.0, 0.0};
+  if (mount_.dual || mount_.outliers) d.what = random_.uniform(), d.where = random_.uniform();
+  return d;
+}
+
+SpinningLidar::Drawn SpinningLidar::next_drawn() { return taken_ < drawn_.size() ? drawn_[taken_++] : draw(); }
+
+void SpinningLidar::draw_ahead(std::size_t shots) {
+  drawn_.erase(drawn_.begin(), drawn_.begin() + static_cast<std::ptrdiff_t>(taken_));
+  taken_ = 0;
+  drawn_.reserve(shots);
+  while (drawn_.size() < shots) drawn_.push_back(draw());
+}
+
+// Dust sends back less than the target behind it: the target is the last and the strongest, and the strongest but that is the dust (VLP-16 manual, dual
+// return mode).
+SpinningLidar::Returns SpinningLidar::received(const std::optional<double>& hit, const Drawn& drawn) const {
   Returns back;
   const bool hits = hit && *hit >= range_least;
   back.met = hits;
-  if (hits) back.last = back.other = std::max(range_least, *hit + noise_.range_stddev * noise);
+  if (hits) back.last = back.other = std::max(range_least, *hit + noise_.range_stddev * drawn.noise);
   if (!mount_.dual && !mount_.outliers) return back;
-  const double what = random_.uniform(), where = random_.uniform();
   const double outlier = mount_.outliers ? noise_.outlier_probability : 0.0;
-  const double between = range_least + where * std::max(0.0, hit.value_or(range_most) - range_least);
-  if (what < outlier) {
+  const double between = range_least + drawn.where * std::max(0.0, hit.value_or(range_most) - range_least);
+  if (drawn.what < outlier) {
     back.last = back.other = between;
     back.met = false;
-  } else if (hits && mount_.dual && what < outlier + noise_.dust_probability) {
+  } else if (hits && mount_.dual && drawn.what < outlier + noise_.dust_probability) {
     back.other = std::min(between, back.last);
   }
   return back;
@@ -101,19 +116,25 @@ void SpinningLidar::fire(std::int64_t firing, double swing, const SensorAir& air
   if (!in_sector) return;
   static const std::array<Laser, lasers> fired = make_lasers();
   const double cosine = std::cos(at), sine = std::sin(at);
+  const Vec3 place{mount_.position[0], mount_.position[1], mount_.position[2]}, place_base = body.out(place), place_world = stand.out(place_base);
+  // The firing's lasers are upright over one another but for the turn meanwhile, and no steeper than 15 degrees.
+  const double turned_by = turns_per_s * 2 * std::numbers::pi * lasers * 2304e-9, middle = at + turned_by / 2;
+  const RayFan upper_fan{place, turned({std::cos(middle), -std::sin(middle), 0}), turned({std::sin(middle), std::cos(middle), 0}), turned_by};
+  const RayFan base_fan{place_base, body.out(upper_fan.ahead), body.out(upper_fan.aside), turned_by};
+  const RayFan world_fan{place_world, stand.turned(base_fan.ahead), stand.turned(base_fan.aside), turned_by};
+  FanView view;
+  const bool seen = scene.look(world_fan, base_fan, upper_fan, view);
   for (std::size_t laser = 0; laser < fired.size(); ++laser) {
     const Laser& l = fired[laser];
-    const double noise = random_.normal(), lost = random_.uniform();  // drawn whatever is hit
+    const Drawn drawn = next_drawn();
     const double ahead = cosine * l.turn_cosine - sine * l.turn_sine, aside = sine * l.turn_cosine + cosine * l.turn_sine;
     const Vec3 direction = turned({l.up_cosine * ahead, -l.up_cosine * aside, l.up_sine});
-    const Ray upper{{mount_.position[0], mount_.position[1], mount_.position[2]}, direction};
-    const Ray base{body.out(upper.origin), body.out(upper.direction)};
-    const Ray world = stand.out(base);
-    const std::optional<SceneHit> hit = scene.meet(world, base, upper, range_most);
+    const Ray upper{place, direction}, base{place_base, body.out(direction)}, world{place_world, stand.turned(base.direction)};
+    const std::optional<SceneHit> hit = seen ? scene.meet(view, world, base, upper, range_most) : scene.meet(world, base, upper, range_most);
     const std::optional<double> range = hit ? std::optional<double>(hit->range) : std::nullopt;
-    Returns back = received(range, noise);
+    Returns back = received(range, drawn);
     blow(range, air, back);
-    if (air.covers(at) || lost < noise_.dropout_probability) continue;
+    if (air.covers(at) || drawn.lost < noise_.dropout_probability) continue;
     if (back.met) note(*hit, world, returns);
     put_return(records + record_bytes * laser, back.last);
     if (others != nullptr) put_return(others + record_bytes * laser, back.other);
