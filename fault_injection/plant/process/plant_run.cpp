@@ -192,12 +192,14 @@ void PlantRun::use_spare_time(double t) {
   world_.draw_ahead();
 }
 
-void PlantRun::keep_step() {
-  if (options_.realtime) {
-    peers_.drain();
-  } else {
-    peers_.wait_for(cycle_, options_.stop_fd);
-  }
+// The app answers the newest cycle while the next is computed here: that needs the kernel's answer alone, and nothing of it is sent before.
+void PlantRun::await_others() {
+  if (cycle_ > 1) peers_.wait_for(cycle_ - 1, options_.stop_fd);
+  note_finish();
+}
+
+void PlantRun::note_finish() {
+  if (peers_.app_finished() && finished_at_ < 0.0) finished_at_ = now_;
 }
 
 void PlantRun::observe_trucks(double t) {
@@ -251,7 +253,7 @@ bool PlantRun::stop_asked() const {
 std::string PlantRun::end_reason(double t) {
   constexpr double kRounding = 1e-6;
   if (stop_asked()) return "terminated";
-  if (peers_.app_finished() && finished_at_ < 0.0) finished_at_ = t;
+  note_finish();
   if (finished_at_ >= 0.0 && t - finished_at_ + kRounding >= kAfterFinish) return "finished";
   const bool alone = finished_at_ < 0.0 && (lost(peers_.kernel()) || lost(peers_.app())) && standing_cycles_ >= kStandstillCycles;
   if (!alone) alone_since_ = -1.0;
@@ -276,15 +278,17 @@ void PlantRun::run() {
     if (options_.realtime) sleep_to(next);
     ++cycle_;
     t = static_cast<double>(cycle_) * kCycle;
-    if (options_.realtime) keep_step();
+    if (options_.realtime) peers_.drain();
     advance(t);
+    if (!options_.realtime) await_others();
     now_ = t;
     send(t);
     use_spare_time(t);
-    if (!options_.realtime) keep_step();
+    if (!options_.realtime) peers_.wait_for_kernel(cycle_, options_.stop_fd);
     observe(t);
     reason = end_reason(t);
   }
+  if (!options_.realtime) peers_.wait_for(cycle_, options_.stop_fd);  // what the app says last belongs to the run
   write_end(t, reason);
   events_.finished(t, reason);
 }

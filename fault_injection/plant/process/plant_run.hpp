@@ -58,7 +58,8 @@ class PlantRun {
   void send(double t);
   std::uint32_t datagrams() const;  // to all sensor ports
   void use_spare_time(double t);
-  void keep_step();
+  void await_others();
+  void note_finish();
   void observe(double t);
   void observe_trucks(double t);
   void observe_peers(double t);
