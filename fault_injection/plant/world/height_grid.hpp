@@ -50,7 +50,7 @@ class HeightGrid {
   struct Patch { double h00, h10, h01, h11; };  // heights at its corners
   [[nodiscard]] Patch patch(int i, int j) const;
   [[nodiscard]] static std::optional<double> cast_patch(const Patch& patch, int i, int j, const Ray& grid_ray, double t_in, double t_out);
-  [[nodiscard]] std::optional<double> cast_block(int bi, int bj, const Ray& grid_ray, double t_in, double t_out) const;
+  [[nodiscard]] std::optional<double> cast_block(int bi, int bj, const Ray& grid_ray, const Vec3& inverse, double t_in, double t_out) const;
 
   double x_low_, y_low_, cell_x_, cell_y_;
   int count_x_, count_y_, blocks_x_, blocks_y_;

@@ -4,13 +4,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "plant/world/lanes.hpp"
+
 namespace berm::plant {
 namespace {
 
 constexpr std::int64_t firing_ns = 55296;       // of all sixteen lasers, one after the other
 constexpr double turns_per_s = 10.0;
 constexpr double range_least = 0.5, range_most = 100.0, range_lsb = 0.002;
-constexpr int lasers = 16, blocks = 12;
+constexpr std::size_t lasers = 16;
+constexpr int blocks = 12;
 constexpr std::size_t block_bytes = 100, record_bytes = 3;
 constexpr std::int64_t hour_us = 3'600'000'000;
 constexpr std::uint8_t strongest = 0x37, dual = 0x39, product = 0x22, reflectivity = 30;
@@ -19,14 +22,49 @@ constexpr std::uint8_t strongest = 0x37, dual = 0x39, product = 0x22, reflectivi
 constexpr double elevation_deg(int laser) { return laser % 2 == 0 ? -15.0 + laser : laser; }
 
 // Of each laser: its elevation, and how far the sensor turns from the firing's begin until it fires.
-struct Laser { double up_cosine, up_sine, turn_cosine, turn_sine; };
-std::array<Laser, lasers> make_lasers() {
-  std::array<Laser, lasers> all{};
-  for (int laser = 0; laser < lasers; ++laser) {
-    const double e = elevation_deg(laser) * std::numbers::pi / 180, turn = turns_per_s * 2 * std::numbers::pi * laser * 2304e-9;
-    all[static_cast<std::size_t>(laser)] = {std::cos(e), std::sin(e), std::cos(turn), std::sin(turn)};
+struct Lasers {
+  std::array<double, lasers> up_cosine, up_sine, turn_cosine, turn_sine;
+  Lasers() {
+    for (std::size_t k = 0; k < lasers; ++k) {
+      const double e = elevation_deg(static_cast<int>(k)) * std::numbers::pi / 180, turn = turns_per_s * 2 * std::numbers::pi * static_cast<int>(k) * 2304e-9;
+      up_cosine[k] = std::cos(e), up_sine[k] = std::sin(e), turn_cosine[k] = std::cos(turn), turn_sine[k] = std::sin(turn);
+    }
   }
-  return all;
+};
+const Lasers fired;
+
+// One vector for each laser.
+struct Beams {
+  std::array<double, lasers> x, y, z;
+  [[nodiscard]] Vec3 of(std::size_t laser) const { return {x[laser], y[laser], z[laser]}; }
+};
+// Three axes of a frame in another.
+struct Axes { Vec3 x, y, z; };
+
+BERM_PLANT_LANES void turned_beams(const Beams& in, const Axes& by, Beams& out) {
+  for (std::size_t k = 0; k < lasers; ++k) {
+    out.x[k] = in.x[k] * by.x.x + in.y[k] * by.y.x + in.z[k] * by.z.x;
+    out.y[k] = in.x[k] * by.x.y + in.y[k] * by.y.y + in.z[k] * by.z.y;
+    out.z[k] = in.x[k] * by.x.z + in.y[k] * by.y.z + in.z[k] * by.z.z;
+  }
+}
+
+BERM_PLANT_LANES void swung_beams(const Beams& in, const PlanarFrame& body, Beams& out) {
+  for (std::size_t k = 0; k < lasers; ++k) {
+    out.x[k] = body.x + body.cos_yaw * in.x[k] - body.sin_yaw * in.y[k];
+    out.y[k] = body.y + body.sin_yaw * in.x[k] + body.cos_yaw * in.y[k];
+    out.z[k] = body.z + in.z[k];
+  }
+}
+
+// In the sensor's frame, which the firing began turned so far.
+BERM_PLANT_LANES void beams_of(const Lasers& l, double cosine, double sine, Beams& out) {
+  for (std::size_t k = 0; k < lasers; ++k) {
+    const double ahead = cosine * l.turn_cosine[k] - sine * l.turn_sine[k], aside = sine * l.turn_cosine[k] + cosine * l.turn_sine[k];
+    out.x[k] = l.up_cosine[k] * ahead;
+    out.y[k] = -l.up_cosine[k] * aside;
+    out.z[k] = l.up_sine[k];
+  }
 }
 
 double azimuth(std::int64_t firing) {
@@ -114,7 +152,6 @@ void SpinningLidar::fire(std::int64_t firing, double swing, const SensorAir& air
   std::fill(records, records + record_bytes * lasers, std::uint8_t{0});
   if (others != nullptr) std::fill(others, others + record_bytes * lasers, std::uint8_t{0});
   if (!in_sector) return;
-  static const std::array<Laser, lasers> fired = make_lasers();
   const double cosine = std::cos(at), sine = std::sin(at);
   const Vec3 place{mount_.position[0], mount_.position[1], mount_.position[2]}, place_base = body.out(place), place_world = stand.out(place_base);
   // The firing's lasers are upright over one another but for the turn meanwhile, and no steeper than 15 degrees.
@@ -124,12 +161,14 @@ void SpinningLidar::fire(std::int64_t firing, double swing, const SensorAir& air
   const RayFan world_fan{place_world, stand.turned(base_fan.ahead), stand.turned(base_fan.aside), turned_by};
   FanView view;
   const bool seen = scene.look(world_fan, base_fan, upper_fan, view);
-  for (std::size_t laser = 0; laser < fired.size(); ++laser) {
-    const Laser& l = fired[laser];
+  Beams own, in_upper, in_base, in_world;
+  beams_of(fired, cosine, sine, own);
+  turned_beams(own, {x_, y_, z_}, in_upper);
+  swung_beams(in_upper, body, in_base);
+  turned_beams(in_base, {stand.x(), stand.y(), stand.z()}, in_world);
+  for (std::size_t laser = 0; laser < lasers; ++laser) {
     const Drawn drawn = next_drawn();
-    const double ahead = cosine * l.turn_cosine - sine * l.turn_sine, aside = sine * l.turn_cosine + cosine * l.turn_sine;
-    const Vec3 direction = turned({l.up_cosine * ahead, -l.up_cosine * aside, l.up_sine});
-    const Ray upper{place, direction}, base{place_base, body.out(direction)}, world{place_world, stand.turned(base.direction)};
+    const Ray upper{place, in_upper.of(laser)}, base{place_base, in_base.of(laser)}, world{place_world, in_world.of(laser)};
     const std::optional<SceneHit> hit = seen ? scene.meet(view, world, base, upper, range_most) : scene.meet(world, base, upper, range_most);
     const std::optional<double> range = hit ? std::optional<double>(hit->range) : std::nullopt;
     Returns back = received(range, drawn);
