@@ -1,4 +1,6 @@
 // berm_app: the planning app. Trusted with nothing: it sees the kernel's state segment and writes motion requests.
+#include <malloc.h>
+
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -27,6 +29,15 @@ struct Options {
   int tick_fd = -1;
   bool lockstep = false;
 };
+
+// Large blocks by themselves, given back when they are freed: left to itself the allocator keeps each size it has once seen among the small ones, and the
+// app grew by a step with a truck's sweep here and there.
+void keep_memory_flat() {
+  constexpr int large = 128 << 10;
+  mallopt(M_MMAP_THRESHOLD, large);
+  mallopt(M_TRIM_THRESHOLD, large);
+  mallopt(M_ARENA_MAX, 1);  // two threads, of which one works a second for each truck
+}
 
 int run(const Options& options) {
   using namespace berm::app;
@@ -76,6 +87,7 @@ int main(int argc, char** argv) {
   action.sa_handler = on_signal;  // no SA_RESTART: waiting calls return
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
+  keep_memory_flat();
   int code = 1;
   try {
     code = run(options);

@@ -196,12 +196,28 @@ std::optional<double> HeightGrid::cast_block(int bi, int bj, const Ray& r, const
   return std::nullopt;
 }
 
+// Whether the ray has left the rectangle for good before t: by a margin, so that what is doubtful is clipped.
+bool HeightGrid::leaves_before(const Ray& ray, double t) const {
+  constexpr double margin = 1e-6;
+  const auto beyond = [t](double origin, double direction, double low, double high) {
+    const double at = origin + t * direction;
+    return (direction <= 0 && at < low - margin) || (direction >= 0 && at > high + margin);
+  };
+  return beyond(ray.origin.x, ray.direction.x, x_low_, x_low_ + count_x_ * cell_x_) || beyond(ray.origin.y, ray.direction.y, y_low_, y_low_ + count_y_ * cell_y_);
+}
+
 std::optional<double> HeightGrid::cast_low(const Ray& ray, double range_max) const {
+  double t_in = 0, t_out = range_max;
+  const double highest = highest_ + rounding;
+  if (ray.direction.z < 0) {
+    t_in = std::max(t_in, (highest - ray.origin.z) / ray.direction.z);
+    if (t_in > t_out || leaves_before(ray, t_in)) return std::nullopt;
+  } else if (!clip(ray.origin.z, ray.direction.z, -never, highest, t_in, t_out)) {
+    return std::nullopt;
+  }
   // In units of patches, so that the walk's squares have integer corners; the parameter stays the range.
   const Ray r{{(ray.origin.x - x_low_) / cell_x_ + 0.5, (ray.origin.y - y_low_) / cell_y_ + 0.5, ray.origin.z},
               {ray.direction.x / cell_x_, ray.direction.y / cell_y_, ray.direction.z}};
-  double t_in = 0, t_out = range_max;
-  if (!clip(r.origin.z, r.direction.z, -never, highest_ + rounding, t_in, t_out)) return std::nullopt;
   if (!clip(r.origin.x, r.direction.x, 0.5, count_x_ + 0.5, t_in, t_out)) return std::nullopt;
   if (!clip(r.origin.y, r.direction.y, 0.5, count_y_ + 0.5, t_in, t_out)) return std::nullopt;
   const Vec3 inverse{r.direction.x == 0 ? 0 : 1 / r.direction.x, r.direction.y == 0 ? 0 : 1 / r.direction.y, 0};

@@ -45,6 +45,7 @@ class HeightGrid {
  private:
   static constexpr double rounding = 1e-9;  // m: more than that of the heights along a ray
   [[nodiscard]] bool passes_over(const Ray& ray) const { return ray.direction.z >= 0 && ray.origin.z > highest_ + rounding; }
+  [[nodiscard]] bool leaves_before(const Ray& ray, double t) const;
   [[nodiscard]] std::optional<double> cast_low(const Ray& ray, double range_max) const;
   [[nodiscard]] double clamped(int ix, int iy) const;
   struct Patch { double h00, h10, h01, h11; };  // heights at its corners

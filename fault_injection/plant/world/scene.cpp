@@ -107,7 +107,9 @@ double Scene::cast_truck(const TruckSolid& truck, const Ray& world, double range
 double Scene::cast_beyond(const Ray& world, double range) const {
   if (world.direction.z >= 0) return range;
   const HeightGrid& g = terrain_->grid();
+  const double z_at_range = world.origin.z + range * world.direction.z;
   for (const double level : terrain_->levels_beyond()) {
+    if (z_at_range > level + rounding_m) continue;  // met before it comes so low
     const double t = (level - world.origin.z) / world.direction.z;
     if (t <= 0 || t >= range) continue;
     const Vec3 p = world.at(t);
