@@ -155,8 +155,8 @@ void SpinningLidar::fire(std::int64_t firing, double swing, const SensorAir& air
   const double cosine = std::cos(at), sine = std::sin(at);
   const Vec3 place{mount_.position[0], mount_.position[1], mount_.position[2]}, place_base = body.out(place), place_world = stand.out(place_base);
   // The firing's lasers are upright over one another but for the turn meanwhile, and no steeper than 15 degrees.
-  const double turned_by = turns_per_s * 2 * std::numbers::pi * lasers * 2304e-9, middle = at + turned_by / 2;
-  const RayFan upper_fan{place, turned({std::cos(middle), -std::sin(middle), 0}), turned({std::sin(middle), std::cos(middle), 0}), turned_by};
+  const double turned_by = turns_per_s * 2 * std::numbers::pi * lasers * 2304e-9;
+  const RayFan upper_fan{place, turned({cosine, -sine, 0}), turned({sine, cosine, 0}), turned_by};
   const RayFan base_fan{place_base, body.out(upper_fan.ahead), body.out(upper_fan.aside), turned_by};
   const RayFan world_fan{place_world, stand.turned(base_fan.ahead), stand.turned(base_fan.aside), turned_by};
   FanView view;
