@@ -30,13 +30,12 @@ struct Options {
   bool lockstep = false;
 };
 
-// Large blocks by themselves, given back when they are freed: left to itself the allocator keeps each size it has once seen among the small ones, and the
-// app grew by a step with a truck's sweep here and there.
+// Large blocks by themselves, given back when they are freed. Left to itself the allocator keeps each size that it has once seen freed among the small
+// blocks, and the app grew by a step with a truck's sweep here and there, though what was in use did not.
 void keep_memory_flat() {
-  constexpr int large = 128 << 10;
+  constexpr int large = 64 << 10;
   mallopt(M_MMAP_THRESHOLD, large);
-  mallopt(M_TRIM_THRESHOLD, large);
-  mallopt(M_ARENA_MAX, 1);  // two threads, of which one works a second for each truck
+  mallopt(M_TRIM_THRESHOLD, 2 * large);
 }
 
 int run(const Options& options) {
