@@ -4,6 +4,7 @@
 
 #include <netinet/in.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -28,6 +29,8 @@ class Transport {
   // Empty when open; otherwise one line with the address and what is wrong.
   std::string open(const std::string& address);
   bool send(const berm_can_frame& frame);
+  // In their order, by as few calls of the system as it allows; whether all went.
+  bool send(const berm_can_frame* frames, int count);
   // The next frame already here. False when there is none.
   bool receive(berm_can_frame& frame);
   // Waits at most this long for a frame; a signal ends the wait early.
@@ -36,12 +39,21 @@ class Transport {
   const TransportCounters& counters() const { return counters_; }
 
  private:
+  static constexpr int kBatch = 32;          // frames that one call of the system takes
+  static constexpr std::size_t kRoom = 80;   // for a datagram: more than the largest, so that one that is too long does not look right
+
+  bool send_batch(const berm_can_frame* frames, int count);
+  bool refill();
   std::string open_multicast(const std::string& group, int port);
   std::string open_socketcan(const std::string& interface);
 
   int fd_ = -1;
   bool multicast_ = false;
+  bool segments_ = true;  // the system cuts one message into datagrams; until it says that it does not
   sockaddr_in group_{};
+  unsigned char waiting_[kBatch][kRoom];  // taken from the socket, and not asked for yet
+  std::size_t length_[kBatch];
+  int next_ = 0, taken_ = 0;
   TransportCounters counters_;
 };
 

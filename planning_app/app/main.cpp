@@ -1,4 +1,6 @@
 // berm_app: the planning app. Trusted with nothing: it sees the kernel's state segment and writes motion requests.
+#include <malloc.h>
+
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -27,6 +29,14 @@ struct Options {
   int tick_fd = -1;
   bool lockstep = false;
 };
+
+// Large blocks by themselves, given back when they are freed. Left to itself the allocator keeps each size that it has once seen freed among the small
+// blocks, and the app grew by a step with a truck's sweep here and there, though what was in use did not.
+void keep_memory_flat() {
+  constexpr int large = 64 << 10;
+  mallopt(M_MMAP_THRESHOLD, large);
+  mallopt(M_TRIM_THRESHOLD, 2 * large);
+}
 
 int run(const Options& options) {
   using namespace berm::app;
@@ -76,6 +86,7 @@ int main(int argc, char** argv) {
   action.sa_handler = on_signal;  // no SA_RESTART: waiting calls return
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
+  keep_memory_flat();
   int code = 1;
   try {
     code = run(options);

@@ -1,6 +1,7 @@
 #include "planning/skyline.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -42,6 +43,8 @@ bool diggable(const SiteModel& site, double x, double y, double top) {
   return std::any_of(site.dig_zones.begin(), site.dig_zones.end(), [&](const DigZone& z) { return in_zone(z, x, y) && top <= z.ceiling; });
 }
 
+struct Row { double r, highest, outside; };  // distance from the axis; highest ground, and highest that must not be touched
+
 }  // namespace
 
 bool in_dig_zone(const SiteModel& site, double x, double y) {
@@ -77,16 +80,30 @@ Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Groun
   for (int b = 0; b < bearings; ++b) {
     const double bearing = 2.0 * std::numbers::pi * b / bearings;
     const double c = std::cos(bearing), s = std::sin(bearing);
+    // Over the implements' width at a distance. The bins on either side want it too: kept where the distance is the same to the last bit.
+    std::array<Row, 4> kept;
+    kept.fill({-1.0, nothing, nothing});
+    std::size_t oldest = 0;
+    const auto row = [&](double r) -> const Row& {
+      for (const Row& known : kept)
+        if (known.r == r) return known;
+      Row& fresh = kept[oldest++ % kept.size()];
+      fresh = {r, nothing, nothing};
+      for (double across = -half_width; across <= half_width + 1e-9; across += lateral_step) {
+        const double x = r * c - across * s, y = r * s + across * c;
+        const double z = top(x, y);
+        fresh.highest = std::max(fresh.highest, z);
+        if (z > fresh.outside && !diggable(site, x, y, z)) fresh.outside = z;
+      }
+      return fresh;
+    };
     for (int bin = 0; bin < LowerEdge::bins; ++bin) {
       double highest = nothing, highest_outside = nothing;
-      for (int radial = -1; radial <= 1; ++radial)
-        for (double across = -half_width; across <= half_width + 1e-9; across += lateral_step) {
-          const double r = (bin + 0.5) * LowerEdge::bin_m + radial * LowerEdge::bin_m;
-          const double x = r * c - across * s, y = r * s + across * c;
-          const double z = top(x, y);
-          highest = std::max(highest, z);
-          if (z > highest_outside && !diggable(site, x, y, z)) highest_outside = z;
-        }
+      for (int radial = -1; radial <= 1; ++radial) {
+        const Row& at = row((bin + 0.5) * LowerEdge::bin_m + radial * LowerEdge::bin_m);
+        highest = std::max(highest, at.highest);
+        highest_outside = std::max(highest_outside, at.outside);
+      }
       all_[static_cast<std::size_t>(b * LowerEdge::bins + bin)] = highest;
       outside_dig_zone_[static_cast<std::size_t>(b * LowerEdge::bins + bin)] = highest_outside;
     }

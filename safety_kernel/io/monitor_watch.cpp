@@ -14,6 +14,25 @@ namespace {
 // beside a truck would stand in cells that know the truck alone.
 constexpr std::int32_t kBesideMm = SK_CELL_MM / 2;
 
+// One coordinate along a line: start + change * k / steps, towards the start as integers divide, for k = 1, 2, ...; without a division for each.
+class Along {
+ public:
+  Along(std::int64_t start, std::int64_t change, std::int64_t steps)
+      : value_(start), each_(steps > 0 ? change / steps : 0), rest_each_(steps > 0 ? change % steps : 0), steps_(steps), sign_(change < 0 ? -1 : 1) {}
+  std::int32_t next() {
+    value_ += each_;
+    rest_ += rest_each_;
+    if (sign_ * rest_ >= steps_) {
+      rest_ -= sign_ * steps_;
+      value_ += sign_;
+    }
+    return static_cast<std::int32_t>(value_);
+  }
+
+ private:
+  std::int64_t value_, each_, rest_each_, steps_, sign_, rest_ = 0;
+};
+
 }  // namespace
 
 MonitorWatch::MonitorWatch(const berm_parameters& parameters, std::int32_t wait_us, std::int32_t period_us)
@@ -57,8 +76,9 @@ void MonitorWatch::insert(const sk_point& point, std::int64_t now_us, const Moni
 void MonitorWatch::learn_beside(const sk_point& point, std::int64_t now_us) {
   sk_monitor_histogram& h = histogram_.front();
   const std::int32_t own_y = sk_map_index(point.y_mm), own_x = sk_map_index(point.x_mm);
-  for (std::int32_t iy = sk_map_index(point.y_mm - kBesideMm); iy <= sk_map_index(point.y_mm + kBesideMm); ++iy)
-    for (std::int32_t ix = sk_map_index(point.x_mm - kBesideMm); ix <= sk_map_index(point.x_mm + kBesideMm); ++ix) {
+  const std::int32_t first_x = sk_map_index(point.x_mm - kBesideMm), last_x = sk_map_index(point.x_mm + kBesideMm), last_y = sk_map_index(point.y_mm + kBesideMm);
+  for (std::int32_t iy = sk_map_index(point.y_mm - kBesideMm); iy <= last_y; ++iy)
+    for (std::int32_t ix = first_x; ix <= last_x; ++ix) {
       const bool learns = sk_is_in_map(iy, ix) && h.state[iy][ix] == SK_CELL_LEARNING;
       if (learns && (iy != own_y || ix != own_x)) sk_histogram_insert(&h, &h, &rules_, iy, ix, point.z_mm, now_us);
     }
@@ -67,15 +87,15 @@ void MonitorWatch::learn_beside(const sk_point& point, std::int64_t now_us) {
 void MonitorWatch::interpolate(const sk_point& from, const sk_point& to, Over over, std::int64_t now_us) {
   const std::int64_t dx = std::int64_t{to.x_mm} - from.x_mm, dy = std::int64_t{to.y_mm} - from.y_mm, dz = std::int64_t{to.z_mm} - from.z_mm;
   const std::int64_t steps = std::min<std::int64_t>(std::max(std::abs(dx), std::abs(dy)) / (SK_CELL_MM / 2), kStepsMost);
+  Along x(from.x_mm, dx, steps), y(from.y_mm, dy, steps), z(from.z_mm, dz, steps);
   for (std::int64_t k = 1; k < steps; ++k) {
-    const auto along = [k, steps](std::int32_t start, std::int64_t change) { return static_cast<std::int32_t>(start + change * k / steps); };
-    const std::int32_t iy = sk_map_index(along(from.y_mm, dy)), ix = sk_map_index(along(from.x_mm, dx));
+    const std::int32_t x_mm = x.next(), y_mm = y.next(), z_mm = z.next(), iy = sk_map_index(y_mm), ix = sk_map_index(x_mm);
     if (!histogram_.empty()) {
-      sk_histogram_line(histogram_.data(), iy, ix, along(from.z_mm, dz));
+      sk_histogram_line(histogram_.data(), iy, ix, z_mm);
       continue;
     }
     if (over == Over::kUnmeasured && sk_is_in_map(iy, ix) && monitor_.accumulated_flag[iy][ix] == SK_FLAG_SET) continue;
-    sk_monitor_insert(&monitor_, iy, ix, along(from.z_mm, dz), true, now_us);
+    sk_monitor_insert(&monitor_, iy, ix, z_mm, true, now_us);
   }
 }
 

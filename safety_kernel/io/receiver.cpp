@@ -106,7 +106,11 @@ void Receiver::await_scans(std::uint32_t announced, CycleInputs& in) {
   const std::int64_t until_us = monotonic_us() + kScanWaitMs * 1000;
   const auto missing = [&] { return static_cast<std::int32_t>(announced - datagrams_); };
   while (missing() > 0) {
-    if (take_scan(in) || take_vlp16(in) || take_lidar(in)) continue;
+    bool any = false;
+    while (missing() > 0 && take_scan(in)) any = true;
+    while (missing() > 0 && take_vlp16(in)) any = true;
+    while (missing() > 0 && take_lidar(in)) any = true;
+    if (any) continue;
     const std::int64_t left_us = until_us - monotonic_us();
     if (left_us <= 0) {
       // Lost on the way: not waited for again.

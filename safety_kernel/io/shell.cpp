@@ -88,7 +88,7 @@ void Shell::one_cycle() {
   in_->clock_fault = watch_.check(in_->now_us);
   in_->journal_lost = journal_.lost_before();
   cycle_->step(*in_, *out_);
-  for (int i = 0; i < out_->frames.count; ++i) receiver_.can().send(out_->frames.frame[i]);
+  receiver_.can().send(out_->frames.frame, out_->frames.count);
   publisher_->state(out_->state);
   publisher_->decision(out_->decision);
   publisher_->scans(out_->blocks);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/overpass.h"
+#include "geometry/lanes.hpp"
 
 namespace berm::kernel {
 
@@ -11,6 +12,38 @@ namespace {
 
 bool touches(std::int32_t iy, std::int32_t ix, const berm_truck_zone& z) {
   return sk_is_touched(iy, ix, z.x_low_mm, z.y_low_mm, z.x_high_mm, z.y_high_mm);
+}
+
+// A ray's way, mm.
+struct Way { double dx, dy, dz, length; };
+
+sk_voxel voxel_at(std::int32_t place) { return {place / (SK_VOXELS * SK_VOXELS), place / SK_VOXELS % SK_VOXELS, place % SK_VOXELS}; }
+
+// Of the points one step after another along a ray the places of their voxels in the space, -1 of one outside; four more may be written. The voxels are
+// those of sk_voxel_of: of a whole number n the half above it is 1/300 from a whole number of voxels at the least, which the product's rounding cannot
+// reach over.
+BERM_LANES_CLONES void places_along(const sk_point& head, const Way& way, int steps, std::int32_t* place) {
+  constexpr double per_voxel = 1.0 / SK_VOXEL_MM;
+  const auto same = [](auto v, auto& four) { four = decltype(four + v){v, v, v, v}; };
+  FourDouble length, step, half, part;
+  FourInt zero, sides, levels, none;
+  same(way.length, length), same(SpaceWatch::kStepMm, step), same(0.5, half), same(per_voxel, part);
+  same(0, zero), same(SK_VOXELS, sides), same(SK_VOXEL_LEVELS, levels), same(-1, none);
+  FourDouble k{1.0, 2.0, 3.0, 4.0}, four;
+  same(4.0, four);
+  for (int first = 0; first < steps; first += 4, k += four) {
+    const FourDouble f = k * step / length;
+    FourInt inside = none;  // all bits: yes
+    const auto index = [&](std::int32_t from, double change, std::int32_t low, FourInt count) {
+      const FourInt n = __builtin_convertvector(f * change, FourInt) + from - low;
+      const FourInt i = __builtin_convertvector((__builtin_convertvector(n, FourDouble) + half) * part, FourInt);
+      inside &= (n >= zero) & (i < count);
+      return i;
+    };
+    const FourInt level = index(head.z_mm, way.dz, SK_VOXEL_FLOOR_MM, levels), jy = index(head.y_mm, way.dy, SK_MAP_ORIGIN_MM, sides);
+    const FourInt jx = index(head.x_mm, way.dx, SK_MAP_ORIGIN_MM, sides);
+    store4(place + first, inside != zero ? (level * sides + jy) * sides + jx : none);
+  }
 }
 
 }  // namespace
@@ -38,15 +71,11 @@ void SpaceWatch::take(const sk_point& head, const sk_point& point, bool learning
   const double dx = point.x_mm - head.x_mm, dy = point.y_mm - head.y_mm, dz = point.z_mm - head.z_mm, length = std::sqrt(dx * dx + dy * dy + dz * dz);
   const double free_mm = std::min(length - kShortMm, kReachMm);
   const int steps = static_cast<int>(free_mm / kStepMm);
-  sk_voxel passed{-1, -1, -1};
-  for (int k = 1; k <= steps; ++k) {
-    const double f = k * kStepMm / length;
-    const auto at = [f](std::int32_t from, double change) { return from + static_cast<std::int32_t>(f * change); };
-    const sk_voxel v = sk_voxel_of(at(head.x_mm, dx), at(head.y_mm, dy), at(head.z_mm, dz));
-    if (v.level == passed.level && v.jy == passed.jy && v.jx == passed.jx) continue;
-    sk_space_pass(&space_, v);
-    passed = v;
-  }
+  std::int32_t place[kStepsMost + 4];
+  if (steps > 0) places_along(head, {dx, dy, dz, length}, steps, place);
+  const std::uint8_t* const flags = &space_.voxel[0][0][0];
+  for (int k = 0; k < steps; ++k)
+    if (place[k] >= 0 && flags[place[k]] != SK_VOXEL_FREE) sk_space_pass(&space_, voxel_at(place[k]));  // a free one stays so
   meet(point, learning);
 }
 

@@ -12,6 +12,8 @@ namespace berm::kernel {
 
 class SpaceWatch {
  public:
+  static constexpr double kStepMm = 100.0;  // along a ray: of every voxel of which it crosses more than a corner
+
   explicit SpaceWatch(const berm_parameters& parameters);
 
   bool kept() const { return parameters_.workspace_foreign > 0; }
@@ -35,9 +37,9 @@ class SpaceWatch {
   bool watched(std::int32_t iy, std::int32_t ix) const { return region_.watched[iy][ix] != 0; }
 
  private:
-  static constexpr double kStepMm = 100.0;   // along a ray: of every voxel of which it crosses more than a corner
   static constexpr double kShortMm = 200.0;  // of the return: its own surface, by noise and the beam's width
   static constexpr double kReachMm = 22000.0;
+  static constexpr int kStepsMost = static_cast<int>(kReachMm / kStepMm);
 
   void leave_out(const berm_truck_zone& zone, bool truck_learned);
   bool stands_high(std::int32_t iy, std::int32_t ix) const;

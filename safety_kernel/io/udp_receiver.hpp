@@ -23,7 +23,15 @@ class UdpReceiver {
   ssize_t receive(std::uint8_t* bytes, std::size_t capacity);
 
  private:
+  static constexpr int kBatch = 32;           // datagrams that one call of the system takes
+  static constexpr std::size_t kRoom = 1536;  // for one: more than any that is right
+
+  bool refill();
+
   int fd_ = -1;
+  std::uint8_t waiting_[kBatch][kRoom];       // taken from the socket, and not asked for yet
+  std::size_t length_[kBatch];
+  int next_ = 0, taken_ = 0;
 };
 
 }  // namespace berm::kernel

@@ -96,10 +96,11 @@ bool Peers::kernel_answered(std::uint64_t cycle) const {
 
 bool Peers::app_answered(std::uint64_t cycle) const { return tick_cycle_ && *tick_cycle_ >= cycle; }
 
-PeerState* Peers::waits_for(std::uint64_t cycle) {
+PeerState* Peers::waits_for(std::uint64_t cycle, Whom whom) {
   // app and writer have something to answer when the kernel has published: without it there is nothing to wait for
   if (kernel_ != PeerState::present) return nullptr;
   if (!kernel_answered(cycle)) return &kernel_;
+  if (whom == Whom::kernel) return nullptr;
   if (app_ == PeerState::present && !app_answered(cycle)) return &app_;
   if (journal_ == PeerState::present && cycle > journal_cycle_.value_or(0) + kUnreadMost) return &journal_;
   return nullptr;
@@ -110,12 +111,12 @@ bool Peers::was_heard(const PeerState* peer) const {
   return peer == &app_ ? tick_cycle_.has_value() : journal_cycle_.has_value();
 }
 
-void Peers::wait_for(std::uint64_t cycle, int stop_fd) {
+void Peers::wait_for(std::uint64_t cycle, int stop_fd, Whom whom) {
   auto begin = Clock::now();
   const PeerState* waited_for = nullptr;
   for (;;) {
     drain();
-    PeerState* const peer = waits_for(cycle);
+    PeerState* const peer = waits_for(cycle, whom);
     if (peer == nullptr) return;
     if (peer != waited_for) begin = Clock::now();  // each peer has its own time
     waited_for = peer;
@@ -125,11 +126,12 @@ void Peers::wait_for(std::uint64_t cycle, int stop_fd) {
       continue;
     }
     const auto unless_gone = [](PeerState state, int fd) { return state == PeerState::gone ? -1 : fd; };
+    const bool others = whom == Whom::all;
     std::array<pollfd, 5> fds{{{bus_.fd(), POLLIN, 0},
                                {stop_fd, POLLIN, 0},
                                {unless_gone(kernel_, fd_.kernel), 0, 0},
-                               {unless_gone(app_, fd_.tick), POLLIN, 0},
-                               {unless_gone(journal_, fd_.journal), POLLIN, 0}}};
+                               {others ? unless_gone(app_, fd_.tick) : -1, POLLIN, 0},
+                               {others ? unless_gone(journal_, fd_.journal) : -1, POLLIN, 0}}};
     if (poll(fds.data(), fds.size(), static_cast<int>(left)) > 0 && (fds[1].revents & POLLIN) != 0) return;
   }
 }

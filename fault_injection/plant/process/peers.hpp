@@ -32,7 +32,9 @@ class Peers {
   void drain();
   // Drains, then waits for the kernel's heartbeat of this cycle, for the app's tick of it, and for the journal's writer to be no more than
   // kUnreadMost cycles behind. Returns early when stop_fd is readable.
-  void wait_for(std::uint64_t cycle, int stop_fd);
+  void wait_for(std::uint64_t cycle, int stop_fd) { wait_for(cycle, stop_fd, Whom::all); }
+  // The same, for the kernel's heartbeat alone.
+  void wait_for_kernel(std::uint64_t cycle, int stop_fd) { wait_for(cycle, stop_fd, Whom::kernel); }
 
   PeerState kernel() const { return kernel_; }
   PeerState app() const { return app_; }
@@ -40,6 +42,8 @@ class Peers {
   bool app_finished() const { return finished_; }
 
  private:
+  enum class Whom { kernel, all };
+  void wait_for(std::uint64_t cycle, int stop_fd, Whom whom);
   bool kernel_answered(std::uint64_t cycle) const;
   bool app_answered(std::uint64_t cycle) const;
   void take_frames();
@@ -47,7 +51,7 @@ class Peers {
   void take_pace();
   void look_at_lifeline();
   // The peer to wait for next; nullptr: none.
-  PeerState* waits_for(std::uint64_t cycle);
+  PeerState* waits_for(std::uint64_t cycle, Whom whom);
   bool was_heard(const PeerState* peer) const;
 
   can::Transport& bus_;

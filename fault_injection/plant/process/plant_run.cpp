@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
+#include <thread>
 
 #include "plant/machine/kinematics.hpp"
 #include "plant/machine/strict_table.hpp"
@@ -66,6 +67,7 @@ PlantRun::PlantRun(const Scenario& scenario, const PlantProfile& profile, const 
   if (options.lidar_port.size() != profile.shape.lidar.size())
     throw ConfigError(fmt::format("--lidar-port: given {} times, {} has {} lidars", options.lidar_port.size(), scenario.machine_file, profile.shape.lidar.size()));
   for (const std::uint16_t port : options.lidar_port) lidars_.push_back(std::make_unique<ScanSender>(port));
+  if (lidars_.size() > 1 && std::thread::hardware_concurrency() > 1) side_.emplace();
 }
 
 void PlantRun::break_machine() {
@@ -97,12 +99,16 @@ void PlantRun::advance(double t) {
   change_weather(t);
   world_.stand(base_pose());
   soil_ = world_.step(t, kCycle, dynamics_.state(), before);
-  std::vector<berm_scan_packet> packets;
-  world_.scan(t, kCycle, before, dynamics_.state(), pan_before, pan_, packets);
-  scans_.send(packets, epoch_us_);
-  std::vector<LidarPacket> lidar_packets;
-  world_.scan_lidars(t, kCycle, before, dynamics_.state(), lidar_packets);
-  for (const LidarPacket& packet : lidar_packets) lidars_[packet.lidar]->send_bytes(packet.bytes.data(), packet.bytes.size());
+  packets_.clear();
+  lidar_packets_.clear();
+  world_.sense(t, kCycle, before, dynamics_.state(), pan_before, pan_, packets_, lidar_packets_, side_ ? &*side_ : nullptr);
+  scans_.send(packets_, epoch_us_);
+  for (std::size_t i = 0; i < lidar_packets_.size();) {
+    std::size_t next = i;
+    while (next < lidar_packets_.size() && lidar_packets_[next].lidar == lidar_packets_[i].lidar) ++next;
+    lidars_[lidar_packets_[i].lidar]->send({lidar_packets_.data() + i, next - i});
+    i = next;
+  }
   const auto& speed = dynamics_.state().velocity;
   const bool still = std::all_of(speed.begin(), speed.end(), [](double v) { return std::abs(v) < kStandstillSpeed; });
   standing_cycles_ = still ? standing_cycles_ + 1 : 0;
@@ -177,15 +183,23 @@ void PlantRun::send(double t) {
     const berm_sim_clock clock{static_cast<std::uint32_t>(cycle_), datagrams()};
     out.push_back(berm_encode_sim_clock(&clock));
   }
-  for (const berm_can_frame& frame : out) bus_.send(frame);
+  bus_.send(out.data(), static_cast<int>(out.size()));
 }
 
-void PlantRun::keep_step() {
-  if (options_.realtime) {
-    peers_.drain();
-  } else {
-    peers_.wait_for(cycle_, options_.stop_fd);
-  }
+// While kernel and app have this cycle's messages: what needs no answer of theirs.
+void PlantRun::use_spare_time(double t) {
+  verdict_ = world_.judge(t, dynamics_.state());
+  world_.draw_ahead();
+}
+
+// The app answers the newest cycle while the next is computed here: that needs the kernel's answer alone, and nothing of it is sent before.
+void PlantRun::await_others() {
+  if (cycle_ > 1) peers_.wait_for(cycle_ - 1, options_.stop_fd);
+  note_finish();
+}
+
+void PlantRun::note_finish() {
+  if (peers_.app_finished() && finished_at_ < 0.0) finished_at_ = now_;
 }
 
 void PlantRun::observe_trucks(double t) {
@@ -223,11 +237,10 @@ void PlantRun::observe_peers(double t) {
 void PlantRun::observe(double t) {
   observe_peers(t);
   observe_trucks(t);
-  const OracleVerdict verdict = world_.judge(t, dynamics_.state());
-  if (record_.judge(t, verdict)) events_.contact(t, verdict.what);
+  if (record_.judge(t, verdict_)) events_.contact(t, verdict_.what);
   record_.standstill(t, standing_cycles_ >= kStandstillCycles);
   if (cycle_ % static_cast<std::uint64_t>(options_.trace_every) == 0)
-    trace_.row(t, dynamics_.state(), controller_.heartbeat(), world_.payload_kg(), std::min(verdict.closest_m, kFarthestClearance), world_.movers(), base_pose());
+    trace_.row(t, dynamics_.state(), controller_.heartbeat(), world_.payload_kg(), std::min(verdict_.closest_m, kFarthestClearance), world_.movers(), base_pose());
   if (cycle_ % 100 == 0) events_.time(t);
 }
 
@@ -240,7 +253,7 @@ bool PlantRun::stop_asked() const {
 std::string PlantRun::end_reason(double t) {
   constexpr double kRounding = 1e-6;
   if (stop_asked()) return "terminated";
-  if (peers_.app_finished() && finished_at_ < 0.0) finished_at_ = t;
+  note_finish();
   if (finished_at_ >= 0.0 && t - finished_at_ + kRounding >= kAfterFinish) return "finished";
   const bool alone = finished_at_ < 0.0 && (lost(peers_.kernel()) || lost(peers_.app())) && standing_cycles_ >= kStandstillCycles;
   if (!alone) alone_since_ = -1.0;
@@ -265,14 +278,17 @@ void PlantRun::run() {
     if (options_.realtime) sleep_to(next);
     ++cycle_;
     t = static_cast<double>(cycle_) * kCycle;
-    if (options_.realtime) keep_step();
+    if (options_.realtime) peers_.drain();
     advance(t);
+    if (!options_.realtime) await_others();
     now_ = t;
     send(t);
-    if (!options_.realtime) keep_step();
+    use_spare_time(t);
+    if (!options_.realtime) peers_.wait_for_kernel(cycle_, options_.stop_fd);
     observe(t);
     reason = end_reason(t);
   }
+  if (!options_.realtime) peers_.wait_for(cycle_, options_.stop_fd);  // what the app says last belongs to the run
   write_end(t, reason);
   events_.finished(t, reason);
 }

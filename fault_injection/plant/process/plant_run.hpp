@@ -22,6 +22,8 @@
 #include "plant/process/scan_sender.hpp"
 #include "plant/process/scenario.hpp"
 #include "plant/process/trace_writer.hpp"
+#include "plant/world/side_thread.hpp"
+#include "plant/world/spinning_lidar.hpp"
 
 namespace berm::plant {
 
@@ -55,7 +57,9 @@ class PlantRun {
   void change_weather(double t);
   void send(double t);
   std::uint32_t datagrams() const;  // to all sensor ports
-  void keep_step();
+  void use_spare_time(double t);
+  void await_others();
+  void note_finish();
   void observe(double t);
   void observe_trucks(double t);
   void observe_peers(double t);
@@ -70,6 +74,9 @@ class PlantRun {
   can::Transport bus_;
   ScanSender scans_;
   std::vector<std::unique_ptr<ScanSender>> lidars_;
+  std::optional<SideThread> side_;    // with two lidars and two processors
+  std::vector<berm_scan_packet> packets_;
+  std::vector<LidarPacket> lidar_packets_;
   World world_;
   JointDynamics dynamics_;
   MachineController controller_;
@@ -90,6 +97,7 @@ class PlantRun {
   std::uint64_t epoch_us_ = 0;        // in real time: the monotonic clock, which the kernel reads too, when the run began
   PanState pan_;
   DigForces soil_;
+  OracleVerdict verdict_;             // of the newest cycle
   bool parked_ = false, leaving_ = false, comes_back_ = false;  // comes_back_: the truck that made way for a tram is not another
   int truck_ = 0;                     // the newest that arrived, from 1
   int standing_cycles_ = 0;

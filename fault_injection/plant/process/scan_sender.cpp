@@ -3,9 +3,11 @@
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <netinet/in.h>
+#include <netinet/udp.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -36,6 +38,38 @@ void ScanSender::send(std::vector<berm_scan_packet>& packets, std::uint64_t epoc
     if (n == 0) throw std::runtime_error("the world made a scan packet with a field out of range");
     send_bytes(bytes.data(), n);
   }
+}
+
+void ScanSender::send(std::span<const LidarPacket> packets) {
+  constexpr std::size_t most = 32;  // in one message: half of what the system takes
+  while (!packets.empty()) {
+    const auto batch = packets.first(std::min(packets.size(), most));
+    if (batch.size() == 1 || !segments_ || !send_batch(batch))
+      for (const LidarPacket& packet : batch) send_bytes(packet.bytes.data(), packet.bytes.size());
+    packets = packets.subspan(batch.size());
+  }
+}
+
+bool ScanSender::send_batch(std::span<const LidarPacket> packets) {
+  std::vector<iovec> part;
+  for (const LidarPacket& packet : packets) part.push_back({const_cast<std::uint8_t*>(packet.bytes.data()), packet.bytes.size()});
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof(std::uint16_t))] = {};
+  msghdr message{};
+  message.msg_iov = part.data();
+  message.msg_iovlen = part.size();
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
+  cmsghdr* header = CMSG_FIRSTHDR(&message);
+  header->cmsg_level = SOL_UDP;
+  header->cmsg_type = UDP_SEGMENT;
+  header->cmsg_len = CMSG_LEN(sizeof(std::uint16_t));
+  const std::uint16_t each = lidar_packet_bytes;
+  std::memcpy(CMSG_DATA(header), &each, sizeof each);
+  bool good = sendmsg(fd_, &message, MSG_NOSIGNAL) >= 0;
+  if (!good && errno == ECONNREFUSED) good = sendmsg(fd_, &message, MSG_NOSIGNAL) >= 0;
+  if (!good && errno != ECONNREFUSED) segments_ = false;
+  if (good) sent_ += static_cast<std::uint32_t>(packets.size());
+  return good;
 }
 
 void ScanSender::send_bytes(const std::uint8_t* bytes, std::size_t size) {

@@ -22,6 +22,10 @@ class BaseFrame {
   }
   [[nodiscard]] Vec3 turned(const Vec3& v) const { return v.x * x_ + v.y * y_ + v.z * z_; }
   [[nodiscard]] Vec3 out(const Vec3& p) const { return at_ + turned(p); }
+  // Its axes in the world.
+  [[nodiscard]] const Vec3& x() const { return x_; }
+  [[nodiscard]] const Vec3& y() const { return y_; }
+  [[nodiscard]] const Vec3& z() const { return z_; }
   [[nodiscard]] Ray out(const Ray& r) const { return {out(r.origin), turned(r.direction)}; }
 
  private:

@@ -40,12 +40,18 @@ class HeightGrid {
   // Recomputes the maxima of the blocks that changed. cast needs it after the last set.
   void refresh();
   // Range at which the ray first meets the surface from above, up to range_max; none otherwise.
-  [[nodiscard]] std::optional<double> cast(const Ray& ray, double range_max) const;
+  [[nodiscard]] std::optional<double> cast(const Ray& ray, double range_max) const { return passes_over(ray) ? std::nullopt : cast_low(ray, range_max); }
 
  private:
+  static constexpr double rounding = 1e-9;  // m: more than that of the heights along a ray
+  [[nodiscard]] bool passes_over(const Ray& ray) const { return ray.direction.z >= 0 && ray.origin.z > highest_ + rounding; }
+  [[nodiscard]] bool leaves_before(const Ray& ray, double t) const;
+  [[nodiscard]] std::optional<double> cast_low(const Ray& ray, double range_max) const;
   [[nodiscard]] double clamped(int ix, int iy) const;
-  [[nodiscard]] std::optional<double> cast_cell(int i, int j, const Ray& grid_ray, double t_in, double t_out) const;
-  [[nodiscard]] std::optional<double> cast_block(int bi, int bj, const Ray& grid_ray, double t_in, double t_out) const;
+  struct Patch { double h00, h10, h01, h11; };  // heights at its corners
+  [[nodiscard]] Patch patch(int i, int j) const;
+  [[nodiscard]] static std::optional<double> cast_patch(const Patch& patch, int i, int j, const Ray& grid_ray, double t_in, double t_out);
+  [[nodiscard]] std::optional<double> cast_block(int bi, int bj, const Ray& grid_ray, const Vec3& inverse, double t_in, double t_out) const;
 
   double x_low_, y_low_, cell_x_, cell_y_;
   int count_x_, count_y_, blocks_x_, blocks_y_;

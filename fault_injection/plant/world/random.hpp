@@ -4,7 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <random>
+
+#include "plant/world/twister.hpp"
 
 namespace berm::plant {
 
@@ -36,7 +37,7 @@ class Draws {
   bool spare_ready_ = false;
 };
 
-using Random = Draws<std::mt19937_64>;
+using Random = Draws<Twister>;
 
 // Costs nothing to begin, for streams of a few hundred draws (splitmix64; Steele, Lea and Flood, 2014).
 class SplitMix {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 namespace berm::plant {
 namespace {
@@ -13,6 +14,22 @@ Vec3 point(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
 
 void nearer(std::optional<double> hit, double& range) {
   if (hit && *hit < range) range = *hit;
+}
+
+constexpr double rounding_m = 1e-6;  // more than the sums' rounding: what a ray only just touches is not left out
+
+RayFan in(const PlanarFrame& frame, const RayFan& fan) {
+  return {frame.in(fan.origin), frame.in(Ray{fan.origin, fan.ahead}).direction, frame.in(Ray{fan.origin, fan.aside}).direction, fan.spread};
+}
+
+// Whether the box reaches into the wedge that holds the fan. What cannot be told counts as met.
+bool may_meet(const RayFan& fan, const Vec3& low, const Vec3& high) {
+  const Vec3 from = 0.5 * (low + high) - fan.origin, half = 0.5 * (high - low);
+  const auto extent = [&half](const Vec3& n) { return half.x * std::abs(n.x) + half.y * std::abs(n.y) + half.z * std::abs(n.z); };
+  const double farthest = std::abs(from.x) + std::abs(from.y) + std::abs(from.z) + half.x + half.y + half.z;
+  const bool behind = dot(from, fan.ahead) + extent(fan.ahead) < -rounding_m;
+  const bool beside = std::abs(dot(from, fan.aside)) - extent(fan.aside) > fan.spread * farthest + rounding_m;
+  return !behind && !beside;
 }
 
 }  // namespace
@@ -90,7 +107,9 @@ double Scene::cast_truck(const TruckSolid& truck, const Ray& world, double range
 double Scene::cast_beyond(const Ray& world, double range) const {
   if (world.direction.z >= 0) return range;
   const HeightGrid& g = terrain_->grid();
+  const double z_at_range = world.origin.z + range * world.direction.z;
   for (const double level : terrain_->levels_beyond()) {
+    if (z_at_range > level + rounding_m) continue;  // met before it comes so low
     const double t = (level - world.origin.z) / world.direction.z;
     if (t <= 0 || t >= range) continue;
     const Vec3 p = world.at(t);
@@ -104,15 +123,17 @@ std::optional<double> Scene::cast(const Ray& world, const Ray& base, const Ray& 
   return hit ? std::optional<double>(hit->range) : std::nullopt;
 }
 
-std::optional<SceneHit> Scene::meet(const Ray& world, const Ray& base, const Ray& upper, double range_max) const {
+// of: which of each kind the ray is held against.
+template <class Indices>
+std::optional<SceneHit> Scene::first(const Indices& of, const Ray& world, const Ray& base, const Ray& upper, double range_max) const {
   double range = range_max, nearest_mover = range_max;
   int mover = no_mover;
-  if (cast_box(upper, implement_low_, implement_high_, range)) {
+  if (of.implement && cast_box(upper, implement_low_, implement_high_, range)) {
     for (const PrismSolid& s : implement_) nearer(s.cast(upper, range), range);
   }
-  for (const BoxSolid& b : upper_body_) nearer(cast_box(upper, b.low, b.high, range), range);
-  for (const BoxSolid& b : track_) nearer(cast_box(base, b.low, b.high, range), range);
-  for (const TruckSolid& t : truck_) range = cast_truck(t, world, range);
+  for (const std::size_t i : of.upper_body) nearer(cast_box(upper, upper_body_[i].low, upper_body_[i].high, range), range);
+  for (const std::size_t i : of.track) nearer(cast_box(base, track_[i].low, track_[i].high, range), range);
+  for (const std::size_t i : of.truck) range = cast_truck(truck_[i], world, range);
   const auto against = [&](const auto& solid, int which) {
     const double before = range;
     nearer(solid.cast(world, range), range);
@@ -120,14 +141,43 @@ std::optional<SceneHit> Scene::meet(const Ray& world, const Ray& base, const Ray
     mover = which;
     nearest_mover = range;
   };
-  for (size_t i = 0; i < box_.size(); ++i) against(box_[i], box_mover_[i]);
-  for (size_t i = 0; i < person_.size(); ++i) against(person_[i], person_mover_[i]);
+  for (const std::size_t i : of.box) against(box_[i], box_mover_[i]);
+  for (const std::size_t i : of.person) against(person_[i], person_mover_[i]);
   if (terrain_ != nullptr) {
     nearer(terrain_->grid().cast(world, range), range);
     range = cast_beyond(world, range);
   }
   if (range >= range_max) return std::nullopt;
   return SceneHit{range, range < nearest_mover ? no_mover : mover};
+}
+
+std::optional<SceneHit> Scene::meet(const Ray& world, const Ray& base, const Ray& upper, double range_max) const {
+  struct All {
+    bool implement = true;
+    std::ranges::iota_view<std::size_t, std::size_t> upper_body, track, truck, box, person;
+  };
+  const auto every = [](const auto& of) { return std::views::iota(std::size_t{0}, of.size()); };
+  return first(All{true, every(upper_body_), every(track_), every(truck_), every(box_), every(person_)}, world, base, upper, range_max);
+}
+
+std::optional<SceneHit> Scene::meet(const FanView& view, const Ray& world, const Ray& base, const Ray& upper, double range_max) const {
+  return first(view, world, base, upper, range_max);
+}
+
+bool Scene::look(const RayFan& world, const RayFan& base, const RayFan& upper, FanView& view) const {
+  if (std::max({upper_body_.size(), track_.size(), truck_.size(), box_.size(), person_.size()}) > FanView::most) return false;
+  view.implement = !implement_.empty() && may_meet(upper, implement_low_, implement_high_);
+  const auto choose = [](FanView::Few& few, const auto& of, const auto& may) {
+    few.count = 0;
+    for (std::size_t i = 0; i < of.size(); ++i)
+      if (may(of[i])) few.add(i);
+  };
+  choose(view.upper_body, upper_body_, [&](const BoxSolid& b) { return may_meet(upper, b.low, b.high); });
+  choose(view.track, track_, [&](const BoxSolid& b) { return may_meet(base, b.low, b.high); });
+  choose(view.truck, truck_, [&](const TruckSolid& t) { return may_meet(in(t.frame, world), t.low, t.high); });
+  choose(view.box, box_, [&](const BoxSolid& b) { return may_meet(in(b.frame, world), b.low, b.high); });
+  choose(view.person, person_, [&](const CylinderSolid& p) { return may_meet(world, {p.x - p.radius, p.y - p.radius, p.z_low}, {p.x + p.radius, p.y + p.radius, p.z_high}); });
+  return true;
 }
 
 void note(const SceneHit& hit, const Ray& world, std::vector<MoverReturn>* returns) {

@@ -1,6 +1,8 @@
 // Everything a scanner can see at one moment, gathered once a step, and the first thing a ray meets.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -19,6 +21,27 @@ constexpr int no_mover = -1;
 // What a ray meets first: where, and which person or vehicle it is (its place among the movers), if it is one.
 struct SceneHit { double range; int mover; };
 
+// Rays out of one place that stay near an upright plane through it, as the lasers of one firing do: forward along `ahead`, and their directions at most
+// `spread` to either side, along `aside`.
+struct RayFan {
+  Vec3 origin, ahead, aside;
+  double spread = 0;
+};
+
+// What rays of a fan may meet; all else in the scene they need not be held against.
+struct FanView {
+  static constexpr std::size_t most = 64;  // of each kind; a scene of more is looked at whole
+  struct Few {
+    std::array<std::uint8_t, most> index{};
+    std::size_t count = 0;
+    void add(std::size_t i) { index[count++] = static_cast<std::uint8_t>(i); }
+    [[nodiscard]] const std::uint8_t* begin() const { return index.data(); }
+    [[nodiscard]] const std::uint8_t* end() const { return index.data() + count; }
+  };
+  bool implement = true;
+  Few upper_body, track, truck, box, person;
+};
+
 class Scene {
  public:
   // Walls and cab of trucks, people, vehicles, fixed boxes.
@@ -28,6 +51,10 @@ class Scene {
 
   // The first hit. The rays are the same one: in the world, in the base frame and in the upper body's.
   [[nodiscard]] std::optional<SceneHit> meet(const Ray& world, const Ray& base, const Ray& upper, double range_max) const;
+  // The same of a ray of the fan that the view is of.
+  [[nodiscard]] std::optional<SceneHit> meet(const FanView& view, const Ray& world, const Ray& base, const Ray& upper, double range_max) const;
+  // The fan in the same three frames. False, and no view, where the scene has more than a view can tell of.
+  [[nodiscard]] bool look(const RayFan& world, const RayFan& base, const RayFan& upper, FanView& view) const;
   // Its range.
   [[nodiscard]] std::optional<double> cast(const Ray& world, const Ray& base, const Ray& upper, double range_max) const;
 
@@ -39,6 +66,8 @@ class Scene {
     std::vector<BoxSolid> part;
     const BedHeap* heap = nullptr;
   };
+  template <class Indices>
+  [[nodiscard]] std::optional<SceneHit> first(const Indices& of, const Ray& world, const Ray& base, const Ray& upper, double range_max) const;
   [[nodiscard]] double cast_truck(const TruckSolid& truck, const Ray& world, double range) const;
   [[nodiscard]] double cast_beyond(const Ray& world, double range) const;
 

@@ -4,13 +4,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "plant/world/lanes.hpp"
+
 namespace berm::plant {
 namespace {
 
 constexpr std::int64_t firing_ns = 55296;       // of all sixteen lasers, one after the other
 constexpr double turns_per_s = 10.0;
 constexpr double range_least = 0.5, range_most = 100.0, range_lsb = 0.002;
-constexpr int lasers = 16, blocks = 12;
+constexpr std::size_t lasers = 16;
+constexpr int blocks = 12;
 constexpr std::size_t block_bytes = 100, record_bytes = 3;
 constexpr std::int64_t hour_us = 3'600'000'000;
 constexpr std::uint8_t strongest = 0x37, dual = 0x39, product = 0x22, reflectivity = 30;
@@ -19,14 +22,49 @@ constexpr std::uint8_t strongest = 0x37, dual = 0x39, product = 0x22, reflectivi
 constexpr double elevation_deg(int laser) { return laser % 2 == 0 ? -15.0 + laser : laser; }
 
 // Of each laser: its elevation, and how far the sensor turns from the firing's begin until it fires.
-struct Laser { double up_cosine, up_sine, turn_cosine, turn_sine; };
-std::array<Laser, lasers> make_lasers() {
-  std::array<Laser, lasers> all{};
-  for (int laser = 0; laser < lasers; ++laser) {
-    const double e = elevation_deg(laser) * std::numbers::pi / 180, turn = turns_per_s * 2 * std::numbers::pi * laser * 2304e-9;
-    all[static_cast<std::size_t>(laser)] = {std::cos(e), std::sin(e), std::cos(turn), std::sin(turn)};
+struct Lasers {
+  std::array<double, lasers> up_cosine, up_sine, turn_cosine, turn_sine;
+  Lasers() {
+    for (std::size_t k = 0; k < lasers; ++k) {
+      const double e = elevation_deg(static_cast<int>(k)) * std::numbers::pi / 180, turn = turns_per_s * 2 * std::numbers::pi * static_cast<int>(k) * 2304e-9;
+      up_cosine[k] = std::cos(e), up_sine[k] = std::sin(e), turn_cosine[k] = std::cos(turn), turn_sine[k] = std::sin(turn);
+    }
   }
-  return all;
+};
+const Lasers fired;
+
+// One vector for each laser.
+struct Beams {
+  std::array<double, lasers> x, y, z;
+  [[nodiscard]] Vec3 of(std::size_t laser) const { return {x[laser], y[laser], z[laser]}; }
+};
+// Three axes of a frame in another.
+struct Axes { Vec3 x, y, z; };
+
+BERM_PLANT_LANES void turned_beams(const Beams& in, const Axes& by, Beams& out) {
+  for (std::size_t k = 0; k < lasers; ++k) {
+    out.x[k] = in.x[k] * by.x.x + in.y[k] * by.y.x + in.z[k] * by.z.x;
+    out.y[k] = in.x[k] * by.x.y + in.y[k] * by.y.y + in.z[k] * by.z.y;
+    out.z[k] = in.x[k] * by.x.z + in.y[k] * by.y.z + in.z[k] * by.z.z;
+  }
+}
+
+BERM_PLANT_LANES void swung_beams(const Beams& in, const PlanarFrame& body, Beams& out) {
+  for (std::size_t k = 0; k < lasers; ++k) {
+    out.x[k] = body.x + body.cos_yaw * in.x[k] - body.sin_yaw * in.y[k];
+    out.y[k] = body.y + body.sin_yaw * in.x[k] + body.cos_yaw * in.y[k];
+    out.z[k] = body.z + in.z[k];
+  }
+}
+
+// In the sensor's frame, which the firing began turned so far.
+BERM_PLANT_LANES void beams_of(const Lasers& l, double cosine, double sine, Beams& out) {
+  for (std::size_t k = 0; k < lasers; ++k) {
+    const double ahead = cosine * l.turn_cosine[k] - sine * l.turn_sine[k], aside = sine * l.turn_cosine[k] + cosine * l.turn_sine[k];
+    out.x[k] = l.up_cosine[k] * ahead;
+    out.y[k] = -l.up_cosine[k] * aside;
+    out.z[k] = l.up_sine[k];
+  }
 }
 
 double azimuth(std::int64_t firing) {
@@ -57,21 +95,36 @@ SpinningLidar::SpinningLidar(const ScannerConfig& noise, const LidarMount& mount
 
 Vec3 SpinningLidar::turned(const Vec3& v) const { return v.x * x_ + v.y * y_ + v.z * z_; }
 
-// What is drawn does not depend on what is hit. Dust sends back less than the target behind it: the target is the last and the strongest, and the
-// strongest but that is the dust (VLP-16 manual, dual return mode).
-SpinningLidar::Returns SpinningLidar::received(const std::optional<double>& hit, double noise) {
+// What is drawn does not depend on what is hit.
+SpinningLidar::Drawn SpinningLidar::draw() {
+  Drawn d{random_.normal(), random_.uniform(), 0.0, 0.0};
+  if (mount_.dual || mount_.outliers) d.what = random_.uniform(), d.where = random_.uniform();
+  return d;
+}
+
+SpinningLidar::Drawn SpinningLidar::next_drawn() { return taken_ < drawn_.size() ? drawn_[taken_++] : draw(); }
+
+void SpinningLidar::draw_ahead(std::size_t shots) {
+  drawn_.erase(drawn_.begin(), drawn_.begin() + static_cast<std::ptrdiff_t>(taken_));
+  taken_ = 0;
+  drawn_.reserve(shots);
+  while (drawn_.size() < shots) drawn_.push_back(draw());
+}
+
+// Dust sends back less than the target behind it: the target is the last and the strongest, and the strongest but that is the dust (VLP-16 manual, dual
+// return mode).
+SpinningLidar::Returns SpinningLidar::received(const std::optional<double>& hit, const Drawn& drawn) const {
   Returns back;
   const bool hits = hit && *hit >= range_least;
   back.met = hits;
-  if (hits) back.last = back.other = std::max(range_least, *hit + noise_.range_stddev * noise);
+  if (hits) back.last = back.other = std::max(range_least, *hit + noise_.range_stddev * drawn.noise);
   if (!mount_.dual && !mount_.outliers) return back;
-  const double what = random_.uniform(), where = random_.uniform();
   const double outlier = mount_.outliers ? noise_.outlier_probability : 0.0;
-  const double between = range_least + where * std::max(0.0, hit.value_or(range_most) - range_least);
-  if (what < outlier) {
+  const double between = range_least + drawn.where * std::max(0.0, hit.value_or(range_most) - range_least);
+  if (drawn.what < outlier) {
     back.last = back.other = between;
     back.met = false;
-  } else if (hits && mount_.dual && what < outlier + noise_.dust_probability) {
+  } else if (hits && mount_.dual && drawn.what < outlier + noise_.dust_probability) {
     back.other = std::min(between, back.last);
   }
   return back;
@@ -99,21 +152,28 @@ void SpinningLidar::fire(std::int64_t firing, double swing, const SensorAir& air
   std::fill(records, records + record_bytes * lasers, std::uint8_t{0});
   if (others != nullptr) std::fill(others, others + record_bytes * lasers, std::uint8_t{0});
   if (!in_sector) return;
-  static const std::array<Laser, lasers> fired = make_lasers();
   const double cosine = std::cos(at), sine = std::sin(at);
-  for (std::size_t laser = 0; laser < fired.size(); ++laser) {
-    const Laser& l = fired[laser];
-    const double noise = random_.normal(), lost = random_.uniform();  // drawn whatever is hit
-    const double ahead = cosine * l.turn_cosine - sine * l.turn_sine, aside = sine * l.turn_cosine + cosine * l.turn_sine;
-    const Vec3 direction = turned({l.up_cosine * ahead, -l.up_cosine * aside, l.up_sine});
-    const Ray upper{{mount_.position[0], mount_.position[1], mount_.position[2]}, direction};
-    const Ray base{body.out(upper.origin), body.out(upper.direction)};
-    const Ray world = stand.out(base);
-    const std::optional<SceneHit> hit = scene.meet(world, base, upper, range_most);
+  const Vec3 place{mount_.position[0], mount_.position[1], mount_.position[2]}, place_base = body.out(place), place_world = stand.out(place_base);
+  // The firing's lasers are upright over one another but for the turn meanwhile, and no steeper than 15 degrees.
+  const double turned_by = turns_per_s * 2 * std::numbers::pi * lasers * 2304e-9;
+  const RayFan upper_fan{place, turned({cosine, -sine, 0}), turned({sine, cosine, 0}), turned_by};
+  const RayFan base_fan{place_base, body.out(upper_fan.ahead), body.out(upper_fan.aside), turned_by};
+  const RayFan world_fan{place_world, stand.turned(base_fan.ahead), stand.turned(base_fan.aside), turned_by};
+  FanView view;
+  const bool seen = scene.look(world_fan, base_fan, upper_fan, view);
+  Beams own, in_upper, in_base, in_world;
+  beams_of(fired, cosine, sine, own);
+  turned_beams(own, {x_, y_, z_}, in_upper);
+  swung_beams(in_upper, body, in_base);
+  turned_beams(in_base, {stand.x(), stand.y(), stand.z()}, in_world);
+  for (std::size_t laser = 0; laser < lasers; ++laser) {
+    const Drawn drawn = next_drawn();
+    const Ray upper{place, in_upper.of(laser)}, base{place_base, in_base.of(laser)}, world{place_world, in_world.of(laser)};
+    const std::optional<SceneHit> hit = seen ? scene.meet(view, world, base, upper, range_most) : scene.meet(world, base, upper, range_most);
     const std::optional<double> range = hit ? std::optional<double>(hit->range) : std::nullopt;
-    Returns back = received(range, noise);
+    Returns back = received(range, drawn);
     blow(range, air, back);
-    if (air.covers(at) || lost < noise_.dropout_probability) continue;
+    if (air.covers(at) || drawn.lost < noise_.dropout_probability) continue;
     if (back.met) note(*hit, world, returns);
     put_return(records + record_bytes * laser, back.last);
     if (others != nullptr) put_return(others + record_bytes * laser, back.other);

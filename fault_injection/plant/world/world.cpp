@@ -17,6 +17,7 @@
 #include "plant/world/random.hpp"
 #include "plant/world/scanner.hpp"
 #include "plant/world/scene.hpp"
+#include "plant/world/side_thread.hpp"
 #include "plant/world/soil_cut.hpp"
 #include "plant/world/spinning_lidar.hpp"
 #include "plant/world/terrain.hpp"
@@ -98,6 +99,11 @@ struct World::State {
   // The truck that is here or expected; the last one when all are gone.
   [[nodiscard]] const Truck* shown() const { return truck.empty() ? nullptr : &truck[std::min(current, truck.size() - 1)]; }
   [[nodiscard]] oracle::Site site() const;
+  void place(const JointState& now);
+  void scan(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
+            std::vector<berm_scan_packet>& out);
+  void fire(size_t lidar, double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out,
+            std::vector<MoverReturn>& returns);
 
   WorldConfig config;
   ImplementShape shape;
@@ -113,7 +119,8 @@ struct World::State {
   std::vector<SpinningLidar> lidar;
   Scene scene;
   BasePose base;
-  std::vector<MoverReturn> mover_returns;
+  std::vector<MoverReturn> mover_returns, side_returns;
+  std::vector<LidarPacket> side_packets;
   size_t current = 0;
   std::vector<Overflow> over;
 };
@@ -139,27 +146,62 @@ DigForces World::step(double t, double dt, const JointState& now, const JointSta
   return forces;
 }
 
-void World::scan(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
-                 std::vector<berm_scan_packet>& out) {
-  State& w = *state_;
-  w.mover_returns.clear();
-  w.scene.place_site(w.terrain, w.truck, w.movers, w.config.boxes);
-  w.scene.place_machine(w.shape, link_frames(w.shape, now), std::max(0.0, w.load.volume() - w.load.struck()));
-  const BaseFrame base(w.base);
-  for (size_t i = 0; i < w.scanner.size(); ++i) {
-    const SensorAir air = w.air(w.config.scanner_faults, i, t);
-    if (air.silent) continue;
-    w.scanner[i].step(t, dt, {before.angle[0], pan_before.angle[i]}, {now.angle[0], pan_now.angle[i]}, w.scene, out, base, &w.mover_returns, air);
+void World::State::place(const JointState& now) {
+  mover_returns.clear();
+  scene.place_site(terrain, truck, movers, config.boxes);
+  scene.place_machine(shape, link_frames(shape, now), std::max(0.0, load.volume() - load.struck()));
+}
+
+void World::State::scan(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
+                        std::vector<berm_scan_packet>& out) {
+  const BaseFrame stand(base);
+  for (size_t i = 0; i < scanner.size(); ++i) {
+    const SensorAir a = air(config.scanner_faults, i, t);
+    if (a.silent) continue;
+    scanner[i].step(t, dt, {before.angle[0], pan_before.angle[i]}, {now.angle[0], pan_now.angle[i]}, scene, out, stand, &mover_returns, a);
   }
 }
 
+void World::State::fire(size_t i, double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out,
+                        std::vector<MoverReturn>& returns) {
+  const SensorAir a = air(config.lidar_faults, i, t);
+  if (!a.silent) lidar[i].step(t, dt, before.angle[0], now.angle[0], a, scene, BaseFrame(base), out, &returns);
+}
+
+void World::scan(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
+                 std::vector<berm_scan_packet>& out) {
+  state_->place(now);
+  state_->scan(t, dt, before, now, pan_before, pan_now, out);
+}
+
 void World::scan_lidars(double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out) {
+  for (size_t i = 0; i < state_->lidar.size(); ++i) state_->fire(i, t, dt, before, now, out, state_->mover_returns);
+}
+
+// Each lidar draws from its own stream, and the scene is only looked at.
+void World::sense(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
+                  std::vector<berm_scan_packet>& scans, std::vector<LidarPacket>& lidars, SideThread* side) {
   State& w = *state_;
-  const BaseFrame base(w.base);
-  for (size_t i = 0; i < w.lidar.size(); ++i) {
-    const SensorAir air = w.air(w.config.lidar_faults, i, t);
-    if (!air.silent) w.lidar[i].step(t, dt, before.angle[0], now.angle[0], air, w.scene, base, out, &w.mover_returns);
+  if (side == nullptr || w.lidar.size() < 2) {
+    scan(t, dt, before, now, pan_before, pan_now, scans);
+    scan_lidars(t, dt, before, now, lidars);
+    return;
   }
+  w.place(now);
+  w.side_packets.clear();
+  w.side_returns.clear();
+  side->give([&] {
+    for (size_t i = 1; i < w.lidar.size(); ++i) w.fire(i, t, dt, before, now, w.side_packets, w.side_returns);
+  });
+  w.scan(t, dt, before, now, pan_before, pan_now, scans);
+  w.fire(0, t, dt, before, now, lidars, w.mover_returns);
+  side->wait();
+  lidars.insert(lidars.end(), w.side_packets.begin(), w.side_packets.end());
+  w.mover_returns.insert(w.mover_returns.end(), w.side_returns.begin(), w.side_returns.end());
+}
+
+void World::draw_ahead() {
+  for (SpinningLidar& l : state_->lidar) l.draw_ahead(SpinningLidar::shots_a_cycle);
 }
 
 oracle::Site World::State::site() const {

@@ -28,7 +28,8 @@ struct DigForces {
   EdgeForce edge;
 };
 
-struct LidarPacket;     // world/spinning_lidar.hpp
+struct LidarPacket;
+class SideThread;     // world/spinning_lidar.hpp
 
 struct BedTruth { double x = 0.0, y = 0.0, yaw = 0.0, length = 0.0, width = 0.0, wall_top = 0.0; };  // inside, where it parks
 
@@ -70,6 +71,11 @@ class World {
             std::vector<berm_scan_packet>& out);
   // Firings of the lidars on the upper body in (t - dt, t], after scan() of the same step: it has gathered what there is to see.
   void scan_lidars(double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out);
+  // Both in one, with the same results: the firings of all lidars but the first in the side thread, if there is one.
+  void sense(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
+             std::vector<berm_scan_packet>& scans, std::vector<LidarPacket>& lidars, SideThread* side);
+  // Draws what the lidars' next step will need, in time that is to spare; what comes of it is the same.
+  void draw_ahead();
   // Of people and vehicles, in the newest scan() and the scan_lidars() after it.
   const std::vector<MoverReturn>& mover_returns() const;
   OracleVerdict judge(double t, const JointState& joints);  // independent oracle

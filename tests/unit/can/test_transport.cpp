@@ -55,6 +55,26 @@ TEST_F(Loopback, EveryOpenTransportHearsEveryFrame) {
   EXPECT_EQ(a.counters().sent, 1u);
 }
 
+// verifies: IF-CAN-16
+TEST_F(Loopback, ManyFramesAtOnceComeOneByOneInTheirOrder) {
+  std::vector<berm_can_frame> sent;
+  for (unsigned char i = 0; i < 75; ++i) sent.push_back({BERM_CAN_HEARTBEAT, static_cast<unsigned char>(i % 9), {i, 2, 3, 4, 5, 6, 7, 8}});
+  ASSERT_TRUE(a.send(sent.data(), static_cast<int>(sent.size())));
+  EXPECT_EQ(a.counters().sent, sent.size());
+  for (Transport* one : {&a, &b}) {
+    for (const berm_can_frame& frame : sent) {
+      berm_can_frame got{};
+      ASSERT_TRUE(one->receive(got, 1000));
+      EXPECT_EQ(got.id, frame.id);
+      EXPECT_EQ(got.length, frame.length);
+      EXPECT_EQ(std::memcmp(got.data, frame.data, frame.length), 0);
+    }
+    berm_can_frame got{};
+    EXPECT_FALSE(one->receive(got)) << "nothing more";
+    EXPECT_EQ(one->counters().wrong_length, 0u);
+  }
+}
+
 // verifies: IF-CAN-17
 TEST_F(Loopback, DatagramsThatAreNoFrameAreCountedAndSkipped) {
   for (const std::size_t size : {std::size_t{0}, std::size_t{1}, sizeof(can_frame), sizeof(canfd_frame) - 1, sizeof(canfd_frame) + 1, std::size_t{1000}})
