@@ -187,6 +187,7 @@ Joints Sequencer::settle(const Observation& o) {
 double Sequencer::share_that_may_trail() const {
   constexpr double over_bed = 0.40, beyond = 0.20;
   constexpr double trails = radians(8.0), lip_beyond = 0.9;  // m, of the opened bucket's lip beyond the dump point
+  if (sticking_.sticks()) return 0.0;  // what sticks lets go late and all at once
   const double bearing = task_.truck_bearing + std::copysign(trails, task_.next_bearing - task_.truck_bearing), r = task_.dump_radius + lip_beyond * scale_.bucket;
   const BedPoint there = to_bed(*site_.bed, r * std::cos(bearing), r * std::sin(bearing));
   const double aside = 0.5 * bucket_width(machine_);
