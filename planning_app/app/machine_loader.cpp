@@ -46,7 +46,9 @@ SiteModel site_model(const config::SiteFile& file) {
   for (const config::DigZoneFile& z : file.dig_zone) s.dig_zones.push_back({z.x_low, z.y_low, z.x_high, z.y_high, z.floor, z.ceiling});
   const config::TruckPlaceFile& t = file.truck;
   s.place = {t.centre[0], t.centre[1], t.yaw, t.target_kg};
-  for (const config::TruckZoneFile& z : file.truck_zone) s.truck_zones.push_back({z.x_low, z.y_low, z.x_high, z.y_high});
+  for (const config::TruckZoneFile& z : file.truck_zone) s.truck_zones.push_back({z.x_low, z.y_low, z.x_high, z.y_high, z.ceiling});
+  s.pass_over = file.pass_over;
+  for (const config::GroundZoneFile& z : file.ground_zone) s.ground_zones.push_back({z.x_low, z.y_low, z.x_high, z.y_high, z.pass_over});
   s.dig_swing_left = std::max(file.dig.swing[0], file.dig.swing[1]);
   s.dig_swing_right = std::min(file.dig.swing[0], file.dig.swing[1]);
   s.dig_radius_start = std::max(file.dig.radius[0], file.dig.radius[1]);

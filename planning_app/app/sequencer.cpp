@@ -15,7 +15,9 @@ constexpr double arrived = radians(1.5);
 constexpr double still = radians(0.8);            // rad/s
 constexpr double poor_share = 0.1;                // a pass that brings less of its goal found nothing
 constexpr int most_poor_passes = 4;               // in a row; then there is nothing left to dig from here
+constexpr double most_brake_share = 0.9;          // of the largest acceleration of the swing: no landing is planned harder
 constexpr double horn_s = 1.0;
+constexpr double resting = radians(-165.0);       // bucket: before this tilt nothing slides
 constexpr double full_share = 0.975;              // of a heaped bucket: what passes are planned with
 
 const char* phase_name(std::uint16_t phase) {
@@ -26,7 +28,7 @@ const char* phase_name(std::uint16_t phase) {
 }  // namespace
 
 Sequencer::Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, const ScriptSet& scripts, TruckFinder& finder, const ProgressLog& log)
-    : scripts_(scripts), machine_(machine), scale_(scale_of(machine)), heaped_kg_(machine.bucket_payload_kg), full_bucket_kg_(full_share * heaped_kg_), site_(site), log_(log), trucks_(trucks), ground_(site_), arm_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_),
+    : scripts_(scripts), machine_(machine), scale_(scale_of(machine)), heaped_kg_(machine.bucket_payload_kg), full_bucket_kg_(full_share * heaped_kg_), site_(site), log_(log), trucks_(trucks), ground_(site_), arm_(machine_), brakes_(most_brake_share * machine.joint[swing].acceleration_max), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_),
       load_check_(scale_.load), fill_(site.place.target_kg, full_bucket_kg_) {
   scanners_.begin_full_sweep();
   dig_.bearing = site.dig_swing_right - radians(60.0);  // no dig before the first: nothing to stay away from
@@ -146,7 +148,15 @@ Joints Sequencer::tempos() const {
   Joints tempo{1.0, 1.0, 1.0, 1.0};
   for (const Joint j : {boom, stick, bucket})
     if (script_.of(j).waited_for(swing)) tempo[j] = share;
+  // A bucket that still opens when the swing has turned round is timed by it no more.
+  if (script_.of(swing).reached(RuleMark::returns) && script_.of(bucket).rules()[static_cast<std::size_t>(script_.of(bucket).active())].mark == RuleMark::opens) tempo[bucket] = 1.0;
   return tempo;
+}
+
+void Sequencer::plan_landing(const Observation& o) {
+  // Full it lands near the truck, whose cab the kernel wants room to: there a harder landing would be stopped.
+  if (o.running() && holds_nothing_ && (stage_ == Stage::pass || stage_ == Stage::settle || stage_ == Stage::approach)) brakes_.step(o.time_s, o.velocity[swing], arm_.swing_deceleration());
+  arm_.brake_swing(holds_nothing_ ? brakes_.known() : 0.0);
 }
 
 Joints Sequencer::run_script(const Observation& o, std::uint32_t events) {
@@ -172,20 +182,37 @@ Joints Sequencer::settle(const Observation& o) {
   return arm_.toward(goals, script_.paces(), tempos(), o.angle, o.velocity);
 }
 
+// Of its load, what may still be in the bucket when the swing turns round: the rest runs out over the first degrees of the way back, where those are
+// over the bed.
+double Sequencer::share_that_may_trail() const {
+  constexpr double over_bed = 0.40, beyond = 0.20;
+  constexpr double trails = radians(8.0), lip_beyond = 0.9;  // m, of the opened bucket's lip beyond the dump point
+  if (sticking_.sticks()) return 0.0;  // what sticks lets go late and all at once
+  const double bearing = task_.truck_bearing + std::copysign(trails, task_.next_bearing - task_.truck_bearing), r = task_.dump_radius + lip_beyond * scale_.bucket;
+  const BedPoint there = to_bed(*site_.bed, r * std::cos(bearing), r * std::sin(bearing));
+  const double aside = 0.5 * bucket_width(machine_);
+  return std::fabs(there.u) + aside < 0.5 * site_.bed->length && std::fabs(there.v) < 0.5 * site_.bed->width ? over_bed : beyond;
+}
+
 std::uint32_t Sequencer::pass_events(const Observation& o) {
   constexpr double open_at_least = 0.25, open_at_most = 2.0, empty_share = 0.05;
+
   const bool opening = script_.of(bucket).reached(RuleMark::opens);
   const std::uint32_t weighed = load_check_.passed() ? event_weighed : event_none;
-  if (!opening || emptied_) return emptied_ ? event_emptied | weighed : weighed;
+  if (!opening || emptied_) return emptied_ ? event_emptied | event_empties | weighed : weighed;
   if (open_since_s_ < 0.0 && o.angle[bucket] > poses_.dump[bucket] - radians(30.0)) open_since_s_ = o.time_s;
-  if (open_since_s_ < 0.0) return weighed;
+  // More than half of what was in it is gone, and the bucket opens on: known only where it was weighed on the way.
+  const bool empties = o.payload_kg >= 0.0 && before_.known() && recent_.kg() < share_that_may_trail() * before_.kg();
+  const std::uint32_t so_far = empties ? event_empties | weighed : weighed;
+  if (open_since_s_ < 0.0) return so_far;
   // The load needs an open bucket, not time: while the bucket is slowed on its way the clock is too.
   const bool on_its_way = o.angle[bucket] < poses_.dump[bucket] - radians(8.0);
   if (on_its_way) open_since_s_ += (1.0 - arm_.shares()[bucket] * tempos()[bucket]) * machine_.cycle;
   const double open = o.time_s - open_since_s_;
-  const bool light = o.payload_kg >= 0.0 && recent_.kg() < empty_share * full_bucket_kg_ + sticking_.stays_kg(before_.kg());
+  const double stays_kg = sticking_.stays_kg(std::max(0.0, before_.kg()));
+  const bool light = o.payload_kg >= 0.0 && recent_.kg() < empty_share * full_bucket_kg_ + stays_kg;
   emptied_ = (open > open_at_least && (light || o.payload_kg < 0.0)) || open > open_at_most;
-  return emptied_ ? event_emptied | weighed : weighed;
+  return emptied_ ? event_emptied | event_empties | weighed : so_far;
 }
 
 Joints Sequencer::pass(const Observation& o) {
@@ -196,10 +223,14 @@ Joints Sequencer::pass(const Observation& o) {
   if (!script_.of(swing).reached(RuleMark::leaves)) enter_phase(BERM_PHASE_LIFT, o);
   else if (script_.of(swing).reached(RuleMark::returns)) enter_phase(BERM_PHASE_SWING_TO_DIG, o);
   else enter_phase(script_.of(bucket).reached(RuleMark::opens) ? BERM_PHASE_DUMP : BERM_PHASE_SWING_TO_TRUCK, o);
-  if (phase_ == BERM_PHASE_SWING_TO_TRUCK) before_.add(o.payload_kg);
-  if (phase_ == BERM_PHASE_SWING_TO_DIG) after_.add(o.payload_kg);
+  // Until the load slides, also when the bucket begins to open.
+  if (phase_ == BERM_PHASE_SWING_TO_TRUCK || (phase_ == BERM_PHASE_DUMP && forward(machine_, o.angle).bucket_attitude < resting)) before_.add(o.payload_kg);
+  if (emptied_) after_.add(o.payload_kg);
   const Joints goals = script_.goals();
-  const bool near = std::equal(goals.begin(), goals.end(), o.angle.begin(), [](double g, double a) { return std::fabs(g - a) < radians(4.0); });
+  // The boom may be higher yet: the drag's way down begins from where it is.
+  constexpr Joints close{radians(4.0), radians(5.0), radians(4.0), radians(5.0)};
+  bool near = true;
+  for (std::size_t j = 0; j < joints; ++j) near = near && std::fabs(goals[j] - o.angle[j]) < close[j];
   if (script_.at_last() && near) end_pass(o);
   return command;
 }
@@ -324,6 +355,7 @@ Answer Sequencer::step(const Observation& o) {
   look(o);
   hear(o);
   feel(o);
+  plan_landing(o);
   Answer answer;
   if (stage_ == Stage::ask_move || stage_ == Stage::being_moved) await_move(o);
   // While the operator trams the machine its stops are his.

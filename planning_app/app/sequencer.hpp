@@ -14,6 +14,7 @@
 #include "app/weighing.hpp"
 #include "motion/dig_path.hpp"
 #include "motion/soil_force.hpp"
+#include "motion/swing_braking.hpp"
 #include "perception/kernel_map.hpp"
 #include "planning/bed_map.hpp"
 #include "planning/dig_point.hpp"
@@ -60,6 +61,7 @@ private:
   void plan_next_dig(const Observation& o);
   DigNeeds needs_for(double kg) const;
   void note_cut(const Observation& o);
+  void plan_landing(const Observation& o);    // how hard the swing brakes
   void feel(const Observation& o);            // the implements' weight, or how hard the soil resists
   void learn_yield(double weighed_kg, double brought_along_kg);
   void hold_fill(double in_bucket_kg);
@@ -73,6 +75,7 @@ private:
   void begin_curl(const Observation& o);
   void plan_dump(const Observation& o);
   void begin_pass_search(const Observation& o, const Joints& lifted_from);
+  double share_that_may_trail() const;
   std::uint32_t pass_events(const Observation& o);
   void end_pass(const Observation& o);
   bool face_too_poor_for_a_truck();
@@ -100,6 +103,7 @@ private:
   std::optional<Skyline> skyline_;
   double skyline_s_ = 0.0;
   ArmController arm_;
+  SwingBraking brakes_;                       // with an empty bucket
   ScanScheduler scanners_;
   TruckLook look_;
   Recovery recovery_;

@@ -11,18 +11,23 @@ namespace {
 
 constexpr double bank_density = 1474.0;           // kg/m3, where nothing was learned yet
 constexpr double cut_reserve = 1.05;              // the cut is planned larger than the goal; the estimate ends it
-constexpr double air_speed = 1.6, soil_speed = 1.8, curl_speed = 2.2;  // m/s of the tip
+constexpr double air_speed = 3.0, soil_speed = 1.8, curl_speed = 2.2;  // m/s of the tip
+constexpr double least_share_of_speed = 0.4;      // in soil, of digs for little
 constexpr double stall_patience = 1.0;            // s
 constexpr double curled = radians(-174.0);        // absolute bucket angle with the mouth up
 constexpr double range_guard = radians(7.5);      // a standing joint's stop travel stays inside its range
 constexpr double near_truck = radians(20.0);      // either side of the dump's bearing
 constexpr double bed_points_age = 12.0;           // s, for the bed map
 
-double bucket_width(const MachineModel& machine) {
-  double half = 0.0;
+// How far the bucket's shell reaches below its tip at an attitude, m.
+double shell_under_tip(const MachineModel& machine, double attitude) {
+  constexpr double shell_side = -0.05;  // the outline's other side is the heaped load
+  double under = 0.0;
   for (const Prism& part : machine.parts)
-    if (part.link == bucket) half = std::max(half, part.half_width);
-  return 1.85 * half;  // the prism covers the bucket with some room
+    for (const auto& point : part.outline)
+      if (part.link == bucket && point[1] > shell_side)
+        under = std::max(under, -((point[0] - machine.bucket_length) * std::sin(attitude) + point[1] * std::cos(attitude)));
+  return under;
 }
 
 // Of wall clock: what of a cycle it took.
@@ -151,23 +156,36 @@ Joints Sequencer::dig(const Observation& o) {
   if (follower_.finished() || heavy || stalled) {
     begin_curl(o);
   }
-  return follower_.step(machine_, arm_, o.angle[swing], in_soil ? soil_speed : air_speed, o.angle, o.velocity);
+  // A small goal is overshot by what comes in while the bucket is told to stop.
+  const double gently = std::clamp(goal_kg_ / full_bucket_kg_, least_share_of_speed, 1.0);
+  return follower_.step(machine_, arm_, o.angle[swing], in_soil ? gently * soil_speed : air_speed, o.angle, o.velocity);
 }
 
-// Out of the soil straight up, for what lies over the bucket falls into it and what lies inward would be pushed; then up on, and inward a little, to
-// where the bucket can be curled wholly: low and far out the arm does not reach that.
+// Out of the soil straight up, for what lies over the bucket falls into it and what lies inward would be pushed, and curled so that the shell goes no
+// deeper, for soil under it holds a curl up more than all else; then up on, and inward a little, to where the bucket can be curled wholly: low and far
+// out the arm does not reach that.
 void Sequencer::begin_curl(const Observation& o) {
-  constexpr double over_surface = 0.15, inward = 0.05, lift = 0.45, step = 0.05, highest_rise = 2.5, most_inward = 0.5;
-  const ArmPoints now = forward(machine_, o.angle);
+  constexpr double over_surface = 0.15, inward = 0.05, lift = 0.80, step = 0.05, highest_rise = 2.5, most_inward = 0.5;
+  constexpr int curl_steps = 6;
+  constexpr double rise_sooner = 0.4;  // than the curl: clear of the wall behind the bucket
+  const ArmPoints now = forward(machine_, arm_.predicted(o.angle, o.velocity));  // it is on its way up already
   log_.event("dug", {{"time_s", o.time_s}, {"r_m", now.tip.r}, {"z_m", now.tip.z}, {"modelled_kg", cut_->volume() * bank_density * yield_},
                      {"felt_kg", filled_.kg()}, {"impulse_kns", 1e-3 * filled_.impulse()}});
-  const double up = now.tip.r - inward, z = std::max(now.tip.z, cut_->surface().at(up) + over_surface);
+  const double up = now.tip.r - inward, under = shell_under_tip(machine_, now.bucket_attitude);
+  const double last = std::min(now.bucket_attitude, curled), rise = std::max(0.0, shell_under_tip(machine_, last) - under);
+  std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}};
+  double z = now.tip.z;
+  for (int k = 1; k <= curl_steps; ++k) {
+    const double attitude = now.bucket_attitude + (last - now.bucket_attitude) * k / curl_steps;
+    z = std::max({z, now.tip.z + shell_under_tip(machine_, attitude) - under, now.tip.z + rise * std::pow(static_cast<double>(k) / curl_steps, rise_sooner)});
+    way.push_back({up, z, attitude});
+  }
+  z = std::max(z, cut_->surface().at(up) + over_surface);
   const auto curls = [&](double r, double height) { return inverse_tip(machine_, {r, height}, curled, range_guard).has_value(); };
   double r = up, top = z + lift;
   while (top < z + lift + highest_rise && !curls(up - most_inward, top)) top += step;
   while (r > SurfaceProfile::first && !curls(r, top)) r -= step;
-  const double halfway = std::min(now.bucket_attitude, 0.5 * (now.bucket_attitude + curled));
-  const std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}, {up, z, halfway}, {r, std::max(top, cut_->surface().at(r) + over_surface + lift), curled}};
+  way.push_back({r, std::max(top, cut_->surface().at(r) + over_surface + lift), curled});
   if (auto path = DigPath::solve(machine_, way)) {
     begin_pass_search(o, path->at(path->length()));
     follower_.begin(std::move(*path));
@@ -202,9 +220,9 @@ void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_fro
   const double here = o.angle[swing];
   dig_.bearing = here;
   plan_next_dig(o);
-  task_ = PassTask{lifted_from, dump_.bearing, dump_.radius, dig_.bearing, {dig_.drag.front().r, dig_.drag.front().z}, site_.bed->wall_top, site_.bed->wall_top, sticking_.open_farther(), more};
+  task_ = PassTask{lifted_from, dump_.bearing, dump_.radius, dig_.bearing, {dig_.drag.front().r, dig_.drag.front().z}, site_.bed->wall_top, site_.bed->wall_top, sticking_.open_farther(), brakes_.known(), more};
   task_.lifted_from[swing] = here;
-  const Skyline skyline(machine_, site_, kernel_map_.ground(KernelMap::Unseen::level));
+  const Skyline skyline(machine_, site_, kernel_map_.ground(KernelMap::Unseen::level), Skyline::OverHigh::refused);
   task_.truck_top = skyline.highest(dump_.bearing - near_truck, dump_.bearing + near_truck, 4.2 * scale_.arm, 8.6 * scale_.arm);
   const auto poses = pass_poses(machine_, task_);
   if (!poses) {
@@ -219,21 +237,29 @@ void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_fro
 Joints Sequencer::curl(const Observation& o) {
   if (search_ && !search_->done()) search_->step();
   if (cut_) cut_->reach(o.angle);
-  const bool done = !follower_.active() || follower_.finished() || o.time_s - stage_s_ > 5.0 || forward(machine_, o.angle).bucket_attitude < curled + radians(6.0);
+  const bool done = !follower_.active() || follower_.finished() || o.time_s - stage_s_ > 5.0 || forward(machine_, o.angle).bucket_attitude < curled + radians(16.0);  // the script curls on
   if (done && search_ && search_->done()) {
     note_cut(o);
+    poses_ = search_->poses();
     begin_script(pass_script(scripts_, machine_, task_, poses_, search_->thresholds()));
     emptied_ = false;
     open_since_s_ = -1.0;
     before_.reset();
     after_.reset();
     load_check_.begin(o.time_s, fill_.must_weigh(heaped_kg_));
-    log_.event("script", {{"swing_start_boom_deg", degrees(search_->thresholds().swing_start_boom)}, {"hover_offset_deg", degrees(search_->thresholds().hover_offset)},
+    log_.event("script", {{"swing_start_boom_deg", degrees(search_->thresholds().swing_start_boom)}, {"hover_offset_deg", degrees(search_->thresholds().hover_offset)}, {"hover_deg", degrees(poses_.hover[boom])}, {"brake_rad_s2", brakes_.known()}, {"lower_offset_deg", degrees(search_->thresholds().lower_offset)},
+                          {"extend_offset_deg", degrees(search_->thresholds().extend_offset)}, {"open_offset_deg", degrees(search_->thresholds().open_offset)},
                           {"truck_bearing_deg", degrees(dump_.bearing)}, {"clear", search_->clear()}, {"model_seconds", search_->seconds()}});
     enter(Stage::pass, o);
     return pass(o);
   }
   if (!follower_.active()) return {};
+  // A bucket that soil holds up while it curls comes free when it is lifted.
+  constexpr double lifting = 3.0, most_lift = 0.5;  // m/s a rad that the bucket is behind; m
+  constexpr double freely_behind = radians(3.0);    // as in the air
+  DigFollower::Departure departure = follower_.departure();
+  departure.lift = std::min(most_lift, departure.lift + lifting * std::max(0.0, follower_.bucket_behind() - freely_behind) * machine_.cycle);
+  follower_.depart(departure);
   return follower_.step(machine_, arm_, o.angle[swing], curl_speed, o.angle, o.velocity);
 }
 

@@ -1,5 +1,7 @@
 #include "motion/arm_controller.hpp"
 
+#include <algorithm>
+
 #include "motion/reach_preview.hpp"
 
 namespace berm::app {
@@ -21,6 +23,7 @@ Joints ArmController::toward(const Joints& goals, const Joints& paces, const Joi
   const double reach = reach_of(*machine_, angle);
   for (std::size_t j = 0; j < joints; ++j) {
     ControllerLimits limits = limits_of(*machine_, j, reach);
+    if (j == swing) swing_deceleration_ = limits.deceleration = std::max(limits.deceleration, swing_at_least_);
     limits.velocity *= paces[j];
     limits = limits.at_tempo(tempos[j]);
     const double then = controller_[j].predict(angle[j], velocity[j]).angle;

@@ -17,6 +17,9 @@ public:
   Joints toward(const Joints& goals, const Joints& paces, const Joints& tempos, const Joints& angle, const Joints& velocity);
   Joints toward(const Joints& goals, const Joints& paces, const Joints& angle, const Joints& velocity) { return toward(goals, paces, {1.0, 1.0, 1.0, 1.0}, angle, velocity); }
   Joints follow(const Joints& reference, const Joints& reference_velocity, const Joints& angle, const Joints& velocity);
+  // Landings of the swing are planned with no less than this deceleration (rad/s2), whatever the machine file's table says: learned (SwingBraking).
+  void brake_swing(double at_least) { swing_at_least_ = at_least; }
+  double swing_deceleration() const { return swing_deceleration_; }  // that toward planned with last
   // To be told once a cycle, last: what was requested in the end.
   void asked(const Joints& command);
   // Both, where there is no kernel to cut anything.
@@ -31,6 +34,7 @@ public:
 private:
   const MachineModel* machine_;
   std::array<JointController, joints> controller_;
+  double swing_at_least_ = 0.0, swing_deceleration_ = 0.0;
 };
 
 }  // namespace berm::app

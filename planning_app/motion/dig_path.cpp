@@ -8,7 +8,7 @@ namespace berm::app {
 namespace {
 
 constexpr double sample_spacing = 0.04;            // m
-constexpr double joint_share = 0.70;               // of a joint's largest speed that the reference may ask for
+constexpr double joint_share = 0.85;               // of a joint's largest speed that the reference may ask for
 constexpr double error_full_stop = radians(14.0);   // the reference waits when the joints are this far behind
 
 constexpr double guard = radians(7.5);              // keeps a standing joint's stop travel inside its range
@@ -84,6 +84,7 @@ Joints DigFollower::step(const MachineModel& machine, ArmController& arm, double
   double behind = 0.0;
   for (const std::size_t j : {boom, stick, bucket}) behind = std::max(behind, std::fabs(reference[j] - then[j]));
   const double go = std::clamp(1.0 - behind / error_full_stop, 0.0, 1.0);
+  bucket_behind_ = std::fabs(reference[bucket] - then[bucket]);
   stalled_ = go < 0.15 ? stalled_ + machine.cycle : 0.0;
   Joints reference_velocity{};
   const double ends = finished() ? 0.0 : speed * go;

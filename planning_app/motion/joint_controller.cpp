@@ -8,8 +8,9 @@ namespace berm::app {
 namespace {
 
 // Shares of what the machine file promises. The rest is for payload, shared pump flow and the kernel's own error bounds.
-constexpr double speed_share = 0.775;  // with latency and error bounds a swing stays in the braking table's last column but one
-constexpr double brake_share = 0.75;
+constexpr double swing_share = 0.775;  // with latency and error bounds a swing stays in the braking table's last column but one
+constexpr double arm_share = 0.95;
+constexpr double brake_share = 0.90;
 constexpr double acceleration_share = 0.85;  // the file's is an upper bound, measured on an empty machine too: a loaded one does less
 constexpr double bus_step = 0.0005;       // rad/s; the kernel cuts every command to whole ones
 constexpr double landing_gain = 4.5;      // 1/s; the dead time is predicted away, noise and a slower joint than its model remain
@@ -17,8 +18,10 @@ constexpr double landing_gain = 4.5;      // 1/s; the dead time is predicted awa
 double table_deceleration(const BrakingTable& table, std::size_t joint, double reach_m, double velocity_max) {
   std::size_t row = 0;
   while (row + 1 < table.reach.size() && table.reach[row] < reach_m) ++row;
-  const double stop_angle = table.angle[joint][row].back();
-  return velocity_max * velocity_max / (2.0 * stop_angle);
+  // A row's figure is that of its upper end: between two ends the joint brakes as far as between their figures.
+  const double upper = table.angle[joint][row].back(), lower = row == 0 ? upper : table.angle[joint][row - 1].back();
+  const double share = row == 0 ? 1.0 : std::clamp((reach_m - table.reach[row - 1]) / (table.reach[row] - table.reach[row - 1]), 0.0, 1.0);
+  return velocity_max * velocity_max / (2.0 * (lower + share * (upper - lower)));
 }
 
 }  // namespace
@@ -27,7 +30,7 @@ ControllerLimits limits_of(const MachineModel& machine, std::size_t joint, doubl
   const JointLimits& j = machine.joint[joint];
   const double acceleration = acceleration_share * j.acceleration_max;
   const double brake = std::min(table_deceleration(machine.braking, joint, reach_m, j.velocity_max), acceleration);
-  return {speed_share * j.velocity_max, acceleration, brake_share * brake, landing_gain};
+  return {(joint == swing ? swing_share : arm_share) * j.velocity_max, acceleration, brake_share * brake, landing_gain};
 }
 
 double JointController::ramped(double wanted, double from, const ControllerLimits& limits) const {

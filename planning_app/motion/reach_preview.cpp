@@ -166,6 +166,13 @@ double bucket_underside(const MachineModel& machine, const Joints& pose) {
   return lowest;
 }
 
+double bucket_width(const MachineModel& machine) {
+  double half = 0.0;
+  for (const Prism& part : machine.parts)
+    if (part.link == bucket) half = std::max(half, part.half_width);
+  return 1.85 * half;  // the prism covers the bucket with some room
+}
+
 double reach_of(const MachineModel& machine, const Joints& pose) {
   double reach = 0.0;
   for (const Prism& part : machine.parts)

@@ -49,6 +49,9 @@ LowerEdge lower_edge(const MachineModel& machine, const Joints& pose);
 // z of the bucket's underside in a pose.
 double bucket_underside(const MachineModel& machine, const Joints& pose);
 
+// Of the bucket's cutting edge.
+double bucket_width(const MachineModel& machine);
+
 // Farthest point of the implements from the swing axis in a pose.
 double reach_of(const MachineModel& machine, const Joints& pose);
 

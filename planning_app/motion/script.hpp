@@ -16,6 +16,7 @@ enum Event : std::uint32_t {
   event_none = 0,
   event_emptied = 1,  // the bucket has let its load go
   event_weighed = 2,  // it holds no more than it may, or what it holds does not matter yet
+  event_empties = 4,  // what is still in it will have left before the swing has gone far
 };
 
 struct Condition {

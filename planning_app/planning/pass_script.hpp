@@ -21,6 +21,7 @@ struct PassTask {
   double truck_top = 0.0;      // z of the highest thing under the swing near the truck; never taken as lower than its walls,
   double wall_top = 0.0;       // which end here
   double open_farther = 0.0;   // rad, than the bucket otherwise opens: soil sticks; as far as its range allows
+  double brake_empty = 0.0;    // rad/s2 that landings of the empty swing are planned with at least (SwingBraking)
   bool lower_at_end = true;    // false: stay high after the pass, the truck is full
 };
 
@@ -36,6 +37,7 @@ struct PassThresholds {
   double open_stick = 0.0;         // ... and with the stick beyond this
   double pour_bucket = 0.0;        // bucket angle above which the load pours: the stick moves to the dump point
   double hover_offset = 0.0;       // boom, stick and bucket reach out over the dig this far before its bearing
+  double lower_offset = 0.0;       // ... and go down to where the drag begins
 };
 
 // Nothing when the dump point is out of reach.
@@ -71,12 +73,14 @@ public:
   bool done() const { return stage_ == Stage::done; }
   void step();
   const PassThresholds& thresholds() const { return thresholds_; }
+  const PassPoses& poses() const { return poses_; }  // hovers lower over the dig where there is room
   bool clear() const { return clear_; }            // of the whole pass, by the models; false: the last candidate stands, the guard will slow it
   double seconds() const { return seconds_; }      // the models' time for the pass without the dig
 
 private:
-  enum class Stage { swing_out, swing_back, done };
-  struct Outcome { bool clear_out = true, clear_back = true, finished = false; double seconds = 0.0; };
+  enum class Stage { swing_out, swing_back, hover, lower, done };
+  struct Outcome { bool clear_out = true, clear_over_bed = true, clear_back = true, finished = false; double seconds = 0.0; };  // out: until the arm reaches out over the bed
+  void reach_over_bed();
   Outcome simulate(const PassThresholds& thresholds) const;
 
   const ScriptSet* scripts_;
@@ -86,6 +90,7 @@ private:
   PassPoses poses_;
   PassThresholds thresholds_;
   Stage stage_ = Stage::swing_out;
+  double lead_ = 0.0;               // s before the swing stands that the bucket begins to open
   int candidate_ = 0;
   bool clear_ = false;
   double seconds_ = 0.0;

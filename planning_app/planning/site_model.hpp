@@ -15,7 +15,8 @@ struct TruckPlace {               // where trucks park
   double target_kg = 0.0;
 };
 
-struct TruckZone { double x_low = 0.0, y_low = 0.0, x_high = 0.0, y_high = 0.0; };
+struct TruckZone { double x_low = 0.0, y_low = 0.0, x_high = 0.0, y_high = 0.0, ceiling = 0.0; };
+struct GroundZone { double x_low = 0.0, y_low = 0.0, x_high = 0.0, y_high = 0.0, pass_over = 0.0; };  // lower ground
 
 struct TruckBed {                 // inside of a recognised bed
   double centre_x = 0.0, centre_y = 0.0;
@@ -31,6 +32,8 @@ struct SiteModel {
   std::vector<DigZone> dig_zones;
   TruckPlace place;
   std::vector<TruckZone> truck_zones;
+  double pass_over = std::numeric_limits<double>::infinity();  // z: over what stands higher the kernel lets nothing pass, but in the zones
+  std::vector<GroundZone> ground_zones;
   std::optional<TruckBed> bed;    // of the truck that was recognised, while it is there
   double dig_swing_left = 0.0, dig_swing_right = 0.0;  // bearings between which the app digs; left > right
   double dig_radius_start = 0.0, dig_radius_end = 0.0; // of the tip, start > end

@@ -31,11 +31,18 @@ void from_bed(const TruckBed& bed, const BedPoint& p, double& x, double& y) {
 
 namespace {
 
-bool in_zone(const DigZone& z, double x, double y) {
-  // The kernel excepts whole cells of its map only.
-  constexpr double cell = 0.3, rounding = 1e-6;
+constexpr double cell = 0.3, rounding = 1e-6;  // of the kernel's map
+
+// The kernel excepts whole cells of its map only.
+template <typename Zone>
+bool in_zone(const Zone& z, double x, double y) {
   const double x_low = std::floor(x / cell) * cell, y_low = std::floor(y / cell) * cell;
   return x_low > z.x_low - rounding && x_low + cell < z.x_high + rounding && y_low > z.y_low - rounding && y_low + cell < z.y_high + rounding;
+}
+
+bool meets_zone(const GroundZone& z, double x, double y) {
+  const double x_low = std::floor(x / cell) * cell, y_low = std::floor(y / cell) * cell;
+  return x_low + cell > z.x_low - rounding && x_low < z.x_high + rounding && y_low + cell > z.y_low - rounding && y_low < z.y_high + rounding;
 }
 
 // Soil that may be touched: what stands higher than the zone's ceiling is no soil, and what is unseen may be anything.
@@ -51,6 +58,17 @@ bool in_dig_zone(const SiteModel& site, double x, double y) {
   return std::any_of(site.dig_zones.begin(), site.dig_zones.end(), [&](const DigZone& z) { return in_zone(z, x, y); });
 }
 
+double pass_over_limit(const SiteModel& site, double x, double y) {
+  double limit = site.pass_over;
+  for (const GroundZone& z : site.ground_zones)
+    if (z.pass_over < limit && meets_zone(z, x, y)) limit = z.pass_over;
+  for (const TruckZone& z : site.truck_zones)
+    if (site.bed && z.ceiling > limit && in_zone(z, x, y)) limit = z.ceiling;
+  for (const DigZone& z : site.dig_zones)
+    if (z.ceiling > limit && in_zone(z, x, y)) limit = z.ceiling;
+  return limit;
+}
+
 std::size_t Skyline::slot(double bearing, int bin) {
   const int b = static_cast<int>(std::lround(degrees(wrapped(bearing)) * bearings / 360.0));
   return static_cast<std::size_t>(((b % bearings) + bearings) % bearings * LowerEdge::bins + bin);
@@ -60,16 +78,16 @@ Ground ground_of(const TerrainMap& terrain) {
   return [&terrain](double x, double y) { return terrain.height_or(x, y, unknown_height); };
 }
 
-Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Ground& ground)
+Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Ground& ground, OverHigh over_high)
     : machine_(&machine), all_(static_cast<std::size_t>(bearings * LowerEdge::bins), nothing), outside_dig_zone_(all_) {
   floor_ = nothing;
   for (const DigZone& z : site.dig_zones) floor_ = std::max(floor_, z.floor);
   double half_width = 0.0;
   for (const Prism& part : machine.parts) half_width = std::max(half_width, part.half_width);
+  half_width_ = half_width;
   half_width += 0.3;  // a cell of the kernel's map
   const double bed_c = site.bed ? std::cos(site.bed->yaw) : 1.0, bed_s = site.bed ? std::sin(site.bed->yaw) : 0.0;
-  const auto top = [&](double x, double y) {
-    double z = ground(x, y);
+  const auto top = [&](double x, double y, double z) {
     if (!site.bed || z >= site.bed->wall_top) return z;
     const TruckBed& bed = *site.bed;
     const double dx = x - bed.centre_x, dy = y - bed.centre_y;
@@ -91,7 +109,7 @@ Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Groun
       fresh = {r, nothing, nothing};
       for (double across = -half_width; across <= half_width + 1e-9; across += lateral_step) {
         const double x = r * c - across * s, y = r * s + across * c;
-        const double z = top(x, y);
+        const double z = top(x, y, ground(x, y));
         fresh.highest = std::max(fresh.highest, z);
         if (z > fresh.outside && !diggable(site, x, y, z)) fresh.outside = z;
       }
@@ -104,10 +122,33 @@ Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Groun
         highest = std::max(highest, at.highest);
         highest_outside = std::max(highest_outside, at.outside);
       }
-      all_[static_cast<std::size_t>(b * LowerEdge::bins + bin)] = highest;
-      outside_dig_zone_[static_cast<std::size_t>(b * LowerEdge::bins + bin)] = highest_outside;
+      const std::size_t i = static_cast<std::size_t>(b * LowerEdge::bins + bin);
+      all_[i] = highest;
+      outside_dig_zone_[i] = highest_outside;
     }
   }
+  if (over_high == OverHigh::ignored) return;
+  too_high_.assign(static_cast<std::size_t>(cells_side * cells_side), 0);
+  for (int iy = 0; iy < cells_side; ++iy)
+    for (int ix = 0; ix < cells_side; ++ix) {
+      const double x = (ix - cells_side / 2 + 0.5) * cell, y = (iy - cells_side / 2 + 0.5) * cell, z = ground(x, y);
+      // Exactly unknown_height: never observed, and whoever asks for it so takes it for free.
+      if (z != unknown_height && z > pass_over_limit(site, x, y)) too_high_[static_cast<std::size_t>(iy * cells_side + ix)] = 1;
+    }
+  no_passing_.assign(static_cast<std::size_t>(over_bearings * LowerEdge::bins), 0);
+  for (int b = 0; b < over_bearings; ++b)
+    for (int bin = static_cast<int>(machine.own_body_radius / LowerEdge::bin_m); bin < LowerEdge::bins; ++bin)
+      no_passing_[static_cast<std::size_t>(b * LowerEdge::bins + bin)] = may_pass(2.0 * std::numbers::pi * b / over_bearings, bin) ? 0 : 1;
+}
+
+// Not widened by a cell, as heights are: a parked truck's cab stands close to where a bucket is dumped.
+bool Skyline::may_pass(double bearing, int bin) const {
+  const double r = (bin + 0.5) * LowerEdge::bin_m, c = std::cos(bearing), s = std::sin(bearing);
+  for (double across = -half_width_; across <= half_width_ + 1e-9; across += lateral_step) {
+    const int ix = static_cast<int>(std::floor((r * c - across * s) / cell)) + cells_side / 2, iy = static_cast<int>(std::floor((r * s + across * c) / cell)) + cells_side / 2;
+    if (ix >= 0 && iy >= 0 && ix < cells_side && iy < cells_side && too_high_[static_cast<std::size_t>(iy * cells_side + ix)] != 0) return false;
+  }
+  return true;
 }
 
 double Skyline::highest(double bearing_low, double bearing_high, double r_low, double r_high) const {
@@ -130,7 +171,18 @@ std::optional<Skyline::Blocking> Skyline::blocking(const ReachIntervals& box) co
   constexpr double step = 2.0 * std::numbers::pi / bearings;
   for (double bearing = box.low[swing]; bearing < box.high[swing] + step; bearing += step)
     for (int bin = 0; bin < LowerEdge::bins; ++bin)
-      if (const double z = top[slot(bearing, bin)]; edge.z(bin) < z + margin) return Blocking{Blocking::What::ground, bearing, (bin + 0.5) * LowerEdge::bin_m, z};
+      if (const double z = top[slot(bearing, bin)]; edge.z(bin) != LowerEdge::none && edge.z(bin) < z + margin) return Blocking{Blocking::What::ground, bearing, (bin + 0.5) * LowerEdge::bin_m, z};
+  if (no_passing_.empty()) return std::nullopt;
+  const auto too_high = [&](double bearing, int bin) { return Blocking{Blocking::What::too_high, bearing, (bin + 0.5) * LowerEdge::bin_m, height(bearing, bin)}; };
+  constexpr double over_step = 2.0 * std::numbers::pi / over_bearings;
+  const int first = static_cast<int>(std::ceil(box.low[swing] / over_step)), last = static_cast<int>(std::floor(box.high[swing] / over_step));
+  for (int bin = 0; bin < LowerEdge::bins; ++bin) {
+    if (edge.z(bin) == LowerEdge::none) continue;
+    for (const double end : {box.low[swing], box.high[swing]})
+      if (!may_pass(end, bin)) return too_high(end, bin);
+    for (int b = first; b <= last; ++b)
+      if (no_passing_[static_cast<std::size_t>(((b % over_bearings) + over_bearings) % over_bearings * LowerEdge::bins + bin)] != 0) return too_high(b * over_step, bin);
+  }
   return std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 // implements' width. Answers whether a reach preview is clear of it.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -21,7 +22,9 @@ Ground ground_of(const TerrainMap& terrain);
 class Skyline {
 public:
   // The truck's bed counts as high as its walls, whatever was seen. machine must outlive the skyline, ground need not.
-  Skyline(const MachineModel& machine, const SiteModel& site, const Ground& ground);
+  // OverHigh::refused: what stands higher than the site's limits may not be passed over at all, as the kernel has it.
+  enum class OverHigh { ignored, refused };
+  Skyline(const MachineModel& machine, const SiteModel& site, const Ground& ground, OverHigh over_high = OverHigh::ignored);
 
   // Whether the implements stay clear, by the kernel's margin and a little more, of everything under the intervals. In the dig zone contact is
   // allowed while the swing is slow and the lower edge above the zone's floor.
@@ -29,7 +32,7 @@ public:
   bool clear(const Joints& angle, const Joints& velocity) const { return clear(preview(*machine_, angle, velocity)); }
 
   struct Blocking {
-    enum class What { joint_range, own_body, ground } what = What::ground;
+    enum class What { joint_range, own_body, ground, too_high } what = What::ground;
     double bearing = 0.0, distance = 0.0, height = 0.0;  // of the ground; height is infinite where it is unseen
   };
   std::optional<Blocking> blocking(const ReachIntervals& box) const;
@@ -44,11 +47,20 @@ private:
 
   const MachineModel* machine_;
   double floor_ = 0.0;
+  static constexpr int over_bearings = 360, cells_side = 100;
+  bool may_pass(double bearing, int bin) const;
+
   std::vector<double> all_, outside_dig_zone_;
+  double half_width_ = 0.0;               // of the implements
+  std::vector<std::uint8_t> too_high_;    // by cell of the kernel's map: nothing may pass over it, however high; empty where that is not asked
+  std::vector<std::uint8_t> no_passing_;  // the same by bearing and distance
 };
 
 // Whether a point of the plan lies in a dig zone.
 bool in_dig_zone(const SiteModel& site, double x, double y);
+
+// The height up to which the implements may pass over a point: of its cell of the kernel's map, by the site's file.
+double pass_over_limit(const SiteModel& site, double x, double y);
 
 // Bed coordinates: u along the long axis, v to its left, origin at the bed's centre.
 struct BedPoint { double u = 0.0, v = 0.0; };

@@ -143,8 +143,10 @@ std::vector<Ray> rays_meeting(const BedPose& pose, const std::vector<Ray>& rays,
   return out;
 }
 
+namespace {
+
 // Whether the return lies in the plane of a far wall's inner face, but above its top. No heap comes so high beside a wall.
-static bool above_inner(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& p) {
+bool above_inner(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& p) {
   if (p.z() < kAboveInner || p.z() > kAboveInnerMost) return false;
   for (int axis = 0; axis < 2; ++axis)
     for (const int side : {-1, 1}) {
@@ -154,6 +156,8 @@ static bool above_inner(const BedPose& pose, const Eigen::Vector3d& a, const Eig
     }
   return false;
 }
+
+}  // namespace
 
 BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays) {
   BedEvidence e;
@@ -183,7 +187,7 @@ BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays) {
     }
     if (m.what == Meeting::none || m.what == Meeting::outer_face || m.what == Meeting::below_side) continue;
     const Eigen::Vector3d& p = m.end;
-    if (above_inner(pose, a, p)) ++e.above_face, e.score -= kAbove;
+    if (above_inner(pose, a, p)) ++e.above_inner, e.score -= kAbove;
     const double to_wall = std::min(pose.length / 2 - std::abs(p.x()), pose.width / 2 - std::abs(p.y()));
     if (to_wall < 0.0) continue;
     const bool steep = (ray.upright && to_wall > kUprightMargin) || to_wall < heap_margin(p.z());

@@ -92,7 +92,7 @@ std::vector<Ray> rays_meeting(const BedPose& pose, const std::vector<Ray>& rays,
 
 struct BedEvidence {
   double score = 0.0;
-  int outer_face = 0, inner_face = 0, wall_top = 0, inside = 0, through = 0, before = 0, over = 0, above_face = 0;
+  int outer_face = 0, inner_face = 0, wall_top = 0, inside = 0, through = 0, before = 0, over = 0, above_face = 0, above_inner = 0;
   int level_inside = 0;  // of the returns over the opening, within 5 cm of the plane of the tops, more than 0.3 m from the walls
   int below_inside = 0;  // more than 5 cm below that plane
   int above_inside = 0;

@@ -68,7 +68,7 @@ def turn():
 def slip():
     # Half a metre in 0.5 s, which no frame shows: found by the terrain that is seen in the next seconds, with the whole window of 4 s at the latest.
     for seed in (1, 2):
-        stops_and_goes_on("base_shifts", seed, 8.0, moves_from_s=48.0, reset_s=100.0, places_hold=False)
+        stops_and_goes_on("base_shifts", seed, 8.0, moves_from_s=52.0, reset_s=100.0, places_hold=False)
 
 
 main([tilt, turn, slip])

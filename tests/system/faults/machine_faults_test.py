@@ -101,9 +101,10 @@ def stuck_swing_valve_stands():
 
 
 def joints_that_move_untold_are_uncommanded():
-    """The swing while it stands over the truck, the others while it swings back."""
-    dumping = time_when(lambda row: 300.0 < float(row["payload_kg"]) < 700.0 and abs(float(row["swing_rad_s"])) < 0.001 and float(row["swing_rad"]) > 1.0)
-    back = time_when(lambda row: float(row["swing_rad_s"]) < -SWINGING)
+    """The swing while it stands over the truck (it turns round before the bucket is empty), the others while it swings back."""
+    dumping = time_when(lambda row: 900.0 < float(row["payload_kg"]) < 1300.0 and abs(float(row["swing_rad_s"])) < 0.001 and float(row["swing_rad"]) > 1.0)
+    # Boom and stick wait there between folding and reaching out: what they do then nobody asked for.
+    back = time_when(lambda row: float(row["swing_rad_s"]) < -0.8 * SWINGING and abs(float(row["boom_rad_s"])) < 0.001 and abs(float(row["stick_rad_s"])) < 0.001)
     for joint, factor, at in (("swing", -0.5, dumping), ("boom", -0.5, back), ("stick", 0.5, back), ("bucket", 1.0, back)):
         check(f"runaway_{joint}", [("machine_fault", {"kind": '"runaway"', "joint": f'"{joint}"', "at_s": at, "factor": factor})], at, "uncommanded", 3.0)
 

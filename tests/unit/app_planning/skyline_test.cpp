@@ -140,4 +140,32 @@ TEST(PassSearch, FindsASwingThatStartsBeforeTheBoomIsUpAndStaysClear) {
   EXPECT_LT(search.seconds(), 18.0);
 }
 
+TEST(Skyline, OverATrucksCabNothingPassesHoweverHigh) {
+  const MachineModel m = berm::app_bench::zx200();
+  const SiteModel site = berm::app_bench::bench_with_truck();
+  TerrainMap cab;  // beyond the truck zone's end, 0.7 m over the bench's level
+  for (double x = -5.5; x < -3.5; x += 0.1)
+    for (double y = 5.8; y < 7.8; y += 0.1) cab.insert(x, y, 0.7, 1.0);
+  const Skyline by_height(m, site, ground_of(cab)), refused(m, site, ground_of(cab), Skyline::OverHigh::refused);
+  auto high = inverse_pin(m, {6.4, 3.6}, radians(-175.0), radians(7.0));
+  ASSERT_TRUE(high);
+  Joints over_cab = *high, over_bed = *high;
+  over_cab[swing] = radians(125.0);
+  over_bed[swing] = radians(95.0);
+  EXPECT_TRUE(by_height.clear(over_cab, {}));
+  EXPECT_FALSE(refused.clear(over_cab, {}));
+  EXPECT_TRUE(refused.clear(over_bed, {}));
+  EXPECT_FALSE(refused.clear(over_bed, {radians(30.0), 0.0, 0.0, 0.0})) << "it could not stop before the cab";
+  EXPECT_TRUE(refused.clear(over_bed, {radians(-30.0), 0.0, 0.0, 0.0}));
+}
+
+TEST(Skyline, WhereTheGroundMayBePassedOver) {
+  SiteModel site = berm::app_bench::bench_with_truck();
+  EXPECT_NEAR(pass_over_limit(site, -8.0, 0.0), 0.8, 1e-9);
+  EXPECT_LT(pass_over_limit(site, -10.0, 8.0), -0.8) << "the lower ground";
+  EXPECT_NEAR(pass_over_limit(site, 0.0, 7.0), 1.0, 1e-9) << "the truck's bed";
+  site.bed.reset();
+  EXPECT_LT(pass_over_limit(site, 0.0, 7.0), -0.8) << "no truck: lower ground";
+}
+
 }  // namespace

@@ -55,6 +55,38 @@ TEST(BedFit, OfAnEndThatNoRayShowsTheLengthIsUnsure) {
   EXPECT_LT(std::sqrt(half.covariance(7, 7)), 0.1) << "its width is seen";
 }
 
+// Seen from before, over the cab's end: rays from within that pass the far side just beyond its inner face's end bound the open end as well.
+TEST(BedFit, AnOpenEndIsNotDrawnOut) {
+  for (const double length : {4.9, 4.95, 5.0, 5.05, 5.1}) {
+    DrawnBed drawn;
+    drawn.x = 5.0, drawn.y = 6.5, drawn.yaw = -2.4, drawn.length = length;
+    drawn.rear_wall = drawn.cab = false;
+    BedPose start;
+    start.middle = {drawn.x, drawn.y, drawn.top};
+    start.yaw = drawn.yaw, start.length = length + 0.06, start.width = drawn.width, start.thickness = drawn.thickness, start.open_end = -1;
+    const FittedBed fit = fit_bed(start, rays_near(make_fans(sweep_of(drawn), drawn_viewpoint), start), 4);
+    ASSERT_TRUE(fit.converged);
+    EXPECT_NEAR(fit.pose.length, length, 0.08) << "half of what lies between two scanlines";
+  }
+}
+
+TEST(BedFit, CeresAndTheSumsComeToTheSameBed) {
+  for (const double yaw : {0.3, 1.2, -0.7}) {
+    DrawnBed drawn;
+    drawn.yaw = yaw;
+    BedPose start;
+    start.middle = {drawn.x + 0.03, drawn.y - 0.02, drawn.top + 0.02};
+    start.yaw = drawn.yaw + 0.01, start.length = drawn.length + 0.04, start.width = drawn.width, start.thickness = 0.09;
+    const std::vector<Ray> rays = rays_near(make_fans(sweep_of(drawn), drawn_viewpoint), start);
+    const FittedBed by_sums = fit_bed(start, rays, 3), by_ceres = fit_bed(start, rays, 3, BedSolver::ceres);
+    ASSERT_TRUE(by_sums.converged && by_ceres.converged);
+    EXPECT_LT((by_sums.pose.middle - by_ceres.pose.middle).norm(), 0.002);
+    EXPECT_NEAR(by_sums.pose.yaw, by_ceres.pose.yaw, 2e-4);
+    EXPECT_NEAR(by_sums.pose.length, by_ceres.pose.length, 0.002);
+    EXPECT_NEAR(by_sums.pose.width, by_ceres.pose.width, 0.002);
+  }
+}
+
 TEST(BedFit, SaysWhenTooFewRaysSpeakOfTheBed) { EXPECT_FALSE(fit_bed({}, {}, 3).converged); }
 
 }  // namespace

@@ -62,5 +62,25 @@ TEST(BedModel, OpenEndLetsIn) {
   EXPECT_EQ(from_behind({-1.0, 0.2, -0.9}).what, Meeting::through_face);
 }
 
+// Outer half width 1.3. Below 0.08 m under the top the side may draw in along a circle of that radius.
+TEST(BedModel, BelowAPipesSideARayMayPass) {
+  const auto below = [](const Eigen::Vector3d& from, const Eigen::Vector3d& to) { return below_pipe(from, to - from, 1.3, 0.12 / (to - from).norm()); };
+  EXPECT_FALSE(below({0.0, 5.0, 1.0}, {0.0, 0.0, -0.3})) << "through the upright side";
+  EXPECT_TRUE(below({0.0, 5.0, 3.0}, {0.0, 1.19, -0.55})) << "ends where the pipe may be";
+  EXPECT_TRUE(below({6.0, 3.0, 2.0}, {-2.0, 0.9, -2.5})) << "along the side and below it";
+  EXPECT_FALSE(below({0.0, 5.0, 3.0}, {0.0, 0.2, -1.0})) << "well within the pipe";
+}
+
+TEST(BedModel, ReturnsAboveAnInnerFaceCountAgainstTheBed) {
+  const BedPose p = bed();
+  const Eigen::Vector3d head(0.0, 6.0, 3.0);
+  const double face = p.width / 2;
+  const auto at = [&](double v, double w) { return std::vector<Ray>{{head, p.rotation() * Eigen::Vector3d(0.3, v, w) + p.middle, false}}; };
+  EXPECT_EQ(weigh(p, at(-face, 0.2)).above_inner, 1);
+  EXPECT_EQ(weigh(p, at(-face, 0.5)).above_inner, 0) << "of something higher";
+  EXPECT_EQ(weigh(p, at(-face - 0.2, 0.2)).above_inner, 0) << "behind the wall";
+  EXPECT_EQ(weigh(p, at(-face, -0.2)).above_inner, 0);
+}
+
 }  // namespace
 }  // namespace berm::app

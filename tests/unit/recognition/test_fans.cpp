@@ -1,6 +1,8 @@
 // The sensor's place for each scanline, standing and swinging.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "drawn_bed.hpp"
 #include "recognition/fans.hpp"
 
@@ -26,6 +28,21 @@ TEST(Fans, FindsTheSwingFromThePlanes) {
 TEST(Fans, RefusesAnotherViewpointAndTooFewScanlines) {
   EXPECT_NE(make_fans(sweep_of({}), {40.0, -7.0, 3.0}).reason, "");
   EXPECT_NE(make_fans({}, drawn_viewpoint).reason, "");
+}
+
+TEST(Fans, AreThinnedToADegree) {
+  FanSweep sweep = make_fans(sweep_of({}), drawn_viewpoint);
+  EXPECT_NEAR(sweep.step, std::numbers::pi / 180.0, 1e-3);
+  EXPECT_EQ(thinned(sweep).returns.size(), sweep.returns.size()) << "they lie a degree apart already";
+  sweep.step /= 2.0;  // as if twice as many lay as near
+  const FanSweep half = thinned(sweep);
+  ASSERT_EQ(half.heads.size(), (sweep.heads.size() + 1) / 2);
+  ASSERT_EQ(half.directions.size(), half.returns.size());
+  for (std::size_t fan = 0; fan < half.heads.size(); ++fan) {
+    ASSERT_EQ(half.of(fan).size(), sweep.of(2 * fan).size());
+    EXPECT_EQ(half.heads[fan], sweep.heads[2 * fan]);
+    EXPECT_EQ(half.of(fan).front().at, sweep.of(2 * fan).front().at);
+  }
 }
 
 }  // namespace

@@ -101,10 +101,12 @@ TEST(TruckWorldTruth, FillIsWhatLiesBetweenFloorAndSoil) {
 
 TEST(TruckWorldTruth, TheEdgeIsHiddenAsDrawn) {
   const auto classes = shipped_classes();
+  SceneOptions options = coarse(Content::truck);
+  options.end_hidden_share = 0.15;
   std::set<std::string> occluders, walls;
   int occluded = 0;
   for (int number = 0; number < 60; ++number) {
-    const Scene scene = draw_scene(classes, coarse(Content::truck), 51, number);
+    const Scene scene = draw_scene(classes, options, 51, number);
     const TruckTruth& k = scene.truth.of_truck;
     if (k.occluder.empty()) {
       EXPECT_LE(k.occluded_share, 0.021) << number;
@@ -124,6 +126,36 @@ TEST(TruckWorldTruth, TheEdgeIsHiddenAsDrawn) {
   EXPECT_GT(occluded, 15);
   EXPECT_GE(occluders.size(), 2U);
   EXPECT_FALSE(walls.empty());
+}
+
+TEST(TruckWorldTruth, NoEndIsHiddenWholeWhereThatIsNotAskedFor) {
+  const auto classes = shipped_classes();
+  int occluded = 0;
+  for (int number = 0; number < 40; ++number) {
+    const Scene scene = draw_scene(classes, coarse(Content::truck), 51, number);
+    const TruckTruth& k = scene.truth.of_truck;
+    EXPECT_TRUE(k.wall_hidden.empty());
+    occluded += k.occluder.empty() ? 0 : 1;
+    const BoundingTree tree(scene.mesh);
+    const std::vector<EdgePoint> edge = edge_points(k.corners, k.tailgate == "up");
+    EXPECT_TRUE(every_end_in_sight(edge, hidden_points(tree, scene.sweep, edge))) << number << ' ' << k.occluder;
+  }
+  EXPECT_GT(occluded, 10);
+}
+
+TEST(TruckWorldTruth, AnEndIsInSightByHalfOfItsEdgeOrByOneSidesEnd) {
+  const std::array<Vector3d, 4> corners{Vector3d(2.5, 1.2, 0), Vector3d(-2.5, 1.2, 0), Vector3d(-2.5, -1.2, 0), Vector3d(2.5, -1.2, 0)};
+  const auto seen = [&](bool rear_wall, const auto& hides) {
+    const std::vector<EdgePoint> edge = edge_points(corners, rear_wall);
+    std::vector<bool> hidden;
+    for (const EdgePoint& p : edge) hidden.push_back(hides(p.at));
+    return every_end_in_sight(edge, hidden);
+  };
+  EXPECT_TRUE(seen(true, [](const Vector3d&) { return false; }));
+  EXPECT_TRUE(seen(true, [](const Vector3d& p) { return p.x() > 2.4 && p.y() > 0.1; }));
+  EXPECT_FALSE(seen(true, [](const Vector3d& p) { return p.x() > 2.4 && p.y() > -0.2; }));
+  EXPECT_TRUE(seen(false, [](const Vector3d& p) { return p.x() < -2.2 && p.y() > 0.0; })) << "the other side's end is seen";
+  EXPECT_FALSE(seen(false, [](const Vector3d& p) { return p.x() < -2.2; }));
 }
 
 TEST(TruckWorldTruth, WithoutOccludersNothingIsHiddenButByTheTruckItself) {
