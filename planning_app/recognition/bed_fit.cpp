@@ -16,6 +16,7 @@ namespace {
 constexpr double kBlur = 3.0;                 // of edges, from round to round
 constexpr int kIterations = 12;
 constexpr double kCostStep = 1e-2;            // in squared standard deviations: the fit ends
+constexpr double kCostStepBefore = 1.0;       // the same of a round that another follows, with statements of its own
 constexpr int kResidualsLeast = 20;
 constexpr double kThinnest = 0.03, kThickest = 0.2;  // m, of walls
 constexpr double kShared = 3.0;               // rays that count as one
@@ -70,7 +71,8 @@ FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds
     if (fit.residuals < kResidualsLeast) return fit;
     BedVector values = values_of(fit.pose);
     const auto solve = solver == BedSolver::ceres ? solve_bed_by_ceres : solve_bed;
-    solve(statements, start.open_end, kKnown, kIterations, kCostStep, values);
+    const bool exact = round + 1 == rounds || solver == BedSolver::ceres;
+    solve(statements, start.open_end, kKnown, kIterations, exact ? kCostStep : kCostStepBefore, values);
     if (!values.allFinite()) return fit;
     set_values(fit.pose, values);
     fit.pose.yaw = std::remainder(fit.pose.yaw, 2 * std::numbers::pi);

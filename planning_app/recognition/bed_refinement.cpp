@@ -85,14 +85,22 @@ BedPose refined(const BedPose& start, const std::vector<Ray>& rays, double first
 BedPose levelled(const BedPose& start, const std::vector<Ray>& rays) {
   BedPose best = start;
   double score = weigh(best, rays).score;
+  const auto offer = [&](double pitch, double roll, int step) {
+    BedPose p = start;
+    p.pitch += pitch, p.roll += roll, p.middle.z() += kLevelStep * step;
+    const double here = weigh(p, rays).score;
+    if (here <= score) return false;
+    best = p, score = here;
+    return true;
+  };
+  // The height first, then tilts at the heights next to it: half as many as all of both.
+  int height = 0;
+  for (int step = -kLevelSteps; step <= kLevelSteps; ++step)
+    if (offer(0.0, 0.0, step)) height = step;
   for (const double pitch : {-kLevelTilt, 0.0, kLevelTilt})
     for (const double roll : {-kLevelTilt, 0.0, kLevelTilt})
-      for (int step = -kLevelSteps; step <= kLevelSteps; ++step) {
-        BedPose p = start;
-        p.pitch += pitch, p.roll += roll, p.middle.z() += kLevelStep * step;
-        const double here = weigh(p, rays).score;
-        if (here > score) best = p, score = here;
-      }
+      for (int step = height - 1; step <= height + 1; ++step)
+        if (pitch != 0.0 || roll != 0.0) offer(pitch, roll, step);
   return best;
 }
 

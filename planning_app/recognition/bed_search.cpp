@@ -23,9 +23,13 @@ constexpr double kRoughWorth = 0.2, kFittedWorth = 0.4;  // of the best one's ev
 constexpr double kHopeful = 10.0;  // evidence of a bed, from which a fit, or moving its walls, may come to that of one that is accepted
 constexpr double kLengthSlack = 0.25;                                   // m, of what is fitted later
 constexpr double kRefineStep = 0.06;                                     // m
-constexpr int kRefineHalvings = 3;
+constexpr int kLiftHalvings = 2, kRefineHalvings = 3;
+constexpr std::size_t kLiftRays = 300;                                  // by which a rough bed is lifted
+constexpr std::size_t kEndsRays = 1500, kLongerRays = 1200;             // by which the ends of a fitted bed, and something longer, are looked for
 constexpr std::size_t kRefineStride = 2;                                // of rays, while walls are moved
-constexpr int kFitRounds = 5;                                           // of a fit
+// What is only to be compared is fitted in few rounds to every second of its rays: what is chosen is fitted to all of them later.
+constexpr int kFitRounds = 3;
+constexpr std::size_t kFitStride = 2;
 constexpr double kHeightUnsure = 0.15;                                  // m, before a fit
 constexpr std::size_t kGroundStride = 8;                                // of returns
 constexpr double kBeyondFrom = 0.25, kBeyondTo = 1.2, kBeyondGate = 0.07, kBeyondBelow = 0.05;  // m: beyond an end; of a return from a side
@@ -106,7 +110,7 @@ struct Weighed {
 
 // The pose after a fit, where that agrees better with the rays.
 Weighed fitted(const FanSweep& sweep, const BedPose& start) {
-  const std::vector<Ray> rays = rays_near(sweep, start);
+  const std::vector<Ray> rays = every(rays_near(sweep, start), kFitStride);
   const FittedBed fit = fit_bed(start, rays, kFitRounds);
   const double before = weigh(start, rays).score, after = fit.converged ? weigh(fit.pose, rays).score : before;
   return after > before ? Weighed{fit.pose, after} : Weighed{start, before};
@@ -145,9 +149,12 @@ void weigh_whole(const FanSweep& sweep, BedInterpretation& i) {
 
 double longer_length(const FanSweep& sweep, const BedPose& pose, const TruckRangeSet& ranges, double cab) {
   const SizeRange usual = ranges.hull(&TruckRanges::inside_length);
-  const std::vector<Ray> rays = rays_around(sweep, pose.middle);
-  const auto within = best_ends(strip_of(pose), rays, usual, 1.0, 1);
-  const auto longer = best_ends(strip_of(pose), rays, {usual[1] + kLengthSlack, usual[1] + kLongest}, 1.0, 1);
+  const std::vector<Ray> all = rays_around(sweep, pose.middle);
+  const std::size_t stride = std::max<std::size_t>(1, all.size() / kLongerRays);
+  const std::vector<Ray> rays = every(all, stride);
+  const auto share = static_cast<double>(stride);
+  const auto within = best_ends(strip_of(pose), rays, usual, share, 1);
+  const auto longer = best_ends(strip_of(pose), rays, {usual[1] + kLengthSlack, usual[1] + kLongest}, share, 1);
   if (within.empty() || longer.empty() || longer.front().bed < kLongerBy * (within.front().bed + std::max(0.0, cab))) return 0.0;
   return longer.front().pose.length;
 }
@@ -193,11 +200,13 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
   std::vector<BedEnds> ends;
   for (const BedEnds& rough : distinct(over_ground(sweep, rough_ones, ranges), kFitted, kRoughWorth, refused)) {
     const std::vector<Ray> near = rays_near(sweep, rough.pose);
-    const std::vector<Ray> some = every(near, std::max<std::size_t>(1, near.size() / 500));
-    const BedPose lifted = refined(levelled(rough.pose, some), some, kRefineStep, 2);
+    const std::vector<Ray> some = every(near, std::max<std::size_t>(1, near.size() / kLiftRays));
+    const BedPose lifted = refined(levelled(rough.pose, some), some, kRefineStep, kLiftHalvings);
     const auto [p, score] = fitted(sweep, lifted);
     ends.push_back({p, rough.cab_end, score, rough.cab});
-    for (BedEnds& e : best_ends(strip_of(p), rays_around(sweep, p.middle), lengths, 1.0, kEndsOfStrip)) ends.push_back(std::move(e));
+    const std::vector<Ray> all = rays_around(sweep, p.middle);
+    const std::size_t stride = std::max<std::size_t>(1, all.size() / kEndsRays);
+    for (BedEnds& e : best_ends(strip_of(p), every(all, stride), lengths, static_cast<double>(stride), kEndsOfStrip)) ends.push_back(std::move(e));
   }
   leave_hopeful(ends);
   std::vector<BedInterpretation> out;
@@ -215,7 +224,6 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
 void move_walls(const FanSweep& sweep, BedInterpretation& i) {
   if (bed(i) < kHopeful) return;
   i.pose = refined(i.pose, every(i.rays, kRefineStride), kRefineStep, kRefineHalvings);
-  i.pose = fitted(sweep, i.pose).pose;
   weigh_whole(sweep, i);
 }
 

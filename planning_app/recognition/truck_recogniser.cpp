@@ -20,7 +20,8 @@ constexpr double kCabLeast = -12.0;   // evidence of its cab
 constexpr int kInnerBeforeCab = 50, kInnerAlone = 150;  // returns on inner faces of a bed that shows no outer one, with its cab and without
 constexpr int kLastRounds = 4;           // of the last fit
 constexpr double kPolishStep = 0.06;     // m
-constexpr int kPolishHalvings = 3, kPolishRounds = 2;
+constexpr int kPolishHalvings = 3, kPolishRounds = 3;
+constexpr std::size_t kPolishStride = 2;  // of rays, while walls are moved
 constexpr double kBelowFloor = 0.1;       // m
 constexpr int kFootLeast = 12;            // returns
 constexpr double kFloorFlat = 0.15;       // m between its returns: a floor, not a load
@@ -134,28 +135,39 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
   return {};
 }
 
-// The fit, and another that begins where moves of its walls agree better with the rays, for a fit may have ended in a hollow: the better of both.
-FittedBed polished(const BedPose& start, const std::vector<Ray>& rays) {
-  const FittedBed first = fit_bed(start, rays, kLastRounds);
-  const double start_score = weigh(start, rays).score, first_score = first.converged ? weigh(first.pose, rays).score : -1e9;
-  const FittedBed second = fit_bed(refined(first_score >= start_score ? first.pose : start, rays, kPolishStep, kPolishHalvings), rays, kPolishRounds);
-  return second.converged && weigh(second.pose, rays).score > first_score ? second : first;
+// The fit, or another that begins where moves of its walls agree better with the rays, for a fit may have ended in a hollow: the better of both.
+FittedBed polished(const FittedBed& first, const std::vector<Ray>& rays) {
+  std::vector<Ray> some;
+  for (std::size_t k = 0; k < rays.size(); k += kPolishStride) some.push_back(rays[k]);
+  const FittedBed second = fit_bed(refined(first.pose, some, kPolishStep, kPolishHalvings), rays, kPolishRounds);
+  return second.converged && (!first.converged || weigh(second.pose, rays).score > weigh(first.pose, rays).score) ? second : first;
 }
 
 struct Verified {
   BedInterpretation interpretation;
   FittedBed fit;
   std::string refusal;  // empty: it is a bed
+  bool polished = false;
 };
+
+void judge(const FanSweep& sweep, Verified& v, const TruckRangeSet& ranges) {
+  v.interpretation.pose = v.fit.pose;
+  weigh_whole(sweep, v.interpretation);
+  v.refusal = refusal(sweep, v.interpretation, v.fit, ranges);
+}
 
 Verified verify(const FanSweep& sweep, BedInterpretation interpretation, const TruckRangeSet& ranges) {
   Verified v;
   v.interpretation = std::move(interpretation);
-  v.fit = polished(v.interpretation.pose, v.interpretation.rays);
-  v.interpretation.pose = v.fit.pose;
-  weigh_whole(sweep, v.interpretation);
-  v.refusal = refusal(sweep, v.interpretation, v.fit, ranges);
+  v.fit = fit_bed(v.interpretation.pose, v.interpretation.rays, kLastRounds);
+  judge(sweep, v, ranges);
   return v;
+}
+
+void polish(const FanSweep& sweep, Verified& v, const TruckRangeSet& ranges) {
+  v.fit = polished(v.fit, v.interpretation.rays);
+  v.polished = true;
+  judge(sweep, v, ranges);
 }
 
 // Whether both say that something stands at the same place: more than half of the shorter one's length.
@@ -183,6 +195,21 @@ const Verified& choose(const std::vector<Verified>& all) {
         same_place(v.interpretation.pose, best->interpretation.pose))
       whole = &v;
   return *whole;
+}
+
+// Polishes what would be chosen, until that is a bed that is polished; where none is a bed, all, for a hollow may be why.
+void polish_chosen(const FanSweep& sweep, std::vector<Verified>& all, const TruckRangeSet& ranges) {
+  const auto less = [](const Verified& a, const Verified& b) {
+    if (a.polished != b.polished) return a.polished;
+    return a.interpretation.whole() < b.interpretation.whole();
+  };
+  while (true) {
+    const Verified& chosen = choose(all);
+    if (chosen.polished && chosen.refusal.empty()) return;
+    Verified& next = chosen.polished ? *std::max_element(all.begin(), all.end(), less) : all[static_cast<std::size_t>(&chosen - all.data())];
+    if (next.polished) return;
+    polish(sweep, next, ranges);
+  }
 }
 
 // What its walls' moves can add to an interpretation does not make it better than a bed that was found, nor something of which that is but a part.
@@ -226,6 +253,7 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
       verified.push_back(verify(sweep, std::move(i), ranges));
       refused.push_back(verified.back().fit.pose);
     }
+    polish_chosen(sweep, verified, ranges);
     if (choose(verified).refusal.empty()) break;
   }
   out.reason = "no upright wall can be one of a bed";
