@@ -64,7 +64,7 @@ def one_trial_is_repeated_alone():
 def a_person_of_a_scenario_is_detected():
     out, picture, folder = scratch / "person.json", scratch / "person.svg", scratch / "person"
     # With seed 2 he is seen as he enters by the judge's measure, or after; with seed 1 before, and then the judge does not tell when the machine stood.
-    done = run("berm_watch", "--scenario", "person_ring_front", "--max-time", 60, "--seed", 2, "--json", out, "--picture", picture, "--out", folder, timeout=300)
+    done = run("berm_watch", "--scenario", "person_ring_front", "--max-time", 75, "--seed", 2, "--json", out, "--picture", picture, "--out", folder, timeout=300)
     print(done.stdout[-2000:], done.stderr)
     result = json.loads(out.read_text())
     assert done.returncode == 0 and result["contacts"] == 0 and result["false_alarms"] == 0, result
