@@ -263,7 +263,7 @@ void Sequencer::end_pass(const Observation& o) {
     begin_move_back(o, "the last passes found too little");
     return;
   }
-  if (!fill_.full()) {
+  if (!fill_.full() && more_fits(o)) {
     if (task_.lower_at_end) enter(Stage::settle, o);
     else begin_approach(o, true);  // it weighed less than expected
     return;

@@ -74,6 +74,8 @@ private:
   void begin_dig(const Observation& o);
   void begin_curl(const Observation& o);
   void plan_dump(const Observation& o);
+  DumpPoint dump_point(const Observation& o, double goal_kg) const;
+  bool more_fits(const Observation& o) const;
   void begin_pass_search(const Observation& o, const Joints& lifted_from);
   double share_that_may_trail() const;
   std::uint32_t pass_events(const Observation& o);

@@ -197,20 +197,35 @@ void Sequencer::begin_curl(const Observation& o) {
 }
 
 // The bucket is not weighed yet: it is to bring its goal, and the passes after it the rest.
-void Sequencer::plan_dump(const Observation& o) {
-  const auto began = std::chrono::steady_clock::now();
+DumpPoint Sequencer::dump_point(const Observation& o, double goal_kg) const {
   DumpNeeds needs;
   needs.bucket_half_width = 0.5 * bucket_width(machine_);
   needs.scale = scale_;
   needs.since_s = o.time_s - bed_points_age;
-  needs.dump_kg = goal_kg_;
-  needs.most_kg = fill_.must_weigh(heaped_kg_) ? goal_kg_ : heaped_kg_;
-  needs.rest_kg = std::max(0.0, fill_.rest_kg() - goal_kg_);
+  needs.dump_kg = goal_kg;
+  needs.most_kg = fill_.must_weigh(heaped_kg_) ? goal_kg : heaped_kg_;
+  needs.rest_kg = std::max(0.0, fill_.rest_kg() - goal_kg);
   needs.farthest_radius = farthest_dump(machine_, site_.bed->wall_top);
-  dump_ = choose_dump_point(*bed_, needs);
-  log_.event("dump", {{"time_s", o.time_s}, {"u_m", dump_.at.u}, {"v_m", dump_.at.v}, {"height_m", dump_.height}, {"bed_observed", dump_.observed},
+  return choose_dump_point(*bed_, needs);
+}
+
+// Whether the next pass's soil finds a place under the truck zone's ceiling.
+bool Sequencer::more_fits(const Observation& o) const {
+  const DumpPoint next = dump_point(o, fill_.next_goal_kg());
+  if (next.fits) return true;
+  log_.event("heap_full", {{"time_s", o.time_s}, {"truck", truck_}, {"height_m", next.heap_top}, {"loaded_kg", fill_.loaded_kg()}, {"target_kg", site_.place.target_kg},
+                           {"why", "wherever the next bucket were dumped the heap would stand too near to the truck zone's ceiling"}});
+  return false;
+}
+
+void Sequencer::plan_dump(const Observation& o) {
+  const auto began = std::chrono::steady_clock::now();
+  dump_ = dump_point(o, goal_kg_);
+  nlohmann::ordered_json fields{{"time_s", o.time_s}, {"u_m", dump_.at.u}, {"v_m", dump_.at.v}, {"height_m", dump_.height}, {"bed_observed", dump_.observed},
                       {"seen_share", dump_.seen_share}, {"load_centre_u_m", dump_.load_centre.u}, {"load_centre_v_m", dump_.load_centre.v},
-                      {"passes_left", fill_.passes_left()}, {"plan_ms", milliseconds_since(began)}});
+                      {"passes_left", fill_.passes_left()}, {"plan_ms", milliseconds_since(began)}};
+  if (std::isfinite(dump_.heap_top)) fields.update({{"heap_top_m", dump_.heap_top}, {"fits", dump_.fits}});
+  log_.event("dump", fields);
 }
 
 void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_from) {

@@ -9,6 +9,8 @@
 // and has to run there down a slope, so such a cell's price is higher by a share of its distance.
 // Balance: from the load's centre as books and sight have it, a dump may only be where what is still to come can bring the whole load's centre to the
 // bed's middle; what it would miss by is added to the price, manyfold.
+// Height: of the cells so ordered the first is taken where the heap, poured and slid to rest at the density and slope that this load was weighed and seen to have,
+// stays well under the truck zone's ceiling; where it does nowhere, the one where it stays lowest. By the books alone that is not asked.
 #pragma once
 
 #include <limits>
@@ -35,6 +37,8 @@ struct DumpPoint {
   bool observed = false;           // from the bed map; else from the books
   double seen_share = 0.0;         // of the bed map's cells
   double height = 0.0;             // mean height of the load there, m over the floor
+  bool fits = true;                // the heap stays under the truck zone's ceiling ...
+  double heap_top = std::numeric_limits<double>::quiet_NaN();  // ... to which it then stands, m over the floor; where that was in question
   BedPoint load_centre;            // of the whole load with this dump
 };
 

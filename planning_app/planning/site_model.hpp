@@ -26,6 +26,7 @@ struct TruckBed {                 // inside of a recognised bed
   double end_deviation = 0.0;     // standard deviation of either end along the bed, as the recogniser says
   // Along the bed from its centre: how far the site's truck zone holds it. The kernel lets nothing pass over what is beyond, the cab above all.
   double zone_low = -std::numeric_limits<double>::infinity(), zone_high = std::numeric_limits<double>::infinity();
+  double ceiling = std::numeric_limits<double>::infinity();  // z: over a load that stands higher the kernel lets nothing pass either
 };
 
 struct SiteModel {

@@ -20,12 +20,27 @@ double zone_reach(const TruckBed& bed, const std::vector<TruckZone>& zones, doub
   return reach;
 }
 
+// The least of what the zones allow along the bed's centre line.
+double lowest_ceiling(const TruckBed& bed, const std::vector<TruckZone>& zones) {
+  constexpr double step = 0.1;
+  const double c = std::cos(bed.yaw), s = std::sin(bed.yaw), low = std::max(bed.zone_low, -0.5 * bed.length), high = std::min(bed.zone_high, 0.5 * bed.length);
+  double lowest = std::numeric_limits<double>::infinity();
+  for (double u = low; u <= high; u += step) {
+    double here = -std::numeric_limits<double>::infinity();
+    for (const TruckZone& z : zones)
+      if (in_any({z}, bed.centre_x + u * c, bed.centre_y + u * s)) here = std::max(here, z.ceiling);
+    if (std::isfinite(here)) lowest = std::min(lowest, here);
+  }
+  return lowest;
+}
+
 }  // namespace
 
 void limit_to_zones(TruckBed& bed, const std::vector<TruckZone>& zones) {
   if (zones.empty()) return;
   bed.zone_low = -zone_reach(bed, zones, -1.0);
   bed.zone_high = zone_reach(bed, zones, 1.0);
+  bed.ceiling = lowest_ceiling(bed, zones);
 }
 
 bool stands_in_zone(const TruckBed& bed, const std::vector<TruckZone>& zones) { return zones.empty() || in_any(zones, bed.centre_x, bed.centre_y); }

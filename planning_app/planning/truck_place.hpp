@@ -5,7 +5,7 @@
 
 namespace berm::app {
 
-// Sets zone_low and zone_high by the site's truck zones; without any the bed may be passed over everywhere.
+// Sets zone_low, zone_high and ceiling by the site's truck zones; without any the bed may be passed over everywhere.
 void limit_to_zones(TruckBed& bed, const std::vector<TruckZone>& zones);
 
 // Whether the bed's middle lies in a truck zone, or the site has none.

@@ -248,4 +248,33 @@ TEST(BedMap, TheBooksKeepMassAndPlace) {
   EXPECT_NEAR(volume * BedMap::loose_density, 2600.0, 1e-6);
 }
 
+// Over what stands higher than the zone's ceiling the kernel lets nothing pass: the heap goes where it stays under it, or as low as may be.
+TEST(DumpPoint, HeapsNothingUpToTheTruckZonesCeiling) {
+  TruckBed bed = free_bed();
+  // By the books most lies at the one end, so that balance draws the last dump to the other; but there the soil stands higher.
+  const auto load = [](double u, double) { return u < 0.3 ? 1.55 : 1.95; };
+  const auto near_half = [](double, double v) { return v > -0.2; };
+  const auto choose = [&](double ceiling_over_floor) {
+    bed.ceiling = bed.wall_top - bed.height + ceiling_over_floor;
+    BedMap map(bed);
+    for (const double u : {-1.5, -1.5, -1.5, -0.5, 0.5, 1.5}) map.note_dump({u, 0.0}, 2.5 * bucket_kg);
+    look(map, load, near_half, 5.0);
+    return choose_dump_point(map, needs(11, 12));
+  };
+  const DumpPoint free = choose(std::numeric_limits<double>::infinity()), held = choose(2.3), full = choose(1.6);
+  EXPECT_TRUE(free.fits);
+  EXPECT_GT(free.at.u, 0.8) << "for balance";
+  EXPECT_TRUE(held.fits);
+  EXPECT_LT(held.at.u, 0.3) << "not onto the plateau";
+  EXPECT_LE(held.heap_top, 2.3 - 0.2);
+  EXPECT_FALSE(full.fits) << "there is no such place";
+  EXPECT_GT(full.heap_top, 1.6 - 0.1);
+  EXPECT_LT(full.at.u, 0.3) << "but here it stays lowest";
+  // By the books alone, whose heaps are guessed, nothing is refused.
+  bed.ceiling = bed.wall_top - bed.height + 0.1;
+  BedMap unseen(bed);
+  unseen.note_dump({0.0, 0.0}, 4.0 * bucket_kg);
+  EXPECT_TRUE(choose_dump_point(unseen, needs(5, 12)).fits);
+}
+
 }  // namespace

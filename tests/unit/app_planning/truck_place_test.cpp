@@ -51,4 +51,17 @@ TEST(TruckPlace, WithoutZonesNothingIsHeldBackAndOutsideOfThemEverything) {
   EXPECT_EQ(bed.zone_high, 0.0);
 }
 
+TEST(TruckPlace, TheLowestOfTheZonesAlongTheBedIsItsCeiling) {
+  TruckBed bed = bed_at(1.0, 6.0, 0.0);
+  bed.length = 4.8;
+  limit_to_zones(bed, {});
+  EXPECT_TRUE(std::isinf(bed.ceiling));
+  limit_to_zones(bed, {{-3.0, 4.0, 6.0, 9.0, 1.0}});
+  EXPECT_EQ(bed.ceiling, 1.0);
+  limit_to_zones(bed, {{-3.0, 4.0, 2.0, 9.0, 1.0}, {1.9, 4.0, 6.5, 9.0, 0.6}});
+  EXPECT_EQ(bed.ceiling, 0.6);
+  limit_to_zones(bed, {{-3.0, 4.0, 6.0, 9.0, 1.0}, {-3.0, 4.0, 6.0, 9.0, 0.6}});
+  EXPECT_EQ(bed.ceiling, 1.0) << "where two zones lie over each other the higher counts, as in the kernel";
+}
+
 }  // namespace
