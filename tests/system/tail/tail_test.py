@@ -11,7 +11,6 @@ import tempfile
 from berm_command import ROOT, load, main, run
 
 STILL_RAD_S = 0.009
-STOP_TAIL = 19  # BERM_STOP_TAIL
 RESET_S = 85.0
 TAIL_RADIUS = 2.907  # m: of the plant's upper body, [-2.60, 1.30]
 PERSON_RADIUS = 0.25
@@ -41,12 +40,12 @@ def person_behind():
             t = float(row["time_s"])
             gap = math.hypot(float(row["person_x_m"]), float(row["person_y_m"])) - PERSON_RADIUS - TAIL_RADIUS
             nearest = min(nearest, gap)
-            if stood is None and int(row["stop_reason"]) == STOP_TAIL and speed(row) < STILL_RAD_S and gap < 0.6:
+            if stood is None and t > 40.0 and speed(row) < STILL_RAD_S and gap < 0.6:
                 stood = t
             if stood is not None and t < RESET_S:
                 assert speed(row) < STILL_RAD_S, f"seed {seed}: moves at {t:.2f} s, before the reset"
-            if gap < 0.35:  # as near as he comes, and he stays there; the arm may dig on until the swing is asked for
-                assert abs(float(row["swing_rad_s"])) < STILL_RAD_S, f"seed {seed}: moves at {t:.2f} s with the person {gap:.2f} m from the tail's circle"
+            if gap < 0.35:  # as near as he comes, and he stays there
+                assert speed(row) < STILL_RAD_S, f"seed {seed}: moves at {t:.2f} s with the person {gap:.2f} m from the tail's circle"
             if t > RESET_S and moved_again is None and speed(row) > 0.1:
                 moved_again = t
         assert stood is not None and moved_again is not None, f"seed {seed}: stood at {stood}, moved again at {moved_again}"
