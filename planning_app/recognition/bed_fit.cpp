@@ -18,13 +18,16 @@ constexpr int kIterations = 12;
 constexpr double kCostStep = 1e-2;            // in squared standard deviations: the fit ends
 constexpr double kCostStepBefore = 1.0;       // the same of a round that another follows, with statements of its own
 constexpr int kResidualsLeast = 20;
-constexpr double kThinnest = 0.03, kThickest = 0.2;  // m, of walls
+constexpr double kThinnest = 0.03, kThicknessSlack = 0.06;  // m, of walls
+constexpr double kLeastSpread = 0.002;        // m: of a size that all classes share
 constexpr double kShared = 3.0;               // rays that count as one
 // Of middle x y z (m), yaw, pitch, roll (rad), length and width (m) by the body alone; calibrated on drawn scenes.
 constexpr std::array<double, 8> kBodyDeviation{0.007, 0.007, 0.007, 0.001, 0.002, 0.0045, 0.013, 0.012};
 
-// What is known beforehand: walls of the classes, beds that drive on roads, ground that is nearly level.
-constexpr std::array<KnownValue, 4> kKnown{{{kBedThickness, 0.095, 0.025}, {kBedWidth, 2.38, 0.075}, {kBedPitch, 0.0, 0.03}, {kBedRoll, 0.0, 0.03}}};
+// What is known beforehand: walls and widths of the classes, each as likely within its range, and ground that is nearly level.
+using Known = std::array<KnownValue, 4>;
+KnownValue evenly(BedValue which, const SizeRange& range) { return {which, 0.5 * (range[0] + range[1]), 0.5 * (range[1] - range[0]) * std::numbers::inv_sqrt3 + kLeastSpread}; }
+Known known_of(const BedSizes& sizes) { return {{evenly(kBedThickness, sizes.thickness), evenly(kBedWidth, sizes.width), {kBedPitch, 0.0, 0.03}, {kBedRoll, 0.0, 0.03}}}; }
 
 // Of a length whose end no ray shows the classes tell so much; where one is seen it must not pull.
 constexpr double kLengthSpread = 0.7;  // m
@@ -34,7 +37,7 @@ using Normal = Eigen::Matrix<double, kBedValues, kBedValues>;
 // What a fit goes by.
 class Statements {
  public:
-  Statements(const std::vector<BedConstraint>& all, int open_end) : all_(all), open_end_(open_end) {}
+  Statements(const std::vector<BedConstraint>& all, int open_end, const Known& known) : all_(all), open_end_(open_end), known_(known) {}
 
   // Of the residuals, each weighted as the loss weights it, and of what is known. Rays that share a wall share its mud, its bends and what was wrongly
   // decided of an edge, so they tell less than as many that do not; returns in a corner may be of either wall, and tell nothing of one.
@@ -48,7 +51,7 @@ class Statements {
       sum += slope * slope.transpose() / (1.0 + r * r / (kRobust * kRobust));
     }
     sum = sum / kShared + Normal::Identity() * 1e-6;
-    for (const KnownValue& k : kKnown) sum(k.which, k.which) += 1.0 / (k.deviation * k.deviation);
+    for (const KnownValue& k : known_) sum(k.which, k.which) += 1.0 / (k.deviation * k.deviation);
     sum(kBedLength, kBedLength) += 1.0 / (kLengthSpread * kLengthSpread);
     return sum;
   }
@@ -56,11 +59,13 @@ class Statements {
  private:
   const std::vector<BedConstraint>& all_;
   int open_end_;
+  const Known& known_;
 };
 
 }  // namespace
 
-FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds, BedSolver solver) {
+FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds, const BedSizes& sizes, BedSolver solver) {
+  const Known known = known_of(sizes);
   FittedBed fit;
   fit.pose = start;
   for (int round = 0; round < rounds; ++round) {
@@ -72,14 +77,14 @@ FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds
     BedVector values = values_of(fit.pose);
     const auto solve = solver == BedSolver::ceres ? solve_bed_by_ceres : solve_bed;
     const bool exact = round + 1 == rounds || solver == BedSolver::ceres;
-    solve(statements, start.open_end, kKnown, kIterations, exact ? kCostStep : kCostStepBefore, values);
+    solve(statements, start.open_end, known, kIterations, exact ? kCostStep : kCostStepBefore, values);
     if (!values.allFinite()) return fit;
     set_values(fit.pose, values);
     fit.pose.yaw = std::remainder(fit.pose.yaw, 2 * std::numbers::pi);
-    fit.pose.thickness = std::clamp(fit.pose.thickness, kThinnest, kThickest);
+    fit.pose.thickness = std::clamp(fit.pose.thickness, std::max(kThinnest, sizes.thickness[0] - kThicknessSlack), sizes.thickness[1] + kThicknessSlack);
     if (round + 1 < rounds) continue;
     fit.converged = true;
-    const Normal inverse = Eigen::LDLT<Normal>(Statements(statements, start.open_end).information(values)).solve(Normal::Identity());
+    const Normal inverse = Eigen::LDLT<Normal>(Statements(statements, start.open_end, known).information(values)).solve(Normal::Identity());
     fit.covariance = inverse.topLeftCorner<8, 8>();
     for (int i = 0; i < 8; ++i) fit.covariance(i, i) += kBodyDeviation[static_cast<std::size_t>(i)] * kBodyDeviation[static_cast<std::size_t>(i)];
   }

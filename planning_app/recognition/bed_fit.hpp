@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "recognition/bed_model.hpp"
+#include "recognition/truck_ranges.hpp"
 
 namespace berm::app {
 
@@ -26,7 +27,8 @@ struct FittedBed {
 // every round. In all rounds but the last two edges are blurred, so that a wall some centimetres too high or low comes to where it is; not those of
 // the bed's ends, which would wander off where no ray shows them.
 enum class BedSolver { sums, ceres };  // bed_solver for the many fits of a search, Ceres for the one that is the answer
-FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds, BedSolver solver = BedSolver::sums);
+// sizes: what is known of width and walls beforehand.
+FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds, const BedSizes& sizes, BedSolver solver = BedSolver::sums);
 
 // Of the opening on the inner top edge: (+u, +v), (-u, +v), (-u, -v), (+u, -v).
 std::array<Eigen::Vector3d, 4> opening_corners(const BedPose& pose);

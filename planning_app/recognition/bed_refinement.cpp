@@ -15,7 +15,7 @@ constexpr double kEndsMost = 0.2;   // m
 constexpr double kRefinedTiltMost = 0.09;  // rad
 constexpr double kLevelTilt = 0.025, kLevelStep = 0.03;  // rad; m
 constexpr int kLevelSteps = 3;
-constexpr double kWidthMiddle = 2.38, kWidthOff = 0.2;  // m
+constexpr double kWidthSlack = 0.08;  // m
 constexpr int kRounds = 4;          // with one step
 constexpr int kMoves = 10;
 constexpr double kNear = 0.25;      // m: more than any corner goes by one move
@@ -55,7 +55,7 @@ double most_apart(const BedPose& a, const BedPose& b) {
 
 }  // namespace
 
-BedPose refined(const BedPose& start, const std::vector<Ray>& rays, double first_step, int halvings) {
+BedPose refined(const BedPose& start, const std::vector<Ray>& rays, const SizeRange& widths, double first_step, int halvings) {
   const Vector2d origin = start.middle.head<2>();
   const std::array<double, 2> ends = ends_along(start, origin);
   BedPose best = start;
@@ -70,7 +70,7 @@ BedPose refined(const BedPose& start, const std::vector<Ray>& rays, double first
         const std::array<double, 2> now = ends_along(p, origin);
         if (std::max(std::abs(now[0] - ends[0]), std::abs(now[1] - ends[1])) > kEndsMost) continue;
         if (std::max(std::abs(p.pitch), std::abs(p.roll)) > kRefinedTiltMost) continue;
-        if (std::abs(p.width - kWidthMiddle) > kWidthOff) continue;
+        if (p.width < widths[0] - kWidthSlack || p.width > widths[1] + kWidthSlack) continue;
         if (most_apart(p, near_of) > kNear) near = rays_meeting(best, rays, kNear), near_of = best;
         const double here = weigh(p, near).score;
         if (here <= score + 1e-9) continue;

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::size_t kRegionsMost = 14;
-constexpr std::size_t kCoarseRays = 900;                                // that first decide between interpretations
+constexpr std::size_t kCoarseRays = 900, kCoarseStride = 2;                            // that first decide between interpretations
 constexpr std::size_t kEndsOfStrip = 4, kOfRegion = 5, kOfPairs = 8, kFitted = 24, kFittedEnds = 16;  // most candidates
 constexpr double kRoughWorth = 0.2, kFittedWorth = 0.4;  // of the best one's evidence, to be fitted
 constexpr double kHopeful = 10.0;  // evidence of a bed, from which a fit, or moving its walls, may come to that of one that is accepted
@@ -70,23 +70,15 @@ void leave_hopeful(std::vector<Candidate>& all) {
   all.erase(all.begin() + 1, all.end());
 }
 
-std::vector<Ray> every(const std::vector<Ray>& rays, std::size_t stride) {
-  std::vector<Ray> some;
-  for (std::size_t i = 0; i < rays.size(); i += stride) some.push_back(rays[i]);
-  return some;
-}
-
 BedStrip strip_of(const BedPose& p) { return {p.middle, p.yaw, p.pitch, p.roll, p.width, p.thickness, 0.0}; }
 
 // Beds of which the region may be a face.
 std::vector<BedEnds> interpret_region(const FanSweep& sweep, const UprightRegion& region, const TruckRangeSet& ranges, const SizeRange& lengths) {
   const Vector2d middle = 0.5 * (region.first + region.last);
-  const std::vector<Ray> all = rays_around(sweep, {middle.x(), middle.y(), region.high});
-  const std::size_t stride = std::max<std::size_t>(2, all.size() / kCoarseRays);
-  const std::vector<Ray> some = every(all, stride);
+  const SomeRays some = about(rays_around(sweep, {middle.x(), middle.y(), region.high}), kCoarseRays, kCoarseStride);
   std::vector<BedEnds> found;
   for (const BedStrip& strip : strips_of(region, ranges))
-    for (BedEnds& e : best_ends(strip, some, lengths, static_cast<double>(stride), kEndsOfStrip)) found.push_back(std::move(e));
+    for (BedEnds& e : best_ends(strip, some.rays, lengths, some.share, kEndsOfStrip)) found.push_back(std::move(e));
   return distinct(std::move(found), kOfRegion);
 }
 
@@ -96,9 +88,8 @@ std::vector<BedEnds> interpret_pairs(const FanSweep& sweep, const std::vector<Up
   for (std::size_t i = 0; i < regions.size(); ++i)
     for (std::size_t k = i + 1; k < regions.size(); ++k)
       for (const BedStrip& strip : strips_of(regions[i], regions[k], ranges)) {
-        const std::vector<Ray> all = rays_around(sweep, strip.middle);
-        const std::size_t stride = std::max<std::size_t>(2, all.size() / kCoarseRays);
-        for (BedEnds& e : best_ends(strip, every(all, stride), lengths, static_cast<double>(stride), kEndsOfStrip)) found.push_back(std::move(e));
+        const SomeRays some = about(rays_around(sweep, strip.middle), kCoarseRays, kCoarseStride);
+        for (BedEnds& e : best_ends(strip, some.rays, lengths, some.share, kEndsOfStrip)) found.push_back(std::move(e));
       }
   return distinct(std::move(found), kOfPairs);
 }
@@ -109,9 +100,9 @@ struct Weighed {
 };
 
 // The pose after a fit, where that agrees better with the rays.
-Weighed fitted(const FanSweep& sweep, const BedPose& start) {
+Weighed fitted(const FanSweep& sweep, const BedPose& start, const BedSizes& sizes) {
   const std::vector<Ray> rays = every(rays_near(sweep, start), kFitStride);
-  const FittedBed fit = fit_bed(start, rays, kFitRounds);
+  const FittedBed fit = fit_bed(start, rays, kFitRounds, sizes);
   const double before = weigh(start, rays).score, after = fit.converged ? weigh(fit.pose, rays).score : before;
   return after > before ? Weighed{fit.pose, after} : Weighed{start, before};
 }
@@ -120,6 +111,14 @@ SizeRange fitted_lengths(const TruckRangeSet& ranges) {
   SizeRange lengths = ranges.hull(&TruckRanges::inside_length);
   lengths[0] -= kLengthSlack, lengths[1] += kLengthSlack;
   return lengths;
+}
+
+// Those whose tops are as high over what lies about them as a truck's. One that is not, a bench's face, may agree with far more rays.
+std::vector<BedEnds> over_ground(const FanSweep& sweep, std::vector<BedEnds> all, const TruckRangeSet& ranges) {
+  SizeRange high = ranges.hull(&TruckRanges::top_over_ground);
+  high[0] -= kHeightUnsure, high[1] += kHeightUnsure;
+  std::erase_if(all, [&](const BedEnds& e) { return share_of_ground(sweep, e.pose, high, kGroundStride) < 0.5 * kGroundLeast; });
+  return all;
 }
 
 }  // namespace
@@ -149,12 +148,9 @@ void weigh_whole(const FanSweep& sweep, BedInterpretation& i) {
 
 double longer_length(const FanSweep& sweep, const BedPose& pose, const TruckRangeSet& ranges, double cab) {
   const SizeRange usual = ranges.hull(&TruckRanges::inside_length);
-  const std::vector<Ray> all = rays_around(sweep, pose.middle);
-  const std::size_t stride = std::max<std::size_t>(1, all.size() / kLongerRays);
-  const std::vector<Ray> rays = every(all, stride);
-  const auto share = static_cast<double>(stride);
-  const auto within = best_ends(strip_of(pose), rays, usual, share, 1);
-  const auto longer = best_ends(strip_of(pose), rays, {usual[1] + kLengthSlack, usual[1] + kLongest}, share, 1);
+  const SomeRays some = about(rays_around(sweep, pose.middle), kLongerRays);
+  const auto within = best_ends(strip_of(pose), some.rays, usual, some.share, 1);
+  const auto longer = best_ends(strip_of(pose), some.rays, {usual[1] + kLengthSlack, usual[1] + kLongest}, some.share, 1);
   if (within.empty() || longer.empty() || longer.front().bed < kLongerBy * (within.front().bed + std::max(0.0, cab))) return 0.0;
   return longer.front().pose.length;
 }
@@ -178,41 +174,31 @@ int sides_beyond(const FanSweep& sweep, const BedPose& pose, int cab_end) {
 
 std::vector<BedEnds> rough_beds(const FanSweep& sweep, const std::vector<UprightRegion>& regions, const TruckRangeSet& ranges) {
   const SizeRange lengths = fitted_lengths(ranges);
-  std::vector<BedEnds> found;
-  for (std::size_t k = 0; k < std::min(regions.size(), kRegionsMost); ++k)
-    for (BedEnds& e : interpret_region(sweep, regions[k], ranges, lengths)) found.push_back(std::move(e));
   const std::vector<UprightRegion> largest(regions.begin(), regions.begin() + static_cast<std::ptrdiff_t>(std::min(regions.size(), kRegionsMost)));
-  for (BedEnds& e : interpret_pairs(sweep, largest, ranges, lengths)) found.push_back(std::move(e));
-  return found;
-}
-
-// Those whose tops are as high over what lies about them as a truck's. One that is not, a bench's face, may agree with far more rays.
-std::vector<BedEnds> over_ground(const FanSweep& sweep, std::vector<BedEnds> all, const TruckRangeSet& ranges) {
-  SizeRange high = ranges.hull(&TruckRanges::top_over_ground);
-  high[0] -= kHeightUnsure, high[1] += kHeightUnsure;
-  std::erase_if(all, [&](const BedEnds& e) { return share_of_ground(sweep, e.pose, high, kGroundStride) < 0.5 * kGroundLeast; });
-  return all;
+  std::vector<BedEnds> found = interpret_pairs(sweep, largest, ranges, lengths);
+  for (const UprightRegion& region : largest)
+    for (BedEnds& e : interpret_region(sweep, region, ranges, lengths)) found.push_back(std::move(e));
+  return over_ground(sweep, std::move(found), ranges);
 }
 
 std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vector<BedEnds>& rough_ones, const TruckRangeSet& ranges,
                                          const std::vector<BedPose>& refused) {
   const SizeRange lengths = fitted_lengths(ranges);
+  const BedSizes sizes = ranges.bed_sizes();
   std::vector<BedEnds> ends;
-  for (const BedEnds& rough : distinct(over_ground(sweep, rough_ones, ranges), kFitted, kRoughWorth, refused)) {
-    const std::vector<Ray> near = rays_near(sweep, rough.pose);
-    const std::vector<Ray> some = every(near, std::max<std::size_t>(1, near.size() / kLiftRays));
-    const BedPose lifted = refined(levelled(rough.pose, some), some, kRefineStep, kLiftHalvings);
-    const auto [p, score] = fitted(sweep, lifted);
+  for (const BedEnds& rough : distinct(rough_ones, kFitted, kRoughWorth, refused)) {
+    const std::vector<Ray> near = about(rays_near(sweep, rough.pose), kLiftRays).rays;
+    const BedPose lifted = refined(levelled(rough.pose, near), near, sizes.width, kRefineStep, kLiftHalvings);
+    const auto [p, score] = fitted(sweep, lifted, sizes);
     ends.push_back({p, rough.cab_end, score, rough.cab});
-    const std::vector<Ray> all = rays_around(sweep, p.middle);
-    const std::size_t stride = std::max<std::size_t>(1, all.size() / kEndsRays);
-    for (BedEnds& e : best_ends(strip_of(p), every(all, stride), lengths, static_cast<double>(stride), kEndsOfStrip)) ends.push_back(std::move(e));
+    const SomeRays around = about(rays_around(sweep, p.middle), kEndsRays);
+    for (BedEnds& e : best_ends(strip_of(p), around.rays, lengths, around.share, kEndsOfStrip)) ends.push_back(std::move(e));
   }
   leave_hopeful(ends);
   std::vector<BedInterpretation> out;
   for (const BedEnds& e : distinct(std::move(ends), kFittedEnds, kFittedWorth, refused)) {
     BedInterpretation i;
-    i.pose = fitted(sweep, e.pose).pose;
+    i.pose = fitted(sweep, e.pose, sizes).pose;
     weigh_whole(sweep, i);
     out.push_back(std::move(i));
   }
@@ -221,9 +207,9 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
   return out;
 }
 
-void move_walls(const FanSweep& sweep, BedInterpretation& i) {
+void move_walls(const FanSweep& sweep, BedInterpretation& i, const TruckRangeSet& ranges) {
   if (bed(i) < kHopeful) return;
-  i.pose = refined(i.pose, every(i.rays, kRefineStride), kRefineStep, kRefineHalvings);
+  i.pose = refined(i.pose, every(i.rays, kRefineStride), ranges.bed_sizes().width, kRefineStep, kRefineHalvings);
   weigh_whole(sweep, i);
 }
 

@@ -31,7 +31,7 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
                                          const std::vector<BedPose>& refused);
 
 // Moves the walls of one of them while its evidence grows; the fit stands in a hollow of its own.
-void move_walls(const FanSweep& sweep, BedInterpretation& interpretation);
+void move_walls(const FanSweep& sweep, BedInterpretation& interpretation, const TruckRangeSet& ranges);
 
 // Whether two beds are nearly one.
 bool alike(const BedPose& a, const BedPose& b);

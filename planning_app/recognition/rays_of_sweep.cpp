@@ -31,4 +31,15 @@ std::vector<Ray> rays_around(const FanSweep& sweep, const Eigen::Vector3d& middl
   return rays_round(sweep, middle.head<2>(), kAround, middle.z() - kAroundBelow, middle.z() + kAroundAbove);
 }
 
+std::vector<Ray> every(const std::vector<Ray>& rays, std::size_t stride) {
+  std::vector<Ray> some;
+  for (std::size_t i = 0; i < rays.size(); i += stride) some.push_back(rays[i]);
+  return some;
+}
+
+SomeRays about(const std::vector<Ray>& rays, std::size_t most, std::size_t least) {
+  const std::size_t stride = std::max(least, rays.size() / most);
+  return {every(rays, stride), static_cast<double>(stride)};
+}
+
 }  // namespace berm::app

@@ -44,6 +44,16 @@ void visit_around(const FanSweep& sweep, const Eigen::Vector3d& middle, const Ta
   visit_rays(sweep, middle.head<2>(), kAround, middle.z() - kAroundBelow, middle.z() + kAroundAbove, take);
 }
 
+// Every stride-th of the rays.
+std::vector<Ray> every(const std::vector<Ray>& rays, std::size_t stride);
+
+// Of the rays about so many, evenly, and at most every least-th; each stands for `share` of them.
+struct SomeRays {
+  std::vector<Ray> rays;
+  double share = 1.0;
+};
+SomeRays about(const std::vector<Ray>& rays, std::size_t most, std::size_t least = 1);
+
 // Rays that may come to the bed, to what stands beyond its ends, or below it: within 7 m.
 std::vector<Ray> rays_around(const FanSweep& sweep, const Eigen::Vector3d& middle);
 

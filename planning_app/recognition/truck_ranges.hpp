@@ -16,12 +16,18 @@ struct TruckRanges {
   bool open_rear = false;  // the tailgate may be missing or hang down
 };
 
+// What a bed's width and the thickness of its walls may be, over all classes.
+struct BedSizes {
+  SizeRange width{}, thickness{};
+};
+
 struct TruckRangeSet {
   std::vector<TruckRanges> classes;
   double slack = 0.0;  // m, for the errors of one sweep
 
   // From the least low end to the greatest high end of all classes.
   [[nodiscard]] SizeRange hull(SizeRange TruckRanges::*size) const;
+  [[nodiscard]] BedSizes bed_sizes() const { return {hull(&TruckRanges::inside_width), hull(&TruckRanges::wall_thickness)}; }
   // The first class that takes in both sizes and the kind of rear, within slack; nullptr when none does. Metres.
   [[nodiscard]] const TruckRanges* find(double length, double width, bool open_rear) const;
 };

@@ -107,8 +107,10 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
     return fmt::format("what is most like a bed is too little like one: its evidence weighs {:.0f} of the {:.0f} needed", e.score, kScoreLeast);
   if (i.cab < kCabLeast) return fmt::format("rays pass where its cab would stand, at either end: evidence of {:.0f}", i.cab);
   if (!fit.converged) return "the fit of the bed did not converge";
-  // From behind an open rear the walls show their inner faces alone, and often hide the cab.
-  if (e.outer_face < kOuterLeast && (p.open_end == 0 || e.inner_face < (i.cab < kCabFaint ? kInnerAlone : kInnerBeforeCab)))
+  // From behind an open rear the walls show their inner faces alone, and often hide the cab; from anywhere else a bed shows an outer one.
+  const double along = p.rotation().col(0).dot(sweep.heads[sweep.heads.size() / 2] - p.middle);
+  const bool from_behind = p.open_end != 0 && p.open_end * along > 0.5 * p.length;
+  if (e.outer_face < kOuterLeast && (!from_behind || e.inner_face < (i.cab < kCabFaint ? kInnerAlone : kInnerBeforeCab)))
     return fmt::format("the bed has {} returns on outer faces of its walls, and needs {}", e.outer_face, kOuterLeast);
   const int over_opening = e.level_inside + e.below_inside + e.above_inside;
   if (e.level_inside > 0.75 * over_opening && over_opening >= 30)
@@ -136,10 +138,8 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
 }
 
 // The fit, or another that begins where moves of its walls agree better with the rays, for a fit may have ended in a hollow: the better of both.
-FittedBed polished(const FittedBed& first, const std::vector<Ray>& rays) {
-  std::vector<Ray> some;
-  for (std::size_t k = 0; k < rays.size(); k += kPolishStride) some.push_back(rays[k]);
-  const FittedBed second = fit_bed(refined(first.pose, some, kPolishStep, kPolishHalvings), rays, kPolishRounds);
+FittedBed polished(const FittedBed& first, const std::vector<Ray>& rays, const BedSizes& sizes) {
+  const FittedBed second = fit_bed(refined(first.pose, every(rays, kPolishStride), sizes.width, kPolishStep, kPolishHalvings), rays, kPolishRounds, sizes);
   return second.converged && (!first.converged || weigh(second.pose, rays).score > weigh(first.pose, rays).score) ? second : first;
 }
 
@@ -159,13 +159,13 @@ void judge(const FanSweep& sweep, Verified& v, const TruckRangeSet& ranges) {
 Verified verify(const FanSweep& sweep, BedInterpretation interpretation, const TruckRangeSet& ranges) {
   Verified v;
   v.interpretation = std::move(interpretation);
-  v.fit = fit_bed(v.interpretation.pose, v.interpretation.rays, kLastRounds);
+  v.fit = fit_bed(v.interpretation.pose, v.interpretation.rays, kLastRounds, ranges.bed_sizes());
   judge(sweep, v, ranges);
   return v;
 }
 
 void polish(const FanSweep& sweep, Verified& v, const TruckRangeSet& ranges) {
-  v.fit = polished(v.fit, v.interpretation.rays);
+  v.fit = polished(v.fit, v.interpretation.rays, ranges.bed_sizes());
   v.polished = true;
   judge(sweep, v, ranges);
 }
@@ -180,11 +180,12 @@ bool same_place(const BedPose& a, const BedPose& b) {
 
 double with_own_cab(const BedInterpretation& i) { return i.evidence.score + std::min(i.cab, kCabOfWhole * i.evidence.score); }
 
-// The bed with the most evidence; with none, the one that was refused with the most. A bed that is only a part of something that agrees with the rays
+// The bed with the most evidence; with none, of those refused the one most like a bed, whatever stands beyond its ends. A bed that is only a part of something that agrees with the rays
 // much better than bed and cab do, and is none, is none either: a container. A bed and its cab taken for one long bed are no better than both.
 const Verified& choose(const std::vector<Verified>& all) {
   const auto less = [](const Verified& a, const Verified& b) {
     if (a.refusal.empty() != b.refusal.empty()) return b.refusal.empty();
+    if (!a.refusal.empty()) return a.interpretation.evidence.score < b.interpretation.evidence.score;
     return a.interpretation.whole() < b.interpretation.whole();
   };
   const Verified* best = &*std::max_element(all.begin(), all.end(), less);
@@ -247,7 +248,7 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
     const std::size_t before = verified.size();
     for (BedInterpretation& i : interpretations) {
       if (!may_be_chosen(i, verified)) continue;
-      move_walls(sweep, i);
+      move_walls(sweep, i, ranges);
       refused.push_back(i.pose);
       if (std::any_of(verified.begin() + static_cast<std::ptrdiff_t>(before), verified.end(), [&](const Verified& v) { return same_and_better(v.interpretation, i); })) continue;
       verified.push_back(verify(sweep, std::move(i), ranges));
@@ -262,7 +263,7 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
   const BedInterpretation& best = chosen.interpretation;
   FittedBed fit = chosen.fit;
   if (chosen.refusal.empty()) {  // with every ray
-    const FittedBed last = fit_bed(fit.pose, rays_near(whole, fit.pose), kPolishRounds, BedSolver::ceres);
+    const FittedBed last = fit_bed(fit.pose, rays_near(whole, fit.pose), kPolishRounds, ranges.bed_sizes(), BedSolver::ceres);
     if (last.converged && ranges.find(last.pose.length, last.pose.width, last.pose.open_end != 0) != nullptr) fit = last;
   }
   out.evidence = best.evidence;

@@ -7,6 +7,7 @@
 #include "drawn_bed.hpp"
 #include "recognition/bed_ends.hpp"
 #include "recognition/bed_search.hpp"
+#include "recognition/rays_of_sweep.hpp"
 
 namespace berm::app {
 namespace {
@@ -25,12 +26,6 @@ FanSweep fans_of(const DrawnBed& bed) {
   FanSweep sweep = make_fans(sweep_of(bed), drawn_viewpoint);
   upright_segments(sweep);
   return sweep;
-}
-
-std::vector<Ray> every(const std::vector<Ray>& rays, std::size_t stride) {
-  std::vector<Ray> some;
-  for (std::size_t i = 0; i < rays.size(); i += stride) some.push_back(rays[i]);
-  return some;
 }
 
 // Of a strip that begins anywhere along the bed.

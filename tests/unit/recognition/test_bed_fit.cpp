@@ -13,6 +13,8 @@
 namespace berm::app {
 namespace {
 
+const BedSizes kSizes{{2.25, 2.50}, {0.05, 0.14}};
+
 TEST(BedFit, ComesToTheBedFromNearby) {
   const DrawnBed drawn;
   BedPose start;
@@ -22,7 +24,7 @@ TEST(BedFit, ComesToTheBedFromNearby) {
   start.width = drawn.width - 0.05;
   start.thickness = 0.09;
   const FanSweep sweep = make_fans(sweep_of(drawn), drawn_viewpoint);
-  const FittedBed fit = fit_bed(start, rays_near(sweep, start), 4);
+  const FittedBed fit = fit_bed(start, rays_near(sweep, start), 4, kSizes);
   ASSERT_TRUE(fit.converged);
   EXPECT_NEAR(fit.pose.middle.x(), drawn.x, 0.03);
   EXPECT_NEAR(fit.pose.middle.y(), drawn.y, 0.03);
@@ -47,7 +49,7 @@ TEST(BedFit, OfAnEndThatNoRayShowsTheLengthIsUnsure) {
   const std::vector<Ray> all = rays_near(make_fans(sweep_of(drawn), drawn_viewpoint), start);
   std::vector<Ray> seen;
   std::copy_if(all.begin(), all.end(), std::back_inserter(seen), [&](const Ray& ray) { return ray.at.x() > drawn.x - 0.5; });
-  const FittedBed whole = fit_bed(start, all, 3), half = fit_bed(start, seen, 3);
+  const FittedBed whole = fit_bed(start, all, 3, kSizes), half = fit_bed(start, seen, 3, kSizes);
   ASSERT_TRUE(whole.converged && half.converged);
   EXPECT_LT(std::sqrt(whole.covariance(6, 6)), 0.05);
   EXPECT_GT(std::sqrt(half.covariance(6, 6)), 0.6);
@@ -64,7 +66,7 @@ TEST(BedFit, AnOpenEndIsNotDrawnOut) {
     BedPose start;
     start.middle = {drawn.x, drawn.y, drawn.top};
     start.yaw = drawn.yaw, start.length = length + 0.06, start.width = drawn.width, start.thickness = drawn.thickness, start.open_end = -1;
-    const FittedBed fit = fit_bed(start, rays_near(make_fans(sweep_of(drawn), drawn_viewpoint), start), 4);
+    const FittedBed fit = fit_bed(start, rays_near(make_fans(sweep_of(drawn), drawn_viewpoint), start), 4, kSizes);
     ASSERT_TRUE(fit.converged);
     EXPECT_NEAR(fit.pose.length, length, 0.08) << "half of what lies between two scanlines";
   }
@@ -78,7 +80,7 @@ TEST(BedFit, CeresAndTheSumsComeToTheSameBed) {
     start.middle = {drawn.x + 0.03, drawn.y - 0.02, drawn.top + 0.02};
     start.yaw = drawn.yaw + 0.01, start.length = drawn.length + 0.04, start.width = drawn.width, start.thickness = 0.09;
     const std::vector<Ray> rays = rays_near(make_fans(sweep_of(drawn), drawn_viewpoint), start);
-    const FittedBed by_sums = fit_bed(start, rays, 3), by_ceres = fit_bed(start, rays, 3, BedSolver::ceres);
+    const FittedBed by_sums = fit_bed(start, rays, 3, kSizes), by_ceres = fit_bed(start, rays, 3, kSizes, BedSolver::ceres);
     ASSERT_TRUE(by_sums.converged && by_ceres.converged);
     EXPECT_LT((by_sums.pose.middle - by_ceres.pose.middle).norm(), 0.002);
     EXPECT_NEAR(by_sums.pose.yaw, by_ceres.pose.yaw, 2e-4);
@@ -87,7 +89,7 @@ TEST(BedFit, CeresAndTheSumsComeToTheSameBed) {
   }
 }
 
-TEST(BedFit, SaysWhenTooFewRaysSpeakOfTheBed) { EXPECT_FALSE(fit_bed({}, {}, 3).converged); }
+TEST(BedFit, SaysWhenTooFewRaysSpeakOfTheBed) { EXPECT_FALSE(fit_bed({}, {}, 3, kSizes).converged); }
 
 }  // namespace
 }  // namespace berm::app

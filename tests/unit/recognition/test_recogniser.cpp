@@ -118,6 +118,20 @@ TEST(TruckRecogniser, RefusesOtherSizes) {
   }
 }
 
+// What is known of widths and walls is the classes', not that of the shipped ones.
+TEST(TruckRecogniser, FindsTheTrucksOfOtherClasses) {
+  TruckRangeSet ranges = read_truck_ranges(BERM_TRUCK_RANGES);
+  for (TruckRanges& c : ranges.classes) c.inside_width = {3.0, 3.4}, c.wall_thickness = {0.15, 0.25};
+  DrawnBed wide;
+  wide.width = 3.2;
+  wide.thickness = 0.2;
+  const RecognisedTruck answer = recognise_truck(sweep_of(wide), drawn_viewpoint, ranges);
+  ASSERT_TRUE(answer.found) << answer.reason;
+  EXPECT_NEAR(answer.width, wide.width, 0.05);
+  EXPECT_NEAR(answer.length, wide.length, 0.06);
+  EXPECT_FALSE(answer_to(wide).found) << "of the shipped classes it is none";
+}
+
 TEST(TruckRecogniser, RefusesBareGroundAndNothing) {
   DrawnBed far;
   far.y = 60.0;
