@@ -4,7 +4,6 @@
 #include <linux/can.h>
 #include <linux/can/raw.h>
 #include <net/if.h>
-#include <netinet/udp.h>
 #include <poll.h>
 #include <string.h>
 #include <sys/ioctl.h>
@@ -130,52 +129,18 @@ bool Transport::send_batch(const berm_can_frame* frames, int count) {
     memcpy(out[i].data, frames[i].data, kData);
   }
   iovec part{out, static_cast<std::size_t>(count) * sizeof out[0]};
-  alignas(cmsghdr) char control[CMSG_SPACE(sizeof(std::uint16_t))] = {};
-  msghdr message{};
-  message.msg_name = &group_;
-  message.msg_namelen = sizeof group_;
-  message.msg_iov = &part;
-  message.msg_iovlen = 1;
-  message.msg_control = control;
-  message.msg_controllen = sizeof control;
-  cmsghdr* header = CMSG_FIRSTHDR(&message);
-  header->cmsg_level = SOL_UDP;
-  header->cmsg_type = UDP_SEGMENT;
-  header->cmsg_len = CMSG_LEN(sizeof(std::uint16_t));
-  const std::uint16_t each = sizeof out[0];
-  memcpy(CMSG_DATA(header), &each, sizeof each);
-  if (sendmsg(fd_, &message, 0) == static_cast<ssize_t>(part.iov_len)) return true;
-  if (errno == EINVAL || errno == EIO || errno == ENOPROTOOPT || errno == EOPNOTSUPP) segments_ = false;
-  return false;
-}
-
-// As many datagrams as wait at the socket; false when there is none.
-bool Transport::refill() {
-  iovec part[kBatch];
-  mmsghdr message[kBatch] = {};
-  for (int i = 0; i < kBatch; ++i) {
-    part[i] = {waiting_[i], kRoom};
-    message[i].msg_hdr.msg_iov = &part[i];
-    message[i].msg_hdr.msg_iovlen = 1;
-  }
-  int n = 0;
-  do {
-    n = recvmmsg(fd_, message, kBatch, MSG_DONTWAIT, nullptr);
-  } while (n < 0 && errno == EINTR);
-  next_ = 0;
-  taken_ = std::max(n, 0);
-  for (int i = 0; i < taken_; ++i) length_[i] = message[i].msg_len;
-  return taken_ > 0;
+  const bool good = datagram::send_cut(fd_, &part, 1, sizeof out[0], &group_);
+  segments_ = good || !datagram::cuts_none(errno);
+  return good;
 }
 
 bool Transport::receive(berm_can_frame& frame) {
-  while (next_ < taken_ || refill()) {
-    const unsigned char* buffer = waiting_[next_];
-    const std::size_t n = length_[next_++];
+  decltype(waiting_)::One one;
+  while (waiting_.next(fd_, one)) {
     canfd_frame in{};
     const std::size_t expected = multicast_ ? sizeof(canfd_frame) : sizeof(can_frame);
-    const bool whole = n == expected;
-    if (whole) memcpy(&in, buffer, expected);
+    const bool whole = one.length == expected;
+    if (whole) memcpy(&in, one.bytes, expected);
     if (!whole || in.len > kData || (in.can_id & CAN_EFF_FLAG) == 0 || (in.can_id & (CAN_RTR_FLAG | CAN_ERR_FLAG)) != 0) {
       ++counters_.wrong_length;
       continue;

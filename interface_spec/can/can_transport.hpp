@@ -9,6 +9,7 @@
 #include <string>
 
 #include "can/berm_can.h"
+#include "datagram/datagrams.hpp"
 
 namespace berm::can {
 
@@ -43,7 +44,6 @@ class Transport {
   static constexpr std::size_t kRoom = 80;   // for a datagram: more than the largest, so that one that is too long does not look right
 
   bool send_batch(const berm_can_frame* frames, int count);
-  bool refill();
   std::string open_multicast(const std::string& group, int port);
   std::string open_socketcan(const std::string& interface);
 
@@ -51,9 +51,7 @@ class Transport {
   bool multicast_ = false;
   bool segments_ = true;  // the system cuts one message into datagrams; until it says that it does not
   sockaddr_in group_{};
-  unsigned char waiting_[kBatch][kRoom];  // taken from the socket, and not asked for yet
-  std::size_t length_[kBatch];
-  int next_ = 0, taken_ = 0;
+  datagram::Waiting<kBatch, kRoom> waiting_;
   TransportCounters counters_;
 };
 

@@ -38,30 +38,12 @@ bool UdpReceiver::open(std::uint16_t port, std::string& error) {
   return true;
 }
 
-bool UdpReceiver::refill() {
-  iovec part[kBatch];
-  mmsghdr message[kBatch] = {};
-  for (int i = 0; i < kBatch; ++i) {
-    part[i] = {waiting_[i], kRoom};
-    message[i].msg_hdr.msg_iov = &part[i];
-    message[i].msg_hdr.msg_iovlen = 1;
-  }
-  int n = 0;
-  do {
-    n = recvmmsg(fd_, message, kBatch, MSG_DONTWAIT | MSG_TRUNC, nullptr);
-  } while (n < 0 && errno == EINTR);
-  next_ = 0;
-  taken_ = std::max(n, 0);
-  for (int i = 0; i < taken_; ++i) length_[i] = message[i].msg_len;
-  return taken_ > 0;
-}
-
 ssize_t UdpReceiver::receive(std::uint8_t* bytes, std::size_t capacity) {
   static_assert(kRoom > BERM_SCAN_PACKET_MAX_BYTES && kRoom > kVlp16PacketBytes);
-  if (next_ == taken_ && !refill()) return -1;
-  const std::size_t length = length_[next_];
-  std::memcpy(bytes, waiting_[next_++], std::min({capacity, kRoom, length}));
-  return static_cast<ssize_t>(length);
+  decltype(waiting_)::One one;
+  if (!waiting_.next(fd_, one)) return -1;
+  std::memcpy(bytes, one.bytes, std::min({capacity, kRoom, one.length}));
+  return static_cast<ssize_t>(one.length);
 }
 
 }  // namespace berm::kernel

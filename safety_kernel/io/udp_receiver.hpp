@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string>
 
+#include "datagram/datagrams.hpp"
+
 namespace berm::kernel {
 
 class UdpReceiver {
@@ -26,12 +28,8 @@ class UdpReceiver {
   static constexpr int kBatch = 32;           // datagrams that one call of the system takes
   static constexpr std::size_t kRoom = 1536;  // for one: more than any that is right
 
-  bool refill();
-
   int fd_ = -1;
-  std::uint8_t waiting_[kBatch][kRoom];       // taken from the socket, and not asked for yet
-  std::size_t length_[kBatch];
-  int next_ = 0, taken_ = 0;
+  datagram::Waiting<kBatch, kRoom> waiting_;
 };
 
 }  // namespace berm::kernel

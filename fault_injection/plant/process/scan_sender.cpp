@@ -3,7 +3,6 @@
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <netinet/in.h>
-#include <netinet/udp.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -12,6 +11,8 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+
+#include "datagram/datagrams.hpp"
 
 namespace berm::plant {
 
@@ -53,20 +54,9 @@ void ScanSender::send(std::span<const LidarPacket> packets) {
 bool ScanSender::send_batch(std::span<const LidarPacket> packets) {
   std::vector<iovec> part;
   for (const LidarPacket& packet : packets) part.push_back({const_cast<std::uint8_t*>(packet.bytes.data()), packet.bytes.size()});
-  alignas(cmsghdr) char control[CMSG_SPACE(sizeof(std::uint16_t))] = {};
-  msghdr message{};
-  message.msg_iov = part.data();
-  message.msg_iovlen = part.size();
-  message.msg_control = control;
-  message.msg_controllen = sizeof control;
-  cmsghdr* header = CMSG_FIRSTHDR(&message);
-  header->cmsg_level = SOL_UDP;
-  header->cmsg_type = UDP_SEGMENT;
-  header->cmsg_len = CMSG_LEN(sizeof(std::uint16_t));
-  const std::uint16_t each = lidar_packet_bytes;
-  std::memcpy(CMSG_DATA(header), &each, sizeof each);
-  bool good = sendmsg(fd_, &message, MSG_NOSIGNAL) >= 0;
-  if (!good && errno == ECONNREFUSED) good = sendmsg(fd_, &message, MSG_NOSIGNAL) >= 0;
+  const auto sends = [&] { return datagram::send_cut(fd_, part.data(), part.size(), lidar_packet_bytes); };
+  bool good = sends();
+  if (!good && errno == ECONNREFUSED) good = sends();  // of the datagram before, as in send_bytes
   if (!good && errno != ECONNREFUSED) segments_ = false;
   if (good) sent_ += static_cast<std::uint32_t>(packets.size());
   return good;
