@@ -196,7 +196,6 @@ double Sequencer::share_that_may_trail() const {
 
 std::uint32_t Sequencer::pass_events(const Observation& o) {
   constexpr double open_at_least = 0.25, open_at_most = 2.0, empty_share = 0.05;
-
   const bool opening = script_.of(bucket).reached(RuleMark::opens);
   const std::uint32_t weighed = load_check_.passed() ? event_weighed : event_none;
   if (!opening || emptied_) return emptied_ ? event_emptied | event_empties | weighed : weighed;

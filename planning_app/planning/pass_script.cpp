@@ -193,22 +193,13 @@ void PassSearch::step() {
     }
   } else if (stage_ == Stage::hover) {
     const PassPoses higher = poses_;
-    constexpr int offsets = 1;
-    constexpr double later = 0.5;        // of the offset before: low only when the swing is slower
-    const double above = hover_lowest + hover_step * (candidate_ / offsets);
+    const double above = hover_lowest + hover_step * candidate_;
     const auto hover = above < hover_above ? hover_pose(machine_, task_, above) : std::nullopt;
     if (hover) {
-      PassThresholds thresholds = thresholds_;
-      thresholds.hover_offset *= std::pow(later, candidate_ % offsets);
-      thresholds.lower_offset = std::min(latest_lower, lower_share * thresholds.hover_offset);
       poses_.hover = *hover;
-      const Outcome outcome = simulate(thresholds);
-      if (outcome.clear_back && outcome.finished && outcome.seconds < seconds_) {
-        seconds_ = outcome.seconds;
-        thresholds_ = thresholds;
-      } else {
-        poses_ = higher;
-      }
+      const Outcome outcome = simulate(thresholds_);
+      if (outcome.clear_back && outcome.finished && outcome.seconds < seconds_) seconds_ = outcome.seconds;
+      else poses_ = higher;
     }
     ++candidate_;
     if (above >= hover_above || poses_.hover != higher.hover) {
