@@ -79,14 +79,14 @@ void put16(std::uint8_t* to, unsigned v) {
 
 void put_return(std::uint8_t* to, double range) {
   if (range <= 0.0) return;
-  put16(to, static_cast<unsigned>(std::clamp<long>(std::lround(range / range_lsb), 1, 65535)));
+  put16(to, static_cast<unsigned>(std::clamp(static_cast<long>(range / range_lsb + 0.5), 1L, 65535L)));
   to[2] = reflectivity;
 }
 
 }  // namespace
 
 SpinningLidar::SpinningLidar(const ScannerConfig& noise, const LidarMount& mount, std::uint8_t number, std::uint64_t seed)
-    : noise_(noise), mount_(mount), number_(number), random_(seed), dust_random_(~seed) {
+    : noise_(noise), mount_(mount), number_(number), draws_(seed, draws_more()), dust_random_(~seed) {
   const BaseFrame turn({0, 0, mount.yaw, mount.roll, mount.pitch});
   x_ = turn.turned({1, 0, 0});
   y_ = turn.turned({0, 1, 0});
@@ -95,37 +95,21 @@ SpinningLidar::SpinningLidar(const ScannerConfig& noise, const LidarMount& mount
 
 Vec3 SpinningLidar::turned(const Vec3& v) const { return v.x * x_ + v.y * y_ + v.z * z_; }
 
-// What is drawn does not depend on what is hit.
-SpinningLidar::Drawn SpinningLidar::draw() {
-  Drawn d{random_.normal(), random_.uniform(), 0.0, 0.0};
-  if (mount_.dual || mount_.outliers) d.what = random_.uniform(), d.where = random_.uniform();
-  return d;
-}
-
-SpinningLidar::Drawn SpinningLidar::next_drawn() { return taken_ < drawn_.size() ? drawn_[taken_++] : draw(); }
-
-void SpinningLidar::draw_ahead(std::size_t shots) {
-  drawn_.erase(drawn_.begin(), drawn_.begin() + static_cast<std::ptrdiff_t>(taken_));
-  taken_ = 0;
-  drawn_.reserve(shots);
-  while (drawn_.size() < shots) drawn_.push_back(draw());
-}
-
 // Dust sends back less than the target behind it: the target is the last and the strongest, and the strongest but that is the dust (VLP-16 manual, dual
 // return mode).
-SpinningLidar::Returns SpinningLidar::received(const std::optional<double>& hit, const Drawn& drawn) const {
+SpinningLidar::Returns SpinningLidar::received(const std::optional<double>& hit, const ShotDraws::Firing& drawn, std::size_t laser) const {
   Returns back;
   const bool hits = hit && *hit >= range_least;
   back.met = hits;
-  if (hits) back.last = back.other = std::max(range_least, *hit + noise_.range_stddev * drawn.noise);
-  if (!mount_.dual && !mount_.outliers) return back;
-  const double outlier = mount_.outliers ? noise_.outlier_probability : 0.0;
-  const double between = range_least + drawn.where * std::max(0.0, hit.value_or(range_most) - range_least);
-  if (drawn.what < outlier) {
-    back.last = back.other = between;
+  if (hits) back.last = back.other = std::max(range_least, drawn.noisy(*hit, noise_.range_stddev, range_lsb, laser));
+  if (!draws_more()) return back;
+  const double outlier = mount_.outliers ? noise_.outlier_probability : 0.0, what = drawn.what(laser);
+  const auto between = [&] { return range_least + drawn.where(laser) * std::max(0.0, hit.value_or(range_most) - range_least); };
+  if (what < outlier) {
+    back.last = back.other = between();
     back.met = false;
-  } else if (hits && mount_.dual && drawn.what < outlier + noise_.dust_probability) {
-    back.other = std::min(between, back.last);
+  } else if (hits && mount_.dual && what < outlier + noise_.dust_probability) {
+    back.other = std::min(between(), back.last);
   }
   return back;
 }
@@ -166,14 +150,14 @@ void SpinningLidar::fire(std::int64_t firing, double swing, const SensorAir& air
   turned_beams(own, {x_, y_, z_}, in_upper);
   swung_beams(in_upper, body, in_base);
   turned_beams(in_base, {stand.x(), stand.y(), stand.z()}, in_world);
+  const ShotDraws::Firing drawn = draws_.next();
   for (std::size_t laser = 0; laser < lasers; ++laser) {
-    const Drawn drawn = next_drawn();
     const Ray upper{place, in_upper.of(laser)}, base{place_base, in_base.of(laser)}, world{place_world, in_world.of(laser)};
     const std::optional<SceneHit> hit = seen ? scene.meet(view, world, base, upper, range_most) : scene.meet(world, base, upper, range_most);
     const std::optional<double> range = hit ? std::optional<double>(hit->range) : std::nullopt;
-    Returns back = received(range, drawn);
+    Returns back = received(range, drawn, laser);
     blow(range, air, back);
-    if (air.covers(at) || drawn.lost < noise_.dropout_probability) continue;
+    if (air.covers(at) || drawn.lost(laser) < noise_.dropout_probability) continue;
     if (back.met) note(*hit, world, returns);
     put_return(records + record_bytes * laser, back.last);
     if (others != nullptr) put_return(others + record_bytes * laser, back.other);

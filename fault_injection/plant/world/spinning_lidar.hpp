@@ -12,6 +12,7 @@
 #include "plant/world/random.hpp"
 #include "plant/world/scene.hpp"
 #include "plant/world/sensor_air.hpp"
+#include "plant/world/shot_draws.hpp"
 
 namespace berm::plant {
 
@@ -28,22 +29,19 @@ class SpinningLidar {
   // air.covered: something lies on the window, and nothing comes back. returns: takes what people and vehicles sent back, or null.
   void step(double t, double dt, double swing_before, double swing_now, const SensorAir& air, const Scene& scene, const BaseFrame& stand,
             std::vector<LidarPacket>& out, std::vector<MoverReturn>* returns = nullptr);
-  void draw_anew(std::uint64_t seed) { random_ = Random(seed), dust_random_ = Random(~seed), drawn_.clear(), taken_ = 0; }
-  static constexpr std::size_t shots_a_cycle = 182 * 16;  // at most, of 10 ms
-  // Draws for so many of the next shots, in time that is to spare; what comes of it is the same.
-  void draw_ahead(std::size_t shots);
+  void draw_anew(std::uint64_t seed) { draws_ = ShotDraws(seed, draws_more()), dust_random_ = Random(~seed); }
+  static constexpr std::size_t firings_a_cycle = 182;  // at most, of 10 ms
+  // Draws for so many of the next firings, in time that is to spare; what comes of it is the same.
+  void draw_ahead(std::size_t firings) { draws_.ahead(firings); }
 
  private:
   struct Returns {
     bool met = false;                // the last is of what was hit
     double last = 0.0, other = 0.0;  // m; 0: none. other: the strongest but the last, or the last again
   };
-  // Of a shot, whatever it hits: range noise, whether it is lost, and, of sensors with dust or outliers, what comes back besides and from where.
-  struct Drawn { double noise, lost, what, where; };
-  [[nodiscard]] Drawn draw();
-  [[nodiscard]] Drawn next_drawn();
+  [[nodiscard]] bool draws_more() const { return mount_.dual || mount_.outliers; }
   // What comes back of a laser's shot that something did, or nothing (hit), with what was drawn for it.
-  [[nodiscard]] Returns received(const std::optional<double>& hit, const Drawn& drawn) const;
+  [[nodiscard]] Returns received(const std::optional<double>& hit, const ShotDraws::Firing& drawn, std::size_t laser) const;
   // records: of the last returns; others: of the strongest, or null.
   void blow(const std::optional<double>& hit, const SensorAir& air, Returns& back);
   void fire(std::int64_t firing, double swing, const SensorAir& air, const Scene& scene, const BaseFrame& stand, std::uint8_t* records, std::uint8_t* others,
@@ -53,9 +51,8 @@ class SpinningLidar {
   ScannerConfig noise_;
   LidarMount mount_;
   std::uint8_t number_;
-  Random random_, dust_random_;  // dust of the air draws from its own, so that it leaves all else as it was
-  std::vector<Drawn> drawn_;   // ahead; those before taken_ are used up
-  std::size_t taken_ = 0;
+  ShotDraws draws_;
+  Random dust_random_;         // dust of the air draws from its own, so that it leaves all else as it was
   Vec3 x_, y_, z_;             // the sensor's axes in the upper body
   std::int64_t next_ = 0;      // number of the next firing
   LidarPacket packet_{};

@@ -201,7 +201,7 @@ void World::sense(double t, double dt, const JointState& before, const JointStat
 }
 
 void World::draw_ahead() {
-  for (SpinningLidar& l : state_->lidar) l.draw_ahead(SpinningLidar::shots_a_cycle);
+  for (SpinningLidar& l : state_->lidar) l.draw_ahead(SpinningLidar::firings_a_cycle);
 }
 
 oracle::Site World::State::site() const {
