@@ -11,6 +11,7 @@
 #include "plant/oracle/oracle.hpp"
 #include "plant/process/world_config.hpp"
 #include "plant/world/base_pose.hpp"
+#include "plant/world/foresight.hpp"
 #include "plant/world/link_frames.hpp"
 #include "plant/world/landing.hpp"
 #include "plant/world/movers.hpp"
@@ -99,7 +100,7 @@ struct World::State {
   // The truck that is here or expected; the last one when all are gone.
   [[nodiscard]] const Truck* shown() const { return truck.empty() ? nullptr : &truck[std::min(current, truck.size() - 1)]; }
   [[nodiscard]] oracle::Site site() const;
-  void place(const JointState& now);
+  void place(const JointState& now, Scene& in) const;
   void scan(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
             std::vector<berm_scan_packet>& out);
   void fire(size_t lidar, double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out,
@@ -119,6 +120,7 @@ struct World::State {
   std::vector<SpinningLidar> lidar;
   Scene scene;
   BasePose base;
+  Foresight foresight;
   std::vector<MoverReturn> mover_returns, side_returns;
   std::vector<LidarPacket> side_packets;
   size_t current = 0;
@@ -146,10 +148,9 @@ DigForces World::step(double t, double dt, const JointState& now, const JointSta
   return forces;
 }
 
-void World::State::place(const JointState& now) {
-  mover_returns.clear();
-  scene.place_site(terrain, truck, movers, config.boxes);
-  scene.place_machine(shape, link_frames(shape, now), std::max(0.0, load.volume() - load.struck()));
+void World::State::place(const JointState& now, Scene& in) const {
+  in.place_site(terrain, truck, movers, config.boxes);
+  in.place_machine(shape, link_frames(shape, now), std::max(0.0, load.volume() - load.struck()));
 }
 
 void World::State::scan(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
@@ -165,12 +166,15 @@ void World::State::scan(double t, double dt, const JointState& before, const Joi
 void World::State::fire(size_t i, double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out,
                         std::vector<MoverReturn>& returns) {
   const SensorAir a = air(config.lidar_faults, i, t);
-  if (!a.silent) lidar[i].step(t, dt, before.angle[0], now.angle[0], a, scene, BaseFrame(base), out, &returns);
+  const SpinningLidar::Foreseen foreseen = foresight.hits(i);
+  if (!a.silent) lidar[i].step({t, dt, before.angle[0], now.angle[0]}, a, scene, BaseFrame(base), out, &returns, &foreseen);
 }
 
 void World::scan(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
                  std::vector<berm_scan_packet>& out) {
-  state_->place(now);
+  state_->mover_returns.clear();
+  state_->foresight.forget();
+  state_->place(now, state_->scene);
   state_->scan(t, dt, before, now, pan_before, pan_now, out);
 }
 
@@ -187,7 +191,9 @@ void World::sense(double t, double dt, const JointState& before, const JointStat
     scan_lidars(t, dt, before, now, lidars);
     return;
   }
-  w.place(now);
+  w.mover_returns.clear();
+  w.place(now, w.scene);
+  w.foresight.compare({t, dt, before.angle[0], now.angle[0]}, w.base, w.scene);
   w.side_packets.clear();
   w.side_returns.clear();
   side->give([&] {
@@ -198,6 +204,12 @@ void World::sense(double t, double dt, const JointState& before, const JointStat
   side->wait();
   lidars.insert(lidars.end(), w.side_packets.begin(), w.side_packets.end());
   w.mover_returns.insert(w.mover_returns.end(), w.side_returns.begin(), w.side_returns.end());
+}
+
+void World::foresee(double t, double dt, const JointState& before, const JointState& now, const std::atomic<bool>& enough) {
+  State& w = *state_;
+  w.place(now, w.foresight.begin({t, dt, before.angle[0], now.angle[0]}, w.base, w.lidar.size()));
+  w.foresight.look(w.lidar, enough);
 }
 
 void World::draw_ahead() {
