@@ -187,26 +187,14 @@ void PlantRun::send(double t) {
 }
 
 // While kernel and app have this cycle's messages: what needs no answer of theirs, and what the lidars will see if the kernel lets the joints go on as
-// they do. In the side thread, if there is one: this one sleeps, since the system lets the kernel run where it was woken.
+// they do, until it has answered.
 void PlantRun::use_spare_time(double t) {
-  if (!side_) {
-    verdict_ = world_.judge(t, dynamics_.state());
-    world_.draw_ahead();
-    return;
-  }
-  enough_ = false;
-  side_->give([this, t] {
-    verdict_ = world_.judge(t, dynamics_.state());
-    world_.draw_ahead();
-    JointDynamics next = dynamics_;
-    next.step(kCycle, controller_.drive(), controller_.command(), soil_, world_.payload_kg());
-    world_.foresee(time_of(cycle_ + 1), kCycle, dynamics_.state(), next.state(), enough_);
-  });
-}
-
-void PlantRun::end_spare_time() {
-  enough_ = true;
-  if (side_) side_->wait();
+  verdict_ = world_.judge(t, dynamics_.state());
+  world_.draw_ahead();
+  if (options_.realtime || !side_) return;
+  JointDynamics next = dynamics_;
+  next.step(kCycle, controller_.drive(), controller_.command(), soil_, world_.payload_kg());
+  world_.foresee(time_of(cycle_ + 1), kCycle, dynamics_.state(), next.state(), [this] { return peers_.kernel_has_answered(cycle_); });
 }
 
 // The app answers the newest cycle while the next is computed here: that needs the kernel's answer alone, and nothing of it is sent before.
@@ -297,12 +285,11 @@ void PlantRun::run() {
     t = time_of(cycle_);
     if (options_.realtime) peers_.drain();
     advance(t);
-    use_spare_time(t);
     if (!options_.realtime) await_others();
     now_ = t;
     send(t);
+    use_spare_time(t);
     if (!options_.realtime) peers_.wait_for_kernel(cycle_, options_.stop_fd);
-    end_spare_time();
     observe(t);
     reason = end_reason(t);
   }

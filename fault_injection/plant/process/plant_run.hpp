@@ -2,7 +2,6 @@
 // processes, and writes what happened.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -59,8 +58,7 @@ class PlantRun {
   void change_weather(double t);
   void send(double t);
   std::uint32_t datagrams() const;  // to all sensor ports
-  void use_spare_time(double t);  // begins; what is done in it is there after end_spare_time
-  void end_spare_time();
+  void use_spare_time(double t);
   void await_others();
   void note_finish();
   void observe(double t);
@@ -78,7 +76,6 @@ class PlantRun {
   ScanSender scans_;
   std::vector<std::unique_ptr<ScanSender>> lidars_;
   std::optional<SideThread> side_;    // with two lidars and two processors
-  std::atomic<bool> enough_ = false;  // of what is worked out in the spare time
   std::vector<berm_scan_packet> packets_;
   std::vector<LidarPacket> lidar_packets_;
   World world_;

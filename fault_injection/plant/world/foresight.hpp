@@ -2,7 +2,7 @@
 // in the machine's motion or the site, is found by comparison, and looked at again where it may be met: the step's results are the same to the last bit.
 #pragma once
 
-#include <atomic>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -16,8 +16,8 @@ class Foresight {
  public:
   // The scene to be filled with what is expected of the step.
   Scene& begin(const SpinningLidar::Span& span, const BasePose& base, std::size_t lidars);
-  // Firing after firing, of all lidars alike, until all are seen or it is enough. Reads lidars and scene alone.
-  void look(const std::vector<SpinningLidar>& lidars, const std::atomic<bool>& enough);
+  // Firing after firing, of all lidars alike, until all are seen or it is enough, which is asked again and again. Reads lidars and scene alone.
+  void look(const std::vector<SpinningLidar>& lidars, const std::function<bool()>& enough);
   // The step as it came; from now on hits() are of it. Nothing foreseen is left when the machine moved otherwise.
   void compare(const SpinningLidar::Span& span, const BasePose& base, const Scene& scene);
   [[nodiscard]] SpinningLidar::Foreseen hits(std::size_t lidar) const {

@@ -101,8 +101,8 @@ struct World::State {
   [[nodiscard]] const Truck* shown() const { return truck.empty() ? nullptr : &truck[std::min(current, truck.size() - 1)]; }
   [[nodiscard]] oracle::Site site() const;
   void place(const JointState& now, Scene& in) const;
-  void scan(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
-            std::vector<berm_scan_packet>& out);
+  void scan(size_t scanner, double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
+            std::vector<berm_scan_packet>& out, std::vector<MoverReturn>& returns);
   void fire(size_t lidar, double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out,
             std::vector<MoverReturn>& returns);
 
@@ -121,8 +121,13 @@ struct World::State {
   Scene scene;
   BasePose base;
   Foresight foresight;
-  std::vector<MoverReturn> mover_returns, side_returns;
-  std::vector<LidarPacket> side_packets;
+  std::vector<MoverReturn> mover_returns;
+  struct Aside {  // what the side thread senses
+    std::vector<berm_scan_packet> scans;
+    std::vector<LidarPacket> lidars;
+    std::vector<MoverReturn> scan_returns, lidar_returns;
+    void clear() { scans.clear(), lidars.clear(), scan_returns.clear(), lidar_returns.clear(); }
+  } aside;
   size_t current = 0;
   std::vector<Overflow> over;
 };
@@ -153,14 +158,10 @@ void World::State::place(const JointState& now, Scene& in) const {
   in.place_machine(shape, link_frames(shape, now), std::max(0.0, load.volume() - load.struck()));
 }
 
-void World::State::scan(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
-                        std::vector<berm_scan_packet>& out) {
-  const BaseFrame stand(base);
-  for (size_t i = 0; i < scanner.size(); ++i) {
-    const SensorAir a = air(config.scanner_faults, i, t);
-    if (a.silent) continue;
-    scanner[i].step(t, dt, {before.angle[0], pan_before.angle[i]}, {now.angle[0], pan_now.angle[i]}, scene, out, stand, &mover_returns, a);
-  }
+void World::State::scan(size_t i, double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
+                        std::vector<berm_scan_packet>& out, std::vector<MoverReturn>& returns) {
+  const SensorAir a = air(config.scanner_faults, i, t);
+  if (!a.silent) scanner[i].step(t, dt, {before.angle[0], pan_before.angle[i]}, {now.angle[0], pan_now.angle[i]}, scene, out, BaseFrame(base), &returns, a);
 }
 
 void World::State::fire(size_t i, double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out,
@@ -175,14 +176,14 @@ void World::scan(double t, double dt, const JointState& before, const JointState
   state_->mover_returns.clear();
   state_->foresight.forget();
   state_->place(now, state_->scene);
-  state_->scan(t, dt, before, now, pan_before, pan_now, out);
+  for (size_t i = 0; i < state_->scanner.size(); ++i) state_->scan(i, t, dt, before, now, pan_before, pan_now, out, state_->mover_returns);
 }
 
 void World::scan_lidars(double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out) {
   for (size_t i = 0; i < state_->lidar.size(); ++i) state_->fire(i, t, dt, before, now, out, state_->mover_returns);
 }
 
-// Each lidar draws from its own stream, and the scene is only looked at.
+// Each scanner and lidar draws from its own stream, and the scene is only looked at.
 void World::sense(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
                   std::vector<berm_scan_packet>& scans, std::vector<LidarPacket>& lidars, SideThread* side) {
   State& w = *state_;
@@ -194,19 +195,24 @@ void World::sense(double t, double dt, const JointState& before, const JointStat
   w.mover_returns.clear();
   w.place(now, w.scene);
   w.foresight.compare({t, dt, before.angle[0], now.angle[0]}, w.base, w.scene);
-  w.side_packets.clear();
-  w.side_returns.clear();
+  w.aside.clear();
   side->give([&] {
-    for (size_t i = 1; i < w.lidar.size(); ++i) w.fire(i, t, dt, before, now, w.side_packets, w.side_returns);
+    w.scan(1, t, dt, before, now, pan_before, pan_now, w.aside.scans, w.aside.scan_returns);
+    for (size_t i = 1; i < w.lidar.size(); ++i) w.fire(i, t, dt, before, now, w.aside.lidars, w.aside.lidar_returns);
   });
-  w.scan(t, dt, before, now, pan_before, pan_now, scans);
-  w.fire(0, t, dt, before, now, lidars, w.mover_returns);
+  std::vector<MoverReturn> first;
+  w.scan(0, t, dt, before, now, pan_before, pan_now, scans, w.mover_returns);
+  w.fire(0, t, dt, before, now, lidars, first);
   side->wait();
-  lidars.insert(lidars.end(), w.side_packets.begin(), w.side_packets.end());
-  w.mover_returns.insert(w.mover_returns.end(), w.side_returns.begin(), w.side_returns.end());
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(scans, w.aside.scans);
+  append(lidars, w.aside.lidars);
+  append(w.mover_returns, w.aside.scan_returns);
+  append(w.mover_returns, first);
+  append(w.mover_returns, w.aside.lidar_returns);
 }
 
-void World::foresee(double t, double dt, const JointState& before, const JointState& now, const std::atomic<bool>& enough) {
+void World::foresee(double t, double dt, const JointState& before, const JointState& now, const std::function<bool()>& enough) {
   State& w = *state_;
   w.place(now, w.foresight.begin({t, dt, before.angle[0], now.angle[0]}, w.base, w.lidar.size()));
   w.foresight.look(w.lidar, enough);
