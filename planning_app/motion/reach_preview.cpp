@@ -173,7 +173,8 @@ LowerEdge lower_edge(const MachineModel& machine, const Joints& pose) {
 double bucket_underside(const MachineModel& machine, const Joints& pose) {
   double lowest = LowerEdge::none;
   for (const Prism& part : machine.parts)
-    if (part.link == bucket) for_points(machine, part, outline_points(part, corners_only), pose, [&](const PlanePoint& p) { lowest = std::min(lowest, p.z); });
+    if (part.link == bucket)
+      for_points(machine, part, outline_points(part, corners_only), pose, [&](const PlanePoint& p) { lowest = std::min(lowest, p.z); });
   return lowest;
 }
 
@@ -187,7 +188,8 @@ double bucket_width(const MachineModel& machine) {
 double reach_of(const MachineModel& machine, const Joints& pose) {
   double reach = 0.0;
   for (const Prism& part : machine.parts)
-    for_points(machine, part, outline_points(part, corners_only), pose, [&](const PlanePoint& p) { reach = std::max(reach, std::hypot(p.r, part.half_width)); });
+    for_points(machine, part, outline_points(part, corners_only), pose,
+               [&](const PlanePoint& p) { reach = std::max(reach, std::hypot(p.r, part.half_width)); });
   return reach;
 }
 

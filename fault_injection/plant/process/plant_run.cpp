@@ -186,8 +186,8 @@ void PlantRun::send(double t) {
   bus_.send(out.data(), static_cast<int>(out.size()));
 }
 
-// While kernel and app have this cycle's messages: what needs no answer of theirs, and what the lidars will see if the kernel lets the joints go on as
-// they do, until it has answered.
+// While kernel and app have this cycle's messages: what needs no answer of theirs, and what the lidars will see if the kernel lets the joints go on
+// as they do, until it has answered.
 void PlantRun::use_spare_time(double t) {
   verdict_ = world_.judge(t, dynamics_.state());
   world_.draw_ahead();

@@ -1,5 +1,6 @@
-// The rays of the lidars' next step, worked out while others are waited for: as they will be if the machine goes on as it does now. What came otherwise,
-// in the machine's motion or the site, is found by comparison, and looked at again where it may be met: the step's results are the same to the last bit.
+// The rays of the lidars' next step, worked out while others are waited for: as they will be if the machine goes on as it does now. What came
+// otherwise, in the machine's motion or the site, is found by comparison, and looked at again where it may be met: the step's results are the same to
+// the last bit.
 #pragma once
 
 #include <functional>

@@ -190,9 +190,10 @@ SceneDifference Scene::difference(const Scene& before) const {
   constexpr double deep = -100.0;  // lower than any ground
   SceneDifference d;
   const HeightChange& ground = terrain_->grid().newest_change();
-  d.everywhere = terrain_ != before.terrain_ || truck_.size() != before.truck_.size() || box_.size() != before.box_.size() || person_.size() != before.person_.size() ||
-                 box_mover_ != before.box_mover_ || person_mover_ != before.person_mover_ || upper_body_ != before.upper_body_ || track_ != before.track_ ||
-                 ground_changes_ != ground.number || ground_changes_ - before.ground_changes_ > 1 || (ground_changes_ != before.ground_changes_ && ground.highest);
+  const bool others = truck_.size() != before.truck_.size() || box_mover_ != before.box_mover_ || person_mover_ != before.person_mover_ ||
+                      upper_body_ != before.upper_body_ || track_ != before.track_;
+  const bool unknown = terrain_ != before.terrain_ || ground_changes_ != ground.number || ground_changes_ - before.ground_changes_ > 1;
+  d.everywhere = others || unknown || (ground_changes_ != before.ground_changes_ && ground.highest);
   if (d.everywhere) return d;
   if (ground_changes_ != before.ground_changes_)
     d.site.push_back({PlanarFrame(), {ground.x_low, ground.y_low, deep}, {ground.x_high, ground.y_high, terrain_->grid().highest()}});

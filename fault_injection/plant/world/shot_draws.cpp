@@ -11,8 +11,8 @@ namespace {
 constexpr std::size_t pairs = ShotDraws::lasers / 2;
 struct Uniforms { std::array<double, pairs> one, other; };
 
-// Box and Muller's pairs by series, which go into lanes: the logarithm of [sqrt(1/2), sqrt(2)) by that of the area tangent, sine and cosine of an eighth
-// of a turn to either side.
+// Box and Muller's pairs by series, which go into lanes: the logarithm of [sqrt(1/2), sqrt(2)) by that of the area tangent, sine and cosine of an
+// eighth of a turn to either side.
 BERM_PLANT_LANES void near_normals(const Uniforms& u, double* noise) {
   constexpr std::uint64_t half_root = 0x3FE6A09E667F3BCDu, bias = std::uint64_t{1024} << 52, magic_bits = 0x4330000000000000u;
   constexpr double magic = 0x1.0p52, nearest = 0x1.8p52, quarter = std::numbers::pi / 2;
@@ -22,7 +22,8 @@ BERM_PLANT_LANES void near_normals(const Uniforms& u, double* noise) {
     const double exponent = std::bit_cast<double>(magic_bits | twos) - (magic + 1024.0);
     const double m = std::bit_cast<double>(bits - (twos << 52) + bias);
     const double s = (m - 1.0) / (m + 1.0), q = s * s;
-    const double log = exponent * std::numbers::ln2 + 2.0 * s * (1.0 + q * (1.0 / 3 + q * (1.0 / 5 + q * (1.0 / 7 + q * (1.0 / 9 + q * (1.0 / 11))))));
+    const double series = 1.0 + q * (1.0 / 3 + q * (1.0 / 5 + q * (1.0 / 7 + q * (1.0 / 9 + q * (1.0 / 11)))));
+    const double log = exponent * std::numbers::ln2 + 2.0 * s * series;
     const double radius = std::sqrt(-2.0 * log);
     const double turn = 4.0 * u.other[i], rounded = turn + nearest;
     const std::uint64_t quadrant = std::bit_cast<std::uint64_t>(rounded);

@@ -1,6 +1,6 @@
 // What is drawn for the shots of a lidar of sixteen lasers, whatever they hit: range noise, whether the shot is lost, and, of sensors with dust or
-// outliers, what comes back besides and from where. One stream, in the order in which Random draws for shot after shot: a normal number, a uniform one,
-// and two more. It is kept as drawn, and made into numbers where a shot asks for them.
+// outliers, what comes back besides and from where. One stream, in the order in which Random draws for shot after shot: a normal number, a uniform
+// one, and two more. It is kept as drawn, and made into numbers where a shot asks for them.
 #pragma once
 
 #include <array>

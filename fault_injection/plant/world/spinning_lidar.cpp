@@ -71,7 +71,8 @@ std::int64_t time_ns(std::int64_t firing) { return (firing + 1) * firing_ns; }
 
 struct Nanoseconds {
   std::int64_t begin, end;
-  explicit Nanoseconds(const SpinningLidar::Span& span) : begin(std::llround(span.t * 1e9) - std::llround(span.dt * 1e9)), end(std::llround(span.t * 1e9)) {}
+  explicit Nanoseconds(const SpinningLidar::Span& span)
+      : begin(std::llround(span.t * 1e9) - std::llround(span.dt * 1e9)), end(std::llround(span.t * 1e9)) {}
 };
 
 double swing_at(const SpinningLidar::Span& span, const Nanoseconds& ns, std::int64_t firing) {
@@ -183,8 +184,8 @@ void SpinningLidar::look(const Aim& aim, const Scene& scene, const BaseFrame& st
   }
 }
 
-void SpinningLidar::report(double at, double swing, const Hits& hits, const SensorAir& air, const BaseFrame& stand, std::uint8_t* records, std::uint8_t* others,
-                           std::vector<MoverReturn>* returns) {
+void SpinningLidar::report(double at, double swing, const Hits& hits, const SensorAir& air, const BaseFrame& stand, std::uint8_t* records,
+                           std::uint8_t* others, std::vector<MoverReturn>* returns) {
   const ShotDraws::Firing drawn = draws_.next();
   for (std::size_t laser = 0; laser < lasers; ++laser) {
     const SceneHit* const hit = hits.of[laser] ? &*hits.of[laser] : nullptr;

@@ -158,10 +158,11 @@ void World::State::place(const JointState& now, Scene& in) const {
   in.place_machine(shape, link_frames(shape, now), std::max(0.0, load.volume() - load.struck()));
 }
 
-void World::State::scan(size_t i, double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
-                        std::vector<berm_scan_packet>& out, std::vector<MoverReturn>& returns) {
+void World::State::scan(size_t i, double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before,
+                        const PanState& pan_now, std::vector<berm_scan_packet>& out, std::vector<MoverReturn>& returns) {
   const SensorAir a = air(config.scanner_faults, i, t);
-  if (!a.silent) scanner[i].step(t, dt, {before.angle[0], pan_before.angle[i]}, {now.angle[0], pan_now.angle[i]}, scene, out, BaseFrame(base), &returns, a);
+  const ScanPose from{before.angle[0], pan_before.angle[i]}, to{now.angle[0], pan_now.angle[i]};
+  if (!a.silent) scanner[i].step(t, dt, from, to, scene, out, BaseFrame(base), &returns, a);
 }
 
 void World::State::fire(size_t i, double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out,

@@ -49,8 +49,8 @@ TEST(KernelMap, BeforeAnythingIsPublishedNothingMayBePassed) {
   EXPECT_TRUE(std::isinf(map.ground(KernelMap::Unseen::blocked)(5.0, 0.0)));
 }
 
-// Points on the cells' borders and beside them too, where a product by the side's reciprocal may fall to another cell than the quotient: never for the
-// kernel's cells of 0.3 m, but for others.
+// Points on the cells' borders and beside them too, where a product by the side's reciprocal may fall to another cell than the quotient: never for
+// the kernel's cells of 0.3 m, but for others.
 TEST(CellGround, APointIsOfTheCellOfTheQuotientsFloor) {
   constexpr int side = 104;
   constexpr double origin = -15.6;
@@ -70,7 +70,8 @@ TEST(CellGround, APointIsOfTheCellOfTheQuotientsFloor) {
         otherwise += std::floor((x - origin) * (1.0 / cell)) != ix ? 1 : 0;
       }
     }
-    for (const double far : {1e9, -1e9, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) EXPECT_EQ(ground(far, 0.0), -1.0);
+    for (const double far : {1e9, -1e9, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+      EXPECT_EQ(ground(far, 0.0), -1.0) << far;
   }
   EXPECT_GT(otherwise, 20) << "the product alone would have done, so this tests nothing";
 }

@@ -36,7 +36,8 @@ TEST(ShotDraws, NearNoiseIsNear) {
   double farthest = 0.0;
   for (int firing = 0; firing < 20000; ++firing) {
     const ShotDraws::Firing drawn = draws.next();
-    for (std::size_t laser = 0; laser < ShotDraws::lasers; ++laser) farthest = std::max(farthest, std::abs(drawn.near_noise(laser) - drawn.noise(laser)));
+    for (std::size_t laser = 0; laser < ShotDraws::lasers; ++laser)
+      farthest = std::max(farthest, std::abs(drawn.near_noise(laser) - drawn.noise(laser)));
   }
   EXPECT_LT(farthest, ShotDraws::near_by / 20);
   EXPECT_GT(farthest, 0.0);
