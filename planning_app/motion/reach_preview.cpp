@@ -18,25 +18,30 @@ double brake_angle(const BrakingTable& table, std::size_t joint, double reach_m,
   return columns[static_cast<std::size_t>(column)];
 }
 
-// Calls visit(point) for points along a part's outline at most spacing apart.
-template <typename Visit>
-void along_outline(const MachineModel& machine, const Prism& part, const Joints& q, double spacing, Visit visit) {
-  const ArmPoints arm = forward(machine, q);
-  const PlanePoint base = part.link == boom ? arm.boom_pin : part.link == stick ? arm.stick_pin : arm.bucket_pin;
-  const double attitude = part.link == boom ? q[boom] : part.link == stick ? arm.stick_attitude : arm.bucket_attitude;
-  const double c = std::cos(attitude), s = std::sin(attitude);
+// Points along a part's outline at most spacing apart, in its link's frame.
+std::vector<PlanePoint> outline_points(const Prism& part, double spacing) {
+  std::vector<PlanePoint> points;
   const std::size_t n = part.outline.size();
   for (std::size_t i = 0; i < n; ++i) {
     const auto& from = part.outline[i];
     const auto& to = part.outline[(i + 1) % n];
-    const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
-    const int pieces = std::max(1, static_cast<int>(std::ceil(length / spacing)));
+    const int pieces = std::max(1, static_cast<int>(std::ceil(std::hypot(to[0] - from[0], to[1] - from[1]) / spacing)));
     for (int k = 0; k < pieces; ++k) {
       const double t = static_cast<double>(k) / pieces;
-      const double x = from[0] + t * (to[0] - from[0]), z = from[1] + t * (to[1] - from[1]);
-      visit(PlanePoint{base.r + x * c - z * s, base.z + x * s + z * c});
+      points.push_back({from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])});
     }
   }
+  return points;
+}
+
+// Calls visit(point) for the points of a part where a pose has them.
+template <typename Visit>
+void for_points(const MachineModel& machine, const Prism& part, const std::vector<PlanePoint>& points, const Joints& q, Visit visit) {
+  const ArmPoints arm = forward(machine, q);
+  const PlanePoint base = part.link == boom ? arm.boom_pin : part.link == stick ? arm.stick_pin : arm.bucket_pin;
+  const double attitude = part.link == boom ? q[boom] : part.link == stick ? arm.stick_attitude : arm.bucket_attitude;
+  const double c = std::cos(attitude), s = std::sin(attitude);
+  for (const PlanePoint& p : points) visit(PlanePoint{base.r + p.r * c - p.z * s, base.z + p.r * s + p.z * c});
 }
 
 // Calls visit(pose) for poses whose links' attitudes run through the sums of the joints' intervals, each on its own: a cover, as the kernel's.
@@ -53,14 +58,19 @@ void for_attitudes(const ReachIntervals& box, int bucket_samples, Visit visit) {
       }
 }
 
+constexpr double corners_only = 10.0;  // m: longer than any side
+
 double reach_over(const MachineModel& machine, const ReachIntervals& box) {
   constexpr double cover_slack = 0.1;  // the kernel's cover is a polygon of few edges
   double reach = 0.0;
   for (const Prism& part : machine.parts) {
     if (part.link == boom) continue;
+    const std::vector<PlanePoint> corners = outline_points(part, corners_only);
+    double ahead = 0.0;
     for_attitudes(box, part.link == bucket ? 3 : 1, [&](const Joints& q) {
-      along_outline(machine, part, q, 10.0, [&](const PlanePoint& p) { reach = std::max(reach, std::hypot(p.r, part.half_width)); });
+      for_points(machine, part, corners, q, [&](const PlanePoint& p) { ahead = std::max(ahead, std::fabs(p.r)); });
     });
+    reach = std::max(reach, std::hypot(ahead, part.half_width));
   }
   return reach + cover_slack;
 }
@@ -138,8 +148,9 @@ LowerEdge::LowerEdge(const MachineModel& machine, const ReachIntervals& box) {
     half_width_ = std::max(half_width_, part.half_width);
     std::array<double, bins> lowest;
     lowest.fill(none);
+    const std::vector<PlanePoint> points = outline_points(part, spacing);
     for_attitudes(box, part.link == bucket ? 3 : 1, [&](const Joints& q) {
-      along_outline(machine, part, q, spacing, [&](const PlanePoint& p) {
+      for_points(machine, part, points, q, [&](const PlanePoint& p) {
         reach_ = std::max(reach_, p.r);
         nearest_ = std::min(nearest_, p.r);
         const int bin = static_cast<int>(p.r / bin_m);
@@ -162,7 +173,8 @@ LowerEdge lower_edge(const MachineModel& machine, const Joints& pose) {
 double bucket_underside(const MachineModel& machine, const Joints& pose) {
   double lowest = LowerEdge::none;
   for (const Prism& part : machine.parts)
-    if (part.link == bucket) along_outline(machine, part, pose, 10.0, [&](const PlanePoint& p) { lowest = std::min(lowest, p.z); });
+    if (part.link == bucket)
+      for_points(machine, part, outline_points(part, corners_only), pose, [&](const PlanePoint& p) { lowest = std::min(lowest, p.z); });
   return lowest;
 }
 
@@ -176,7 +188,8 @@ double bucket_width(const MachineModel& machine) {
 double reach_of(const MachineModel& machine, const Joints& pose) {
   double reach = 0.0;
   for (const Prism& part : machine.parts)
-    along_outline(machine, part, pose, 10.0, [&](const PlanePoint& p) { reach = std::max(reach, std::hypot(p.r, part.half_width)); });
+    for_points(machine, part, outline_points(part, corners_only), pose,
+               [&](const PlanePoint& p) { reach = std::max(reach, std::hypot(p.r, part.half_width)); });
   return reach;
 }
 

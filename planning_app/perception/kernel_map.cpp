@@ -1,6 +1,5 @@
 #include "perception/kernel_map.hpp"
 
-#include <cmath>
 #include <limits>
 
 namespace berm::app {
@@ -8,11 +7,11 @@ namespace berm::app {
 namespace {
 
 constexpr int side = BERM_MAP_CELLS;
-constexpr double level_ground = 0.0;
+constexpr double level_ground = 0.0, infinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-KernelMap::KernelMap() : height_(static_cast<std::size_t>(side * side), 0.0), status_(height_.size(), BERM_CELL_UNKNOWN) {}
+KernelMap::KernelMap() : level_(static_cast<std::size_t>(side * side), level_ground), blocked_(level_.size(), infinite) {}
 
 void KernelMap::take(const berm_state_segment& segment) {
   cell_ = segment.cell_mm > 0 ? segment.cell_mm * 1e-3 : 0.3;
@@ -20,22 +19,17 @@ void KernelMap::take(const berm_state_segment& segment) {
   for (int iy = 0; iy < side; ++iy)
     for (int ix = 0; ix < side; ++ix) {
       const std::size_t i = static_cast<std::size_t>(iy * side + ix);
-      height_[i] = __atomic_load_n(&segment.map_height_mm[iy][ix], __ATOMIC_RELAXED) * 1e-3;
-      status_[i] = __atomic_load_n(&segment.map_status[iy][ix], __ATOMIC_RELAXED);
+      const double height = __atomic_load_n(&segment.map_height_mm[iy][ix], __ATOMIC_RELAXED) * 1e-3;
+      const auto status = __atomic_load_n(&segment.map_status[iy][ix], __ATOMIC_RELAXED);
+      level_[i] = status == BERM_CELL_OBSERVED || status == BERM_CELL_STALE ? height : level_ground;
+      // Under the own body level as well: the implements' least distance from the axis is checked by itself.
+      blocked_[i] = status == BERM_CELL_OBSERVED ? height : status == BERM_CELL_OWN_BODY ? level_ground : infinite;
     }
 }
 
-Ground KernelMap::ground(Unseen unseen) const {
-  return [this, unseen](double x, double y) {
-    const double ix = std::floor((x - origin_) / cell_), iy = std::floor((y - origin_) / cell_);
-    const double blocked = unseen == Unseen::blocked ? std::numeric_limits<double>::infinity() : level_ground;
-    if (!(ix >= 0.0 && iy >= 0.0 && ix < side && iy < side)) return blocked;
-    const std::size_t i = static_cast<std::size_t>(iy) * side + static_cast<std::size_t>(ix);
-    if (status_[i] == BERM_CELL_OBSERVED) return height_[i];
-    if (status_[i] == BERM_CELL_OWN_BODY) return level_ground;  // the implements' least distance from the axis is checked by itself
-    if (status_[i] == BERM_CELL_STALE && unseen == Unseen::level) return height_[i];
-    return blocked;
-  };
+CellGround KernelMap::ground(Unseen unseen) const {
+  const bool blocks = unseen == Unseen::blocked;
+  return {cell_, origin_, side, blocks ? blocked_.data() : level_.data(), blocks ? infinite : level_ground};
 }
 
 }  // namespace berm::app

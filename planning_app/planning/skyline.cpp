@@ -78,7 +78,7 @@ Ground ground_of(const TerrainMap& terrain) {
   return [&terrain](double x, double y) { return terrain.height_or(x, y, unknown_height); };
 }
 
-Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Ground& ground, OverHigh over_high)
+Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const GroundRow& ground, OverHigh over_high, Rows)
     : machine_(&machine), all_(static_cast<std::size_t>(bearings * LowerEdge::bins), nothing), outside_dig_zone_(all_) {
   floor_ = nothing;
   for (const DigZone& z : site.dig_zones) floor_ = std::max(floor_, z.floor);
@@ -95,6 +95,9 @@ Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Groun
     if (std::fabs(p.u) < 0.5 * bed.length + wall_thickness && std::fabs(p.v) < 0.5 * bed.width + wall_thickness) z = std::max(z, bed.wall_top);
     return z;
   };
+  std::vector<double> across;
+  for (double a = -half_width; a <= half_width + 1e-9; a += lateral_step) across.push_back(a);
+  std::vector<double> xs(across.size()), ys(across.size()), zs(across.size());
   for (int b = 0; b < bearings; ++b) {
     const double bearing = 2.0 * std::numbers::pi * b / bearings;
     const double c = std::cos(bearing), s = std::sin(bearing);
@@ -107,11 +110,12 @@ Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Groun
         if (known.r == r) return known;
       Row& fresh = kept[oldest++ % kept.size()];
       fresh = {r, nothing, nothing};
-      for (double across = -half_width; across <= half_width + 1e-9; across += lateral_step) {
-        const double x = r * c - across * s, y = r * s + across * c;
-        const double z = top(x, y, ground(x, y));
+      for (std::size_t i = 0; i < across.size(); ++i) xs[i] = r * c - across[i] * s, ys[i] = r * s + across[i] * c;
+      ground(xs.data(), ys.data(), zs.data(), across.size());
+      for (std::size_t i = 0; i < across.size(); ++i) {
+        const double z = top(xs[i], ys[i], zs[i]);
         fresh.highest = std::max(fresh.highest, z);
-        if (z > fresh.outside && !diggable(site, x, y, z)) fresh.outside = z;
+        if (z > fresh.outside && !diggable(site, xs[i], ys[i], z)) fresh.outside = z;
       }
       return fresh;
     };
@@ -131,7 +135,9 @@ Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Groun
   too_high_.assign(static_cast<std::size_t>(cells_side * cells_side), 0);
   for (int iy = 0; iy < cells_side; ++iy)
     for (int ix = 0; ix < cells_side; ++ix) {
-      const double x = (ix - cells_side / 2 + 0.5) * cell, y = (iy - cells_side / 2 + 0.5) * cell, z = ground(x, y);
+      const double x = (ix - cells_side / 2 + 0.5) * cell, y = (iy - cells_side / 2 + 0.5) * cell;
+      double z = 0.0;
+      ground(&x, &y, &z, 1);
       // Exactly unknown_height: never observed, and whoever asks for it so takes it for free.
       if (z != unknown_height && z > pass_over_limit(site, x, y)) too_high_[static_cast<std::size_t>(iy * cells_side + ix)] = 1;
     }
@@ -170,8 +176,9 @@ std::optional<Skyline::Blocking> Skyline::blocking(const ReachIntervals& box) co
   const double margin = machine_->margin + own_slack;
   constexpr double step = 2.0 * std::numbers::pi / bearings;
   for (double bearing = box.low[swing]; bearing < box.high[swing] + step; bearing += step)
-    for (int bin = 0; bin < LowerEdge::bins; ++bin)
-      if (const double z = top[slot(bearing, bin)]; edge.z(bin) != LowerEdge::none && edge.z(bin) < z + margin) return Blocking{Blocking::What::ground, bearing, (bin + 0.5) * LowerEdge::bin_m, z};
+    for (int bin = 0, first = static_cast<int>(slot(bearing, 0)); bin < LowerEdge::bins; ++bin)
+      if (const double z = top[static_cast<std::size_t>(first + bin)]; edge.z(bin) != LowerEdge::none && edge.z(bin) < z + margin)
+        return Blocking{Blocking::What::ground, bearing, (bin + 0.5) * LowerEdge::bin_m, z};
   if (no_passing_.empty()) return std::nullopt;
   const auto too_high = [&](double bearing, int bin) { return Blocking{Blocking::What::too_high, bearing, (bin + 0.5) * LowerEdge::bin_m, height(bearing, bin)}; };
   constexpr double over_step = 2.0 * std::numbers::pi / over_bearings;

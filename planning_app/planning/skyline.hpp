@@ -2,6 +2,7 @@
 // implements' width. Answers whether a reach preview is clear of it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -16,6 +17,9 @@ namespace berm::app {
 // Height of the ground at a point of the plan; infinity where nothing may pass over it.
 using Ground = std::function<double(double x, double y)>;
 
+// The same of so many points at once: x, y, and where to put the heights.
+using GroundRow = std::function<void(const double* x, const double* y, double* height, std::size_t points)>;
+
 // The app's own terrain map; ground never observed counts as level with the machine.
 Ground ground_of(const TerrainMap& terrain);
 
@@ -24,7 +28,10 @@ public:
   // The truck's bed counts as high as its walls, whatever was seen. machine must outlive the skyline, ground need not.
   // OverHigh::refused: what stands higher than the site's limits may not be passed over at all, as the kernel has it.
   enum class OverHigh { ignored, refused };
-  Skyline(const MachineModel& machine, const SiteModel& site, const Ground& ground, OverHigh over_high = OverHigh::ignored);
+  // Height: called with a point's x and y, as Ground is; a hundred thousand times, so that a map's own type spares the call through one.
+  template <class Height>
+  Skyline(const MachineModel& machine, const SiteModel& site, const Height& ground, OverHigh over_high = OverHigh::ignored)
+      : Skyline(machine, site, by_rows(ground), over_high, Rows{}) {}
 
   // Whether the implements stay clear, by the kernel's margin and a little more, of everything under the intervals. In the dig zone contact is
   // allowed while the swing is slow and the lower edge above the zone's floor.
@@ -42,6 +49,14 @@ public:
   double height(double bearing, int bin) const { return all_[slot(bearing, bin)]; }
 
 private:
+  struct Rows {};
+  Skyline(const MachineModel& machine, const SiteModel& site, const GroundRow& ground, OverHigh over_high, Rows);
+  template <class Height>
+  static GroundRow by_rows(const Height& ground) {
+    return [&ground](const double* x, const double* y, double* height, std::size_t points) {
+      for (std::size_t i = 0; i < points; ++i) height[i] = ground(x[i], y[i]);
+    };
+  }
   static constexpr int bearings = 180;
   static std::size_t slot(double bearing, int bin);
 

@@ -94,6 +94,11 @@ bool Peers::kernel_answered(std::uint64_t cycle) const {
   return heartbeat_cycle_ && *heartbeat_cycle_ == static_cast<std::uint16_t>(cycle);
 }
 
+bool Peers::kernel_has_answered(std::uint64_t cycle) {
+  take_frames();
+  return kernel_answered(cycle);
+}
+
 bool Peers::app_answered(std::uint64_t cycle) const { return tick_cycle_ && *tick_cycle_ >= cycle; }
 
 PeerState* Peers::waits_for(std::uint64_t cycle, Whom whom) {

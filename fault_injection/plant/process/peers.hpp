@@ -33,7 +33,9 @@ class Peers {
   // Drains, then waits for the kernel's heartbeat of this cycle, for the app's tick of it, and for the journal's writer to be no more than
   // kUnreadMost cycles behind. Returns early when stop_fd is readable.
   void wait_for(std::uint64_t cycle, int stop_fd) { wait_for(cycle, stop_fd, Whom::all); }
-  // The same, for the kernel's heartbeat alone.
+  // Takes its frames; never waits.
+  bool kernel_has_answered(std::uint64_t cycle);
+  // The same as wait_for, for the kernel's heartbeat alone.
   void wait_for_kernel(std::uint64_t cycle, int stop_fd) { wait_for(cycle, stop_fd, Whom::kernel); }
 
   PeerState kernel() const { return kernel_; }

@@ -186,10 +186,15 @@ void PlantRun::send(double t) {
   bus_.send(out.data(), static_cast<int>(out.size()));
 }
 
-// While kernel and app have this cycle's messages: what needs no answer of theirs.
+// While kernel and app have this cycle's messages: what needs no answer of theirs, and what the lidars will see if the kernel lets the joints go on
+// as they do, until it has answered.
 void PlantRun::use_spare_time(double t) {
   verdict_ = world_.judge(t, dynamics_.state());
   world_.draw_ahead();
+  if (options_.realtime || !side_) return;
+  JointDynamics next = dynamics_;
+  next.step(kCycle, controller_.drive(), controller_.command(), soil_, world_.payload_kg());
+  world_.foresee(time_of(cycle_ + 1), kCycle, dynamics_.state(), next.state(), [this] { return peers_.kernel_has_answered(cycle_); });
 }
 
 // The app answers the newest cycle while the next is computed here: that needs the kernel's answer alone, and nothing of it is sent before.
@@ -277,7 +282,7 @@ void PlantRun::run() {
   while (reason.empty()) {
     if (options_.realtime) sleep_to(next);
     ++cycle_;
-    t = static_cast<double>(cycle_) * kCycle;
+    t = time_of(cycle_);
     if (options_.realtime) peers_.drain();
     advance(t);
     if (!options_.realtime) await_others();

@@ -50,6 +50,7 @@ class PlantRun {
   void run();
 
  private:
+  static double time_of(std::uint64_t cycle) { return static_cast<double>(cycle) * kCycle; }
   void advance(double t);
   void break_machine();
   void attend(double t);    // the people round the machine: spotter and operator

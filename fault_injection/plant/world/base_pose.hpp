@@ -9,7 +9,10 @@
 
 namespace berm::plant {
 
-struct BasePose { double x = 0, y = 0, yaw = 0, roll = 0, pitch = 0; };
+struct BasePose {
+  double x = 0, y = 0, yaw = 0, roll = 0, pitch = 0;
+  bool operator==(const BasePose&) const = default;
+};
 
 class BaseFrame {
  public:

@@ -128,8 +128,10 @@ void HeightGrid::set(int ix, int iy, double height) {
 
 void HeightGrid::refresh() {
   if (stale_list_.empty()) return;
+  int bi_low = blocks_x_, bi_high = -1, bj_low = blocks_y_, bj_high = -1;
   for (const int b : stale_list_) {
     const int bi = b % blocks_x_, bj = b / blocks_x_;
+    bi_low = std::min(bi_low, bi), bi_high = std::max(bi_high, bi), bj_low = std::min(bj_low, bj), bj_high = std::max(bj_high, bj);
     double top = -never;
     for (int iy = bj * block_side - 1; iy < (bj + 1) * block_side; ++iy) {
       for (int ix = bi * block_side - 1; ix < (bi + 1) * block_side; ++ix) top = std::max(top, clamped(ix, iy));
@@ -138,7 +140,11 @@ void HeightGrid::refresh() {
     stale_[static_cast<size_t>(b)] = 0;
   }
   stale_list_.clear();
-  highest_ = *std::max_element(block_max_.begin(), block_max_.end());
+  const double highest = *std::max_element(block_max_.begin(), block_max_.end());
+  // A block's patches lie between the centres of the cells from the one before its first to its last; the rim's reach out by half a cell.
+  change_ = {change_.number + 1, centre_x(bi_low * block_side - 1), centre_y(bj_low * block_side - 1), centre_x((bi_high + 1) * block_side),
+             centre_y((bj_high + 1) * block_side), highest != highest_};
+  highest_ = highest;
 }
 
 double HeightGrid::surface(double x, double y) const {

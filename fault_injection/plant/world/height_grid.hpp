@@ -3,12 +3,20 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "plant/world/vec3.hpp"
 
 namespace berm::plant {
+
+// What a refresh found changed: how many before it did too, and the rectangle in which the surface may be another.
+struct HeightChange {
+  std::uint64_t number = 0;
+  double x_low = 0, y_low = 0, x_high = 0, y_high = 0;
+  bool highest = false;  // the highest height with it, on which every ray's begin depends
+};
 
 class HeightGrid {
  public:
@@ -39,6 +47,7 @@ class HeightGrid {
   [[nodiscard]] double highest() const { return highest_; }
   // Recomputes the maxima of the blocks that changed. cast needs it after the last set.
   void refresh();
+  [[nodiscard]] const HeightChange& newest_change() const { return change_; }
   // Range at which the ray first meets the surface from above, up to range_max; none otherwise.
   [[nodiscard]] std::optional<double> cast(const Ray& ray, double range_max) const { return passes_over(ray) ? std::nullopt : cast_low(ray, range_max); }
 
@@ -60,6 +69,7 @@ class HeightGrid {
   std::vector<unsigned char> stale_;  // blocks whose maximum may be too large
   std::vector<int> stale_list_;
   double highest_;
+  HeightChange change_;
 };
 
 }  // namespace berm::plant

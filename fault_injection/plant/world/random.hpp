@@ -9,6 +9,17 @@
 
 namespace berm::plant {
 
+// In [0, 1).
+inline double uniform_of(uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1.0p-53; }
+
+struct NormalPair { double first, second; };
+// Two of mean 0 and standard deviation 1 out of two uniform ones (Box and Muller).
+inline NormalPair normal_pair(double one, double other) {
+  const double radius = std::sqrt(-2.0 * std::log(1.0 - one));
+  const double angle = 2.0 * std::numbers::pi * other;
+  return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
 // Bits: a generator of 64 random bits.
 template <typename Bits>
 class Draws {
@@ -16,19 +27,19 @@ class Draws {
   explicit Draws(uint64_t seed) : bits_(seed) {}
 
   // In [0, 1).
-  double uniform() { return static_cast<double>(bits_() >> 11) * 0x1.0p-53; }
+  double uniform() { return uniform_of(bits_()); }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  // Mean 0, standard deviation 1 (Box and Muller, both of the pair used).
+  // Mean 0, standard deviation 1; both of a pair are used.
   double normal() {
     if (spare_ready_) {
       spare_ready_ = false;
       return spare_;
     }
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-    const double angle = 2.0 * std::numbers::pi * uniform();
-    spare_ = radius * std::sin(angle);
+    const double one = uniform();
+    const NormalPair pair = normal_pair(one, uniform());
+    spare_ = pair.second;
     spare_ready_ = true;
-    return radius * std::cos(angle);
+    return pair.first;
   }
 
  private:

@@ -32,10 +32,15 @@ bool may_meet(const RayFan& fan, const Vec3& low, const Vec3& high) {
   return !behind && !beside;
 }
 
+BoxSolid box_round(const CylinderSolid& p) {
+  return {PlanarFrame(), {p.x - p.radius, p.y - p.radius, p.z_low}, {p.x + p.radius, p.y + p.radius, p.z_high}};
+}
+
 }  // namespace
 
 void Scene::place_site(const Terrain& terrain, const std::vector<Truck>& trucks, const Movers& movers, const std::vector<BoxConfig>& boxes) {
   terrain_ = &terrain;
+  ground_changes_ = terrain.grid().newest_change().number;
   truck_.clear();
   for (const Truck& t : trucks) {
     if (!t.present()) continue;
@@ -45,6 +50,7 @@ void Scene::place_site(const Terrain& terrain, const std::vector<Truck>& trucks,
     s.high = {t.hull().high.x, t.hull().high.y, std::max(t.hull().high.z, t.heap().grid().highest())};
     for (const TruckPart& p : t.parts()) s.part.push_back({t.frame(), p.low, p.high});
     s.heap = &t.heap();
+    s.heap_changes = t.heap().grid().newest_change().number;
     truck_.push_back(std::move(s));
   }
   box_.clear();
@@ -176,8 +182,39 @@ bool Scene::look(const RayFan& world, const RayFan& base, const RayFan& upper, F
   choose(view.track, track_, [&](const BoxSolid& b) { return may_meet(base, b.low, b.high); });
   choose(view.truck, truck_, [&](const TruckSolid& t) { return may_meet(in(t.frame, world), t.low, t.high); });
   choose(view.box, box_, [&](const BoxSolid& b) { return may_meet(in(b.frame, world), b.low, b.high); });
-  choose(view.person, person_, [&](const CylinderSolid& p) { return may_meet(world, {p.x - p.radius, p.y - p.radius, p.z_low}, {p.x + p.radius, p.y + p.radius, p.z_high}); });
+  choose(view.person, person_, [&](const CylinderSolid& p) { return may_meet(world, box_round(p).low, box_round(p).high); });
   return true;
+}
+
+SceneDifference Scene::difference(const Scene& before) const {
+  constexpr double deep = -100.0;  // lower than any ground
+  SceneDifference d;
+  const HeightChange& ground = terrain_->grid().newest_change();
+  const bool others = truck_.size() != before.truck_.size() || box_mover_ != before.box_mover_ || person_mover_ != before.person_mover_ ||
+                      upper_body_ != before.upper_body_ || track_ != before.track_;
+  const bool unknown = terrain_ != before.terrain_ || ground_changes_ != ground.number || ground_changes_ - before.ground_changes_ > 1;
+  d.everywhere = others || unknown || (ground_changes_ != before.ground_changes_ && ground.highest);
+  if (d.everywhere) return d;
+  if (ground_changes_ != before.ground_changes_)
+    d.site.push_back({PlanarFrame(), {ground.x_low, ground.y_low, deep}, {ground.x_high, ground.y_high, terrain_->grid().highest()}});
+  const auto compare = [&d](const auto& now, const auto& then, const auto& box) {
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (now[i] == then[i]) continue;
+      d.site.push_back(box(now[i]));
+      d.site.push_back(box(then[i]));
+    }
+  };
+  compare(truck_, before.truck_, [](const TruckSolid& t) { return BoxSolid{t.frame, t.low, t.high}; });
+  compare(box_, before.box_, [](const BoxSolid& b) { return b; });
+  compare(person_, before.person_, [](const CylinderSolid& p) { return box_round(p); });
+  if (implement_ != before.implement_)
+    d.machine = {{PlanarFrame(), implement_low_, implement_high_}, {PlanarFrame(), before.implement_low_, before.implement_high_}};
+  return d;
+}
+
+bool SceneDifference::may_be_met(const RayFan& world, const RayFan& upper) const {
+  const auto met_by = [](const RayFan& fan) { return [&fan](const BoxSolid& b) { return may_meet(in(b.frame, fan), b.low, b.high); }; };
+  return everywhere || std::any_of(site.begin(), site.end(), met_by(world)) || std::any_of(machine.begin(), machine.end(), met_by(upper));
 }
 
 void note(const SceneHit& hit, const Ray& world, std::vector<MoverReturn>* returns) {

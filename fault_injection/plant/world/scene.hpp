@@ -42,6 +42,15 @@ struct FanView {
   Few upper_body, track, truck, box, person;
 };
 
+// Where a scene differs from another of the same machine and site, by boxes that hold what is otherwise in either.
+struct SceneDifference {
+  bool everywhere = false;
+  std::vector<BoxSolid> site, machine;  // in the world, in the upper body's frame
+  [[nodiscard]] bool none() const { return !everywhere && site.empty() && machine.empty(); }
+  // Whether rays of the fan may meet it.
+  [[nodiscard]] bool may_be_met(const RayFan& world, const RayFan& upper) const;
+};
+
 class Scene {
  public:
   // Walls and cab of trucks, people, vehicles, fixed boxes.
@@ -55,6 +64,7 @@ class Scene {
   [[nodiscard]] std::optional<SceneHit> meet(const FanView& view, const Ray& world, const Ray& base, const Ray& upper, double range_max) const;
   // The fan in the same three frames. False, and no view, where the scene has more than a view can tell of.
   [[nodiscard]] bool look(const RayFan& world, const RayFan& base, const RayFan& upper, FanView& view) const;
+  [[nodiscard]] SceneDifference difference(const Scene& before) const;
   // Its range.
   [[nodiscard]] std::optional<double> cast(const Ray& world, const Ray& base, const Ray& upper, double range_max) const;
 
@@ -65,6 +75,8 @@ class Scene {
     Vec3 low, high;
     std::vector<BoxSolid> part;
     const BedHeap* heap = nullptr;
+    std::uint64_t heap_changes = 0;
+    bool operator==(const TruckSolid&) const = default;
   };
   template <class Indices>
   [[nodiscard]] std::optional<SceneHit> first(const Indices& of, const Ray& world, const Ray& base, const Ray& upper, double range_max) const;
@@ -72,6 +84,7 @@ class Scene {
   [[nodiscard]] double cast_beyond(const Ray& world, double range) const;
 
   const Terrain* terrain_ = nullptr;
+  std::uint64_t ground_changes_ = 0;  // of the terrain, and below of a truck's load: how many there had been
   std::vector<TruckSolid> truck_;
   std::vector<BoxSolid> box_;
   std::vector<CylinderSolid> person_;

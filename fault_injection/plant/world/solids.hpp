@@ -44,6 +44,7 @@ inline std::optional<double> cast_box(const Ray& ray, const Vec3& low, const Vec
 struct BoxSolid {
   PlanarFrame frame;
   Vec3 low, high;
+  bool operator==(const BoxSolid&) const = default;
   [[nodiscard]] std::optional<double> cast(const Ray& ray, double range_max) const { return cast_box(frame.in(ray), low, high, range_max); }
   [[nodiscard]] std::optional<std::array<double, 2>> cross(const Ray& ray, double range_max) const { return cross_box(frame.in(ray), low, high, range_max); }
 };
@@ -51,6 +52,7 @@ struct BoxSolid {
 // An upright cylinder.
 struct CylinderSolid {
   double x = 0, y = 0, z_low = 0, z_high = 0, radius = 0;
+  bool operator==(const CylinderSolid&) const = default;
   [[nodiscard]] std::optional<double> cast(const Ray& ray, double range_max) const;
 };
 
@@ -59,13 +61,17 @@ class PrismSolid {
  public:
   // outline: counter-clockwise (x towards z), at least three points.
   PrismSolid(const std::vector<SwingPlanePoint>& outline, double half_width);
+  bool operator==(const PrismSolid&) const = default;
   [[nodiscard]] const Vec3& low() const { return low_; }
   [[nodiscard]] const Vec3& high() const { return high_; }
   // ray in the upper body's frame.
   [[nodiscard]] std::optional<double> cast(const Ray& ray, double range_max) const;
 
  private:
-  struct Edge { double normal_x, normal_z, offset; };  // inside: normal . p <= offset
+  struct Edge {
+    double normal_x, normal_z, offset;
+    bool operator==(const Edge&) const = default;
+  };  // inside: normal . p <= offset
   std::vector<Edge> edge_;
   Vec3 low_, high_;
 };

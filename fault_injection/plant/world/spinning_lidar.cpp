@@ -12,7 +12,7 @@ namespace {
 constexpr std::int64_t firing_ns = 55296;       // of all sixteen lasers, one after the other
 constexpr double turns_per_s = 10.0;
 constexpr double range_least = 0.5, range_most = 100.0, range_lsb = 0.002;
-constexpr std::size_t lasers = 16;
+constexpr std::size_t lasers = SpinningLidar::lasers_of_firing;
 constexpr int blocks = 12;
 constexpr std::size_t block_bytes = 100, record_bytes = 3;
 constexpr std::int64_t hour_us = 3'600'000'000;
@@ -67,6 +67,19 @@ BERM_PLANT_LANES void beams_of(const Lasers& l, double cosine, double sine, Beam
   }
 }
 
+std::int64_t time_ns(std::int64_t firing) { return (firing + 1) * firing_ns; }
+
+struct Nanoseconds {
+  std::int64_t begin, end;
+  explicit Nanoseconds(const SpinningLidar::Span& span)
+      : begin(std::llround(span.t * 1e9) - std::llround(span.dt * 1e9)), end(std::llround(span.t * 1e9)) {}
+};
+
+double swing_at(const SpinningLidar::Span& span, const Nanoseconds& ns, std::int64_t firing) {
+  const double f = static_cast<double>(time_ns(firing) - ns.begin) / static_cast<double>(ns.end - ns.begin);
+  return span.swing_before + f * (span.swing_now - span.swing_before);
+}
+
 double azimuth(std::int64_t firing) {
   const double turns = static_cast<double>(firing) * firing_ns * 1e-9 * turns_per_s;
   return 2 * std::numbers::pi * (turns - std::floor(turns));
@@ -79,14 +92,14 @@ void put16(std::uint8_t* to, unsigned v) {
 
 void put_return(std::uint8_t* to, double range) {
   if (range <= 0.0) return;
-  put16(to, static_cast<unsigned>(std::clamp<long>(std::lround(range / range_lsb), 1, 65535)));
+  put16(to, static_cast<unsigned>(std::clamp(static_cast<long>(range / range_lsb + 0.5), 1L, 65535L)));
   to[2] = reflectivity;
 }
 
 }  // namespace
 
 SpinningLidar::SpinningLidar(const ScannerConfig& noise, const LidarMount& mount, std::uint8_t number, std::uint64_t seed)
-    : noise_(noise), mount_(mount), number_(number), random_(seed), dust_random_(~seed) {
+    : noise_(noise), mount_(mount), number_(number), draws_(seed, draws_more()), dust_random_(~seed) {
   const BaseFrame turn({0, 0, mount.yaw, mount.roll, mount.pitch});
   x_ = turn.turned({1, 0, 0});
   y_ = turn.turned({0, 1, 0});
@@ -95,47 +108,31 @@ SpinningLidar::SpinningLidar(const ScannerConfig& noise, const LidarMount& mount
 
 Vec3 SpinningLidar::turned(const Vec3& v) const { return v.x * x_ + v.y * y_ + v.z * z_; }
 
-// What is drawn does not depend on what is hit.
-SpinningLidar::Drawn SpinningLidar::draw() {
-  Drawn d{random_.normal(), random_.uniform(), 0.0, 0.0};
-  if (mount_.dual || mount_.outliers) d.what = random_.uniform(), d.where = random_.uniform();
-  return d;
-}
-
-SpinningLidar::Drawn SpinningLidar::next_drawn() { return taken_ < drawn_.size() ? drawn_[taken_++] : draw(); }
-
-void SpinningLidar::draw_ahead(std::size_t shots) {
-  drawn_.erase(drawn_.begin(), drawn_.begin() + static_cast<std::ptrdiff_t>(taken_));
-  taken_ = 0;
-  drawn_.reserve(shots);
-  while (drawn_.size() < shots) drawn_.push_back(draw());
-}
-
 // Dust sends back less than the target behind it: the target is the last and the strongest, and the strongest but that is the dust (VLP-16 manual, dual
 // return mode).
-SpinningLidar::Returns SpinningLidar::received(const std::optional<double>& hit, const Drawn& drawn) const {
+SpinningLidar::Returns SpinningLidar::received(const SceneHit* hit, const ShotDraws::Firing& drawn, std::size_t laser) const {
   Returns back;
-  const bool hits = hit && *hit >= range_least;
+  const bool hits = hit != nullptr && hit->range >= range_least;
   back.met = hits;
-  if (hits) back.last = back.other = std::max(range_least, *hit + noise_.range_stddev * drawn.noise);
-  if (!mount_.dual && !mount_.outliers) return back;
-  const double outlier = mount_.outliers ? noise_.outlier_probability : 0.0;
-  const double between = range_least + drawn.where * std::max(0.0, hit.value_or(range_most) - range_least);
-  if (drawn.what < outlier) {
-    back.last = back.other = between;
+  if (hits) back.last = back.other = std::max(range_least, drawn.noisy(hit->range, noise_.range_stddev, range_lsb, laser));
+  if (!draws_more()) return back;
+  const double outlier = mount_.outliers ? noise_.outlier_probability : 0.0, what = drawn.what(laser);
+  const auto between = [&] { return range_least + drawn.where(laser) * std::max(0.0, (hit != nullptr ? hit->range : range_most) - range_least); };
+  if (what < outlier) {
+    back.last = back.other = between();
     back.met = false;
-  } else if (hits && mount_.dual && drawn.what < outlier + noise_.dust_probability) {
-    back.other = std::min(between, back.last);
+  } else if (hits && mount_.dual && what < outlier + noise_.dust_probability) {
+    back.other = std::min(between(), back.last);
   }
   return back;
 }
 
 // Dust in the air, over what came back: a nearer return beside it, which single return does not tell of, or the dust's alone.
-void SpinningLidar::blow(const std::optional<double>& hit, const SensorAir& air, Returns& back) {
+void SpinningLidar::blow(double met_at, const SensorAir& air, Returns& back) {
   if (!air.dusty()) return;
   const double haze = dust_random_.uniform(), at = dust_random_.uniform();
   if (!back.met) return;
-  const double in_haze = range_least + at * std::max(0.0, *hit - range_least);
+  const double in_haze = range_least + at * std::max(0.0, met_at - range_least);
   if (haze < air.lost) {
     back.last = back.other = in_haze;
     back.met = false;
@@ -144,65 +141,117 @@ void SpinningLidar::blow(const std::optional<double>& hit, const SensorAir& air,
   }
 }
 
-void SpinningLidar::fire(std::int64_t firing, double swing, const SensorAir& air, const Scene& scene, const BaseFrame& stand, std::uint8_t* records,
-                         std::uint8_t* others, std::vector<MoverReturn>* returns) {
-  const double at = azimuth(firing);
-  const bool in_sector = std::min(at, 2 * std::numbers::pi - at) <= mount_.sector_deg / 180.0 * std::numbers::pi;
-  const PlanarFrame body(0, 0, 0, swing);
-  std::fill(records, records + record_bytes * lasers, std::uint8_t{0});
-  if (others != nullptr) std::fill(others, others + record_bytes * lasers, std::uint8_t{0});
-  if (!in_sector) return;
-  const double cosine = std::cos(at), sine = std::sin(at);
-  const Vec3 place{mount_.position[0], mount_.position[1], mount_.position[2]}, place_base = body.out(place), place_world = stand.out(place_base);
+struct SpinningLidar::Aim {
+  double cosine, sine;  // of the sensor's turn
+  PlanarFrame body;
+  RayFan upper, base, world;
+
+  // The lasers' directions in the three frames.
+  struct Directions { Beams upper, base, world; };
+  [[nodiscard]] Directions directions(const Axes& sensor, const BaseFrame& stand) const {
+    Beams own;
+    Directions d;
+    beams_of(fired, cosine, sine, own);
+    turned_beams(own, sensor, d.upper);
+    swung_beams(d.upper, body, d.base);
+    turned_beams(d.base, {stand.x(), stand.y(), stand.z()}, d.world);
+    return d;
+  }
+};
+
+bool SpinningLidar::in_sector(double at) const { return std::min(at, 2 * std::numbers::pi - at) <= mount_.sector_deg / 180.0 * std::numbers::pi; }
+
+SpinningLidar::Aim SpinningLidar::aim(double at, double swing, const BaseFrame& stand) const {
+  Aim a;
+  a.body = PlanarFrame(0, 0, 0, swing);
+  a.cosine = std::cos(at), a.sine = std::sin(at);
+  const Vec3 place{mount_.position[0], mount_.position[1], mount_.position[2]}, place_base = a.body.out(place);
   // The firing's lasers are upright over one another but for the turn meanwhile, and no steeper than 15 degrees.
   const double turned_by = turns_per_s * 2 * std::numbers::pi * lasers * 2304e-9;
-  const RayFan upper_fan{place, turned({cosine, -sine, 0}), turned({sine, cosine, 0}), turned_by};
-  const RayFan base_fan{place_base, body.out(upper_fan.ahead), body.out(upper_fan.aside), turned_by};
-  const RayFan world_fan{place_world, stand.turned(base_fan.ahead), stand.turned(base_fan.aside), turned_by};
+  a.upper = {place, turned({a.cosine, -a.sine, 0}), turned({a.sine, a.cosine, 0}), turned_by};
+  a.base = {place_base, a.body.out(a.upper.ahead), a.body.out(a.upper.aside), turned_by};
+  a.world = {stand.out(place_base), stand.turned(a.base.ahead), stand.turned(a.base.aside), turned_by};
+  return a;
+}
+
+void SpinningLidar::look(const Aim& aim, const Scene& scene, const BaseFrame& stand, Hits& hits) const {
   FanView view;
-  const bool seen = scene.look(world_fan, base_fan, upper_fan, view);
-  Beams own, in_upper, in_base, in_world;
-  beams_of(fired, cosine, sine, own);
-  turned_beams(own, {x_, y_, z_}, in_upper);
-  swung_beams(in_upper, body, in_base);
-  turned_beams(in_base, {stand.x(), stand.y(), stand.z()}, in_world);
+  const bool seen = scene.look(aim.world, aim.base, aim.upper, view);
+  const Aim::Directions to = aim.directions({x_, y_, z_}, stand);
   for (std::size_t laser = 0; laser < lasers; ++laser) {
-    const Drawn drawn = next_drawn();
-    const Ray upper{place, in_upper.of(laser)}, base{place_base, in_base.of(laser)}, world{place_world, in_world.of(laser)};
-    const std::optional<SceneHit> hit = seen ? scene.meet(view, world, base, upper, range_most) : scene.meet(world, base, upper, range_most);
-    const std::optional<double> range = hit ? std::optional<double>(hit->range) : std::nullopt;
-    Returns back = received(range, drawn);
-    blow(range, air, back);
-    if (air.covers(at) || drawn.lost < noise_.dropout_probability) continue;
-    if (back.met) note(*hit, world, returns);
+    const Ray upper{aim.upper.origin, to.upper.of(laser)}, base{aim.base.origin, to.base.of(laser)}, world{aim.world.origin, to.world.of(laser)};
+    hits.of[laser] = seen ? scene.meet(view, world, base, upper, range_most) : scene.meet(world, base, upper, range_most);
+  }
+}
+
+void SpinningLidar::report(double at, double swing, const Hits& hits, const SensorAir& air, const BaseFrame& stand, std::uint8_t* records,
+                           std::uint8_t* others, std::vector<MoverReturn>* returns) {
+  const ShotDraws::Firing drawn = draws_.next();
+  for (std::size_t laser = 0; laser < lasers; ++laser) {
+    const SceneHit* const hit = hits.of[laser] ? &*hits.of[laser] : nullptr;
+    Returns back = received(hit, drawn, laser);
+    blow(hit != nullptr ? hit->range : 0.0, air, back);
+    if (air.covers(at) || drawn.lost(laser) < noise_.dropout_probability) continue;
+    if (back.met && hit->mover != no_mover) {
+      const Aim to = aim(at, swing, stand);
+      note(*hit, {to.world.origin, to.directions({x_, y_, z_}, stand).world.of(laser)}, returns);
+    }
     put_return(records + record_bytes * laser, back.last);
     if (others != nullptr) put_return(others + record_bytes * laser, back.other);
   }
 }
 
-void SpinningLidar::step(double t, double dt, double swing_before, double swing_now, const SensorAir& air, const Scene& scene, const BaseFrame& stand,
-                         std::vector<LidarPacket>& out, std::vector<MoverReturn>* returns) {
-  const std::int64_t end = std::llround(t * 1e9), begin = end - std::llround(dt * 1e9);
-  const auto time_ns = [](std::int64_t firing) { return (firing + 1) * firing_ns; };
-  if (time_ns(next_) <= begin) next_ = begin / firing_ns;  // a caller that left a span of time out gets no firings of it
-  while (time_ns(next_) <= begin) ++next_;
+// A caller that left a span of time out gets no firings of it.
+std::int64_t SpinningLidar::first_firing(std::int64_t begin_ns) const {
+  std::int64_t firing = next_;
+  if (time_ns(firing) <= begin_ns) firing = begin_ns / firing_ns;
+  while (time_ns(firing) <= begin_ns) ++firing;
+  return firing;
+}
+
+bool SpinningLidar::foresee(const Span& span, std::size_t k, const Scene& scene, const BaseFrame& stand, Hits& hits) const {
+  const Nanoseconds ns(span);
+  const std::int64_t firing = first_firing(ns.begin) + static_cast<std::int64_t>(k);
+  if (time_ns(firing) > ns.end) return false;
+  const double at = azimuth(firing);
+  if (in_sector(at)) look(aim(at, swing_at(span, ns, firing), stand), scene, stand, hits);
+  return true;
+}
+
+void SpinningLidar::step(const Span& span, const SensorAir& air, const Scene& scene, const BaseFrame& stand, std::vector<LidarPacket>& out,
+                         std::vector<MoverReturn>* returns, const Foreseen* foreseen) {
+  const Nanoseconds ns(span);
   const std::int64_t firings_a_packet = mount_.dual ? blocks : 2 * blocks;
   const std::size_t blocks_a_pair = mount_.dual ? 2 : 1;
-  for (; time_ns(next_) <= end; ++next_) {
-    const double f = static_cast<double>(time_ns(next_) - begin) / static_cast<double>(end - begin);
+  next_ = first_firing(ns.begin);
+  Hits anew;
+  for (std::size_t k = 0; time_ns(next_) <= ns.end; ++next_, ++k) {
+    const double at = azimuth(next_), swing = swing_at(span, ns, next_);
     const std::int64_t place = next_ % firings_a_packet;
     std::uint8_t* block = packet_.bytes.data() + block_bytes * blocks_a_pair * static_cast<std::size_t>(place / 2);
     std::uint8_t* other = mount_.dual ? block + block_bytes : nullptr;
     if (place % 2 == 0) {
-      const unsigned at = static_cast<unsigned>(azimuth(next_) * 18000 / std::numbers::pi) % 36000;
+      const unsigned told = static_cast<unsigned>(at * 18000 / std::numbers::pi) % 36000;
       for (std::uint8_t* head : {block, other}) {
         if (head == nullptr) continue;
         put16(head, 0xEEFF);
-        put16(head + 2, at);
+        put16(head + 2, told);
       }
     }
-    const std::size_t to = 4 + (place % 2) * lasers * record_bytes;
-    fire(next_, swing_before + f * (swing_now - swing_before), air, scene, stand, block + to, other == nullptr ? nullptr : other + to, returns);
+    const std::size_t record = 4 + (place % 2) * lasers * record_bytes;
+    for (std::uint8_t* records : {block, other})
+      if (records != nullptr) std::fill_n(records + record, record_bytes * lasers, std::uint8_t{0});
+    if (in_sector(at)) {
+      const Hits* hits = foreseen != nullptr && k < foreseen->hits.size() ? &foreseen->hits[k] : nullptr;
+      if (hits == nullptr || !foreseen->difference.none()) {
+        const Aim to = aim(at, swing, stand);
+        if (hits == nullptr || foreseen->difference.may_be_met(to.world, to.upper)) {
+          look(to, scene, stand, anew);
+          hits = &anew;
+        }
+      }
+      report(at, swing, *hits, air, stand, block + record, other == nullptr ? nullptr : other + record, returns);
+    }
     if (place + 1 < firings_a_packet) continue;
     const auto stamp = static_cast<std::uint32_t>((time_ns(next_) / 1000) % hour_us);
     for (std::size_t i = 0; i < 4; ++i) packet_.bytes[1200 + i] = static_cast<std::uint8_t>(stamp >> (8 * i));

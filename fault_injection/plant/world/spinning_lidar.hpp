@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "plant/machine/implement_shape.hpp"
@@ -12,6 +13,7 @@
 #include "plant/world/random.hpp"
 #include "plant/world/scene.hpp"
 #include "plant/world/sensor_air.hpp"
+#include "plant/world/shot_draws.hpp"
 
 namespace berm::plant {
 
@@ -23,39 +25,52 @@ struct LidarPacket {
 
 class SpinningLidar {
  public:
+  static constexpr std::size_t lasers_of_firing = ShotDraws::lasers;
+
   SpinningLidar(const ScannerConfig& noise, const LidarMount& mount, std::uint8_t number, std::uint64_t seed);
+  // A span of time in which the sensor's place is told: the swing angle moves evenly from one end to the other.
+  struct Span { double t, dt, swing_before, swing_now; bool operator==(const Span&) const = default; };
+  // What the lasers of a firing meet: none of one that looks where the sensor is blank.
+  struct Hits { std::array<std::optional<SceneHit>, lasers_of_firing> of{}; };
+  // Hits of the first firings of a step that were worked out before it, in another scene: those stand whose fan does not meet the difference.
+  struct Foreseen { std::span<const Hits> hits; const SceneDifference& difference; };
+
   // The firings in (t - dt, t], appended as packets when twelve blocks are full: of two firings each, or, dual return, each two of two.
   // air.covered: something lies on the window, and nothing comes back. returns: takes what people and vehicles sent back, or null.
-  void step(double t, double dt, double swing_before, double swing_now, const SensorAir& air, const Scene& scene, const BaseFrame& stand,
-            std::vector<LidarPacket>& out, std::vector<MoverReturn>* returns = nullptr);
-  void draw_anew(std::uint64_t seed) { random_ = Random(seed), dust_random_ = Random(~seed), drawn_.clear(), taken_ = 0; }
-  static constexpr std::size_t shots_a_cycle = 182 * 16;  // at most, of 10 ms
-  // Draws for so many of the next shots, in time that is to spare; what comes of it is the same.
-  void draw_ahead(std::size_t shots);
+  void step(const Span& span, const SensorAir& air, const Scene& scene, const BaseFrame& stand, std::vector<LidarPacket>& out,
+            std::vector<MoverReturn>* returns = nullptr, const Foreseen* foreseen = nullptr);
+  // Of the next step: what firing k of it meets in a scene; false when it has no more.
+  [[nodiscard]] bool foresee(const Span& span, std::size_t k, const Scene& scene, const BaseFrame& stand, Hits& hits) const;
+  void draw_anew(std::uint64_t seed) { draws_ = ShotDraws(seed, draws_more()), dust_random_ = Random(~seed); }
+  static constexpr std::size_t firings_a_cycle = 182;  // at most, of 10 ms
+  // Draws for so many of the next firings, in time that is to spare; what comes of it is the same.
+  void draw_ahead(std::size_t firings) { draws_.ahead(firings); }
 
  private:
   struct Returns {
     bool met = false;                // the last is of what was hit
     double last = 0.0, other = 0.0;  // m; 0: none. other: the strongest but the last, or the last again
   };
-  // Of a shot, whatever it hits: range noise, whether it is lost, and, of sensors with dust or outliers, what comes back besides and from where.
-  struct Drawn { double noise, lost, what, where; };
-  [[nodiscard]] Drawn draw();
-  [[nodiscard]] Drawn next_drawn();
-  // What comes back of a laser's shot that something did, or nothing (hit), with what was drawn for it.
-  [[nodiscard]] Returns received(const std::optional<double>& hit, const Drawn& drawn) const;
+  [[nodiscard]] bool draws_more() const { return mount_.dual || mount_.outliers; }
+  // What comes back of a laser's shot that met something, or nothing (null), with what was drawn for it.
+  [[nodiscard]] Returns received(const SceneHit* hit, const ShotDraws::Firing& drawn, std::size_t laser) const;
+  void blow(double met_at, const SensorAir& air, Returns& back);
+  // Where a firing looks that the sensor's turn has come to, in the three frames of a scene.
+  struct Aim;
+  [[nodiscard]] Aim aim(double at, double swing, const BaseFrame& stand) const;
+  [[nodiscard]] bool in_sector(double at) const;
+  void look(const Aim& aim, const Scene& scene, const BaseFrame& stand, Hits& hits) const;
   // records: of the last returns; others: of the strongest, or null.
-  void blow(const std::optional<double>& hit, const SensorAir& air, Returns& back);
-  void fire(std::int64_t firing, double swing, const SensorAir& air, const Scene& scene, const BaseFrame& stand, std::uint8_t* records, std::uint8_t* others,
-            std::vector<MoverReturn>* returns);
+  void report(double at, double swing, const Hits& hits, const SensorAir& air, const BaseFrame& stand, std::uint8_t* records, std::uint8_t* others,
+              std::vector<MoverReturn>* returns);
+  [[nodiscard]] std::int64_t first_firing(std::int64_t begin_ns) const;
   [[nodiscard]] Vec3 turned(const Vec3& v) const;
 
   ScannerConfig noise_;
   LidarMount mount_;
   std::uint8_t number_;
-  Random random_, dust_random_;  // dust of the air draws from its own, so that it leaves all else as it was
-  std::vector<Drawn> drawn_;   // ahead; those before taken_ are used up
-  std::size_t taken_ = 0;
+  ShotDraws draws_;
+  Random dust_random_;         // dust of the air draws from its own, so that it leaves all else as it was
   Vec3 x_, y_, z_;             // the sensor's axes in the upper body
   std::int64_t next_ = 0;      // number of the next firing
   LidarPacket packet_{};

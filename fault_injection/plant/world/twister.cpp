@@ -1,5 +1,7 @@
 #include "plant/world/twister.hpp"
 
+#include <algorithm>
+
 #include "plant/world/lanes.hpp"
 
 namespace berm::plant {
@@ -31,6 +33,16 @@ BERM_PLANT_LANES void twisted(std::uint64_t* state, std::uint64_t* drawn, std::s
 Twister::Twister(std::uint64_t seed) {
   state_[0] = seed;
   for (std::size_t i = 1; i < words; ++i) state_[i] = 6364136223846793005u * (state_[i - 1] ^ (state_[i - 1] >> 62)) + i;
+}
+
+void Twister::fill(std::uint64_t* to, std::size_t count) {
+  while (count > 0) {
+    if (next_ == words) refill();
+    const std::size_t part = std::min(count, words - next_);
+    to = std::copy_n(drawn_.data() + next_, part, to);
+    next_ += part;
+    count -= part;
+  }
 }
 
 void Twister::refill() {

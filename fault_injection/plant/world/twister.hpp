@@ -14,6 +14,8 @@ class Twister {
     if (next_ == words) refill();
     return drawn_[next_++];
   }
+  // The next so many.
+  void fill(std::uint64_t* to, std::size_t count);
 
  private:
   static constexpr std::size_t words = 312, ahead = 156;

@@ -7,6 +7,7 @@ namespace berm::plant {
 
 struct Vec3 {
   double x = 0, y = 0, z = 0;
+  bool operator==(const Vec3&) const = default;
 };
 
 inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -27,6 +28,7 @@ struct PlanarFrame {
   double x = 0, y = 0, z = 0, cos_yaw = 1, sin_yaw = 0;
 
   PlanarFrame() = default;
+  bool operator==(const PlanarFrame&) const = default;
   PlanarFrame(double px, double py, double pz, double yaw) : x(px), y(py), z(pz), cos_yaw(std::cos(yaw)), sin_yaw(std::sin(yaw)) {}
 
   [[nodiscard]] Vec3 out(const Vec3& p) const { return {x + cos_yaw * p.x - sin_yaw * p.y, y + sin_yaw * p.x + cos_yaw * p.y, z + p.z}; }

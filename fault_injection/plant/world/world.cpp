@@ -11,6 +11,7 @@
 #include "plant/oracle/oracle.hpp"
 #include "plant/process/world_config.hpp"
 #include "plant/world/base_pose.hpp"
+#include "plant/world/foresight.hpp"
 #include "plant/world/link_frames.hpp"
 #include "plant/world/landing.hpp"
 #include "plant/world/movers.hpp"
@@ -99,9 +100,9 @@ struct World::State {
   // The truck that is here or expected; the last one when all are gone.
   [[nodiscard]] const Truck* shown() const { return truck.empty() ? nullptr : &truck[std::min(current, truck.size() - 1)]; }
   [[nodiscard]] oracle::Site site() const;
-  void place(const JointState& now);
-  void scan(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
-            std::vector<berm_scan_packet>& out);
+  void place(const JointState& now, Scene& in) const;
+  void scan(size_t scanner, double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
+            std::vector<berm_scan_packet>& out, std::vector<MoverReturn>& returns);
   void fire(size_t lidar, double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out,
             std::vector<MoverReturn>& returns);
 
@@ -119,8 +120,14 @@ struct World::State {
   std::vector<SpinningLidar> lidar;
   Scene scene;
   BasePose base;
-  std::vector<MoverReturn> mover_returns, side_returns;
-  std::vector<LidarPacket> side_packets;
+  Foresight foresight;
+  std::vector<MoverReturn> mover_returns;
+  struct Aside {  // what the side thread senses
+    std::vector<berm_scan_packet> scans;
+    std::vector<LidarPacket> lidars;
+    std::vector<MoverReturn> scan_returns, lidar_returns;
+    void clear() { scans.clear(), lidars.clear(), scan_returns.clear(), lidar_returns.clear(); }
+  } aside;
   size_t current = 0;
   std::vector<Overflow> over;
 };
@@ -146,39 +153,38 @@ DigForces World::step(double t, double dt, const JointState& now, const JointSta
   return forces;
 }
 
-void World::State::place(const JointState& now) {
-  mover_returns.clear();
-  scene.place_site(terrain, truck, movers, config.boxes);
-  scene.place_machine(shape, link_frames(shape, now), std::max(0.0, load.volume() - load.struck()));
+void World::State::place(const JointState& now, Scene& in) const {
+  in.place_site(terrain, truck, movers, config.boxes);
+  in.place_machine(shape, link_frames(shape, now), std::max(0.0, load.volume() - load.struck()));
 }
 
-void World::State::scan(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
-                        std::vector<berm_scan_packet>& out) {
-  const BaseFrame stand(base);
-  for (size_t i = 0; i < scanner.size(); ++i) {
-    const SensorAir a = air(config.scanner_faults, i, t);
-    if (a.silent) continue;
-    scanner[i].step(t, dt, {before.angle[0], pan_before.angle[i]}, {now.angle[0], pan_now.angle[i]}, scene, out, stand, &mover_returns, a);
-  }
+void World::State::scan(size_t i, double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before,
+                        const PanState& pan_now, std::vector<berm_scan_packet>& out, std::vector<MoverReturn>& returns) {
+  const SensorAir a = air(config.scanner_faults, i, t);
+  const ScanPose from{before.angle[0], pan_before.angle[i]}, to{now.angle[0], pan_now.angle[i]};
+  if (!a.silent) scanner[i].step(t, dt, from, to, scene, out, BaseFrame(base), &returns, a);
 }
 
 void World::State::fire(size_t i, double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out,
                         std::vector<MoverReturn>& returns) {
   const SensorAir a = air(config.lidar_faults, i, t);
-  if (!a.silent) lidar[i].step(t, dt, before.angle[0], now.angle[0], a, scene, BaseFrame(base), out, &returns);
+  const SpinningLidar::Foreseen foreseen = foresight.hits(i);
+  if (!a.silent) lidar[i].step({t, dt, before.angle[0], now.angle[0]}, a, scene, BaseFrame(base), out, &returns, &foreseen);
 }
 
 void World::scan(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
                  std::vector<berm_scan_packet>& out) {
-  state_->place(now);
-  state_->scan(t, dt, before, now, pan_before, pan_now, out);
+  state_->mover_returns.clear();
+  state_->foresight.forget();
+  state_->place(now, state_->scene);
+  for (size_t i = 0; i < state_->scanner.size(); ++i) state_->scan(i, t, dt, before, now, pan_before, pan_now, out, state_->mover_returns);
 }
 
 void World::scan_lidars(double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out) {
   for (size_t i = 0; i < state_->lidar.size(); ++i) state_->fire(i, t, dt, before, now, out, state_->mover_returns);
 }
 
-// Each lidar draws from its own stream, and the scene is only looked at.
+// Each scanner and lidar draws from its own stream, and the scene is only looked at.
 void World::sense(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
                   std::vector<berm_scan_packet>& scans, std::vector<LidarPacket>& lidars, SideThread* side) {
   State& w = *state_;
@@ -187,21 +193,34 @@ void World::sense(double t, double dt, const JointState& before, const JointStat
     scan_lidars(t, dt, before, now, lidars);
     return;
   }
-  w.place(now);
-  w.side_packets.clear();
-  w.side_returns.clear();
+  w.mover_returns.clear();
+  w.place(now, w.scene);
+  w.foresight.compare({t, dt, before.angle[0], now.angle[0]}, w.base, w.scene);
+  w.aside.clear();
   side->give([&] {
-    for (size_t i = 1; i < w.lidar.size(); ++i) w.fire(i, t, dt, before, now, w.side_packets, w.side_returns);
+    w.scan(1, t, dt, before, now, pan_before, pan_now, w.aside.scans, w.aside.scan_returns);
+    for (size_t i = 1; i < w.lidar.size(); ++i) w.fire(i, t, dt, before, now, w.aside.lidars, w.aside.lidar_returns);
   });
-  w.scan(t, dt, before, now, pan_before, pan_now, scans);
-  w.fire(0, t, dt, before, now, lidars, w.mover_returns);
+  std::vector<MoverReturn> first;
+  w.scan(0, t, dt, before, now, pan_before, pan_now, scans, w.mover_returns);
+  w.fire(0, t, dt, before, now, lidars, first);
   side->wait();
-  lidars.insert(lidars.end(), w.side_packets.begin(), w.side_packets.end());
-  w.mover_returns.insert(w.mover_returns.end(), w.side_returns.begin(), w.side_returns.end());
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(scans, w.aside.scans);
+  append(lidars, w.aside.lidars);
+  append(w.mover_returns, w.aside.scan_returns);
+  append(w.mover_returns, first);
+  append(w.mover_returns, w.aside.lidar_returns);
+}
+
+void World::foresee(double t, double dt, const JointState& before, const JointState& now, const std::function<bool()>& enough) {
+  State& w = *state_;
+  w.place(now, w.foresight.begin({t, dt, before.angle[0], now.angle[0]}, w.base, w.lidar.size()));
+  w.foresight.look(w.lidar, enough);
 }
 
 void World::draw_ahead() {
-  for (SpinningLidar& l : state_->lidar) l.draw_ahead(SpinningLidar::shots_a_cycle);
+  for (SpinningLidar& l : state_->lidar) l.draw_ahead(SpinningLidar::firings_a_cycle);
 }
 
 oracle::Site World::State::site() const {

@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <memory>
+#include <vector>
 
 #include "perception/kernel_map.hpp"
 
@@ -45,6 +47,33 @@ TEST(KernelMap, SaysWhatTheKernelWillCheck) {
 TEST(KernelMap, BeforeAnythingIsPublishedNothingMayBePassed) {
   const KernelMap map;
   EXPECT_TRUE(std::isinf(map.ground(KernelMap::Unseen::blocked)(5.0, 0.0)));
+}
+
+// Points on the cells' borders and beside them too, where a product by the side's reciprocal may fall to another cell than the quotient: never for
+// the kernel's cells of 0.3 m, but for others.
+TEST(CellGround, APointIsOfTheCellOfTheQuotientsFloor) {
+  constexpr int side = 104;
+  constexpr double origin = -15.6;
+  std::vector<double> number(side * side);
+  for (std::size_t i = 0; i < number.size(); ++i) number[i] = static_cast<double>(i);
+  int otherwise = 0;
+  for (const double cell : {0.3, 0.1, 0.7}) {
+    const CellGround ground(cell, origin, side, number.data(), -1.0);
+    const auto index = [&](double v) { return std::floor((v - origin) / cell); };
+    const auto inside = [](double i) { return i >= 0 && i < side; };
+    for (int i = -20; i <= side + 20; ++i) {
+      const double border = i * cell + origin;
+      for (const double x : {border, std::nextafter(border, 1e9), std::nextafter(border, -1e9), border + 1e-12, border - 1e-12, border + 0.09}) {
+        const double y = origin + 4.5 * cell, ix = index(x);
+        ASSERT_EQ(ground(x, y), inside(ix) ? 4 * side + ix : -1.0) << cell << ": " << x;
+        ASSERT_EQ(ground(y, x), inside(ix) ? ix * side + 4 : -1.0) << cell << ": " << x;
+        otherwise += std::floor((x - origin) * (1.0 / cell)) != ix ? 1 : 0;
+      }
+    }
+    for (const double far : {1e9, -1e9, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+      EXPECT_EQ(ground(far, 0.0), -1.0) << far;
+  }
+  EXPECT_GT(otherwise, 20) << "the product alone would have done, so this tests nothing";
 }
 
 }  // namespace
