@@ -69,7 +69,15 @@ TEST(JointWatch, AWeakSwingBrakeIsToldAndLimited) {
   bool full = false;
   for (const auto& event : done.overruns) full = full || event["loaded"] == true;
   EXPECT_TRUE(full) << "a full bucket's swing overran, though the bucket was empty when it stood";
-  EXPECT_LT(done.overruns.back()["time_s"], 110.0) << "what was learned is enough: none in the last passes";
+  // Both loads and directions have overrun once by 40 s. Later it is let go faster again, little by little, until a landing shows it anew.
+  int later = 0;
+  for (const auto& event : done.overruns) {
+    if (event["time_s"] < 40.0) continue;
+    ++later;
+    EXPECT_LT(event["over_goal_deg"], 1.0) << event.dump();
+    EXPECT_LT(event["over_model_deg"], 4.0) << event.dump();
+  }
+  EXPECT_LE(later, 4);
   EXPECT_EQ(done.contacts, 0);
 }
 
