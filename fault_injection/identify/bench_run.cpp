@@ -1,16 +1,11 @@
 #include "identify/bench_run.hpp"
 
 #include <fmt/format.h>
-#include <signal.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <numbers>
-#include <stdexcept>
 
-#include "run/child_process.hpp"
-#include "run/kernel_session.hpp"
-#include "run/parameter_file.hpp"
+#include "identify/bench_machine.hpp"
 
 namespace berm::identify {
 
@@ -18,35 +13,6 @@ namespace {
 
 constexpr double kDegree = 180.0 / std::numbers::pi;
 constexpr double kLargestColumn = 7.0;
-constexpr double kEndPatience_s = 20.0;
-
-// The plant, which ends with the object.
-class Plant {
- public:
-  Plant(const BenchPlan& plan, const std::string& can, const std::string& out) {
-    run::ChildOptions options;
-    options.program = run::program_folder() + "/berm_plant";
-    options.arguments = {"--scenario",  plan.scenario, "--seed", std::to_string(plan.seed), "--can", can,
-                         "--scan-port", std::to_string(run::free_udp_port()), "--out", out, "--lockstep"};
-    child_.start(options);
-  }
-  // Its lines are read so that it never waits for a reader; true while it runs.
-  bool runs() {
-    child_.take_lines();
-    return !child_.ended();
-  }
-  void end() {
-    child_.signal(SIGTERM);
-    if (!child_.wait_ended(kEndPatience_s)) throw std::runtime_error("the plant does not end");
-  }
-  std::string describe_end() { return child_.describe_end(); }
-  // It did not like its input, and has said so.
-  bool refused() const { return WIFEXITED(child_.exit_status()) && WEXITSTATUS(child_.exit_status()) != 0; }
-  bool wait_ended(double seconds) { return child_.wait_ended(seconds); }
-
- private:
-  run::ChildProcess child_;
-};
 
 StopPlan plan_of(const config::MachineFile& machine, const Station& station, std::size_t number, std::size_t column, bool between) {
   StopPlan stop;
@@ -93,14 +59,8 @@ std::string progress(const config::MachineFile& machine, const BenchPlan& plan, 
                      record.stops.size() - begin, angle * kDegree, time);
 }
 
-void go_through(Plant& plant, MachineLink& link, const config::MachineFile& machine, const BenchPlan& plan,
-                const Interruption& interruption, BenchRecord& record, const std::function<void(const std::string&)>& say) {
-  const auto watch = [&] {
-    interruption.check();
-    if (!plant.runs()) throw std::runtime_error("the plant ended before the tests: " + plant.describe_end());
-  };
-  while (!link.heard(100)) watch();
-  Driver driver(link, machine, watch);
+void go_through(Driver& driver, MachineLink& link, const config::MachineFile& machine, const BenchPlan& plan, BenchRecord& record,
+                const std::function<void(const std::string&)>& say) {
   std::array<bool, 4> tested{};
   const Station* last = nullptr;
   const auto all = stations(machine, plan.joints);
@@ -130,19 +90,9 @@ void go_through(Plant& plant, MachineLink& link, const config::MachineFile& mach
 
 BenchRecord run_tests(const config::MachineFile& machine, const BenchPlan& plan, const Interruption& interruption,
                       const std::function<void(const std::string&)>& say) {
-  const run::RunFolder folder;
-  const std::string can = run::free_can_address();
   BenchRecord record;
-  MachineLink link(can);  // before the plant: its first cycle must not be missed
-  Plant plant(plan, can, plan.plant_out.empty() ? folder.file("out") : plan.plant_out);
-  try {
-    go_through(plant, link, machine, plan, interruption, record, say);
-  } catch (const std::runtime_error&) {
-    interruption.check();  // the plant hears the same signal, and falls silent
-    if (plant.wait_ended(0.2) && plant.refused()) throw run::ToldAlready();
-    throw;
-  }
-  plant.end();
+  on_bench(machine, {plan.scenario, plan.seed, plan.plant_out}, interruption,
+           [&](Driver& driver, MachineLink& link) { go_through(driver, link, machine, plan, record, say); });
   return record;
 }
 

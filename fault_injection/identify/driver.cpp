@@ -30,6 +30,8 @@ constexpr double kReached = 0.99;            // share of the command
 constexpr double kLeastMotion = 0.2;         // share of the command below which a joint is said not to move
 constexpr double kPatience_s = 30.0;         // for a speed, and for a standstill
 constexpr int kRestReadings = 25;
+constexpr double kCycle_s = 0.01;
+constexpr double kStepRest_s = 0.1, kStepHold_s = 0.6;  // before a step, and beyond its ramp
 
 double mean_speed(const std::vector<Sample>& s, std::size_t count, std::size_t before_last = 0) {
   double sum = 0.0;
@@ -89,7 +91,7 @@ void Driver::take_pose(const Joints& pose) {
 }
 
 void Driver::learn(const StopRecord& stop) {
-  ways_.push_back({stop.held_speed, stop.farthest_angle - angle_at(stop, stop.sent_s)});
+  ways_.push_back({stop.held_speed, stop.farthest_angle - angle_at(stop, stop.sent_s), stop.rest_s - stop.sent_s});
 }
 
 double Driver::stop_room(double speed, const JointSpan& span) const {
@@ -102,6 +104,12 @@ double Driver::stop_room(double speed, const JointSpan& span) const {
     longest = std::max(longest, way.angle * ratio * ratio);
   }
   return kGuess * longest + kSpare;
+}
+
+double Driver::longest_stop_s(double speed) const {
+  double longest = 0.0;
+  for (const Way& way : ways_) longest = std::max(longest, way.seconds * std::max(1.0, speed / way.speed));
+  return longest;
 }
 
 double Driver::test_room(double speed, const JointSpan& span) const {
@@ -160,11 +168,15 @@ void Driver::begin_station(std::size_t joint, const JointSpan& span) {
   }
 }
 
-StopRecord Driver::stop_test(const StopPlan& plan, const JointSpan& span) {
-  const double room = test_room(plan.speed, span), at = now_.angle[plan.joint];
-  const bool up = plan.direction > 0.0;
+void Driver::make_room(std::size_t joint, double direction, double room, const JointSpan& span) {
+  const double at = now_.angle[joint];
+  const bool up = direction > 0.0;
   if (at < span.low - kSpare || at > span.high + kSpare || (up ? span.high - at : at - span.low) < room)
-    go_to(plan.joint, up ? std::max(span.low, span.high - room) : std::min(span.high, span.low + room));
+    go_to(joint, up ? std::max(span.low, span.high - room) : std::min(span.high, span.low + room));
+}
+
+StopRecord Driver::stop_test(const StopPlan& plan, const JointSpan& span) {
+  make_room(plan.joint, plan.direction, test_room(plan.speed, span), span);
   std::vector<Sample> samples;
   reach_speed(plan.joint, plan.direction * plan.speed, span, kHold_s, samples);
   const std::size_t sent = samples.size() - 1;
@@ -188,6 +200,31 @@ Speeds Driver::reversal_test(std::size_t joint, double speed, const JointSpan& s
   for (const Sample& s : samples) speeds.push_back(static_cast<float>(s.speed));
   wait_for_rest(joint, StopManner::zero_command, -1.0, samples);
   return speeds;
+}
+
+void Driver::step_to(const StepPlan& plan, double speed, double seconds, const JointSpan& span, StepRecord& record) {
+  const double direction = plan.direction;
+  Joints command{};
+  command[plan.joint] = direction * speed;
+  for (const double end = now_.time_s + seconds; now_.time_s < end - 0.5 * kCycle_s;) {
+    const double left = direction > 0.0 ? span.high - now_.angle[plan.joint] : now_.angle[plan.joint] - span.low;
+    if (speed > 0.0 && left <= stop_room(std::max(speed, direction * now_.velocity[plan.joint]), span)) return;
+    record.samples.push_back({now_.time_s, speed, direction * now_.velocity[plan.joint]});
+    step(link_.drive(command));
+  }
+}
+
+StepRecord Driver::step_test(const StepPlan& plan, const JointSpan& span) {
+  StepRecord record;
+  record.plan = plan;
+  const double ramp_s = kRampShare * 2.0 * longest_stop_s(plan.speed);
+  make_room(plan.joint, plan.direction, test_room(plan.speed, span) + 0.5 * plan.speed * (ramp_s + kStepHold_s), span);
+  for (int i = 0; i < kRestReadings; ++i) step(link_.drive({}));
+  step_to(plan, 0.0, kStepRest_s, span, record);
+  step_to(plan, plan.speed, ramp_s + kStepHold_s, span, record);
+  step_to(plan, 0.5 * plan.speed, ramp_s + kStepHold_s, span, record);
+  step_to(plan, 0.0, ramp_s + kStepHold_s, span, record);
+  return record;
 }
 
 }  // namespace berm::identify

@@ -7,6 +7,7 @@
 
 #include "config/machine_file.hpp"
 #include "identify/machine_link.hpp"
+#include "identify/step_record.hpp"
 #include "identify/stop_record.hpp"
 
 namespace berm::identify {
@@ -29,6 +30,10 @@ class Driver {
   // A speed one way, then the other, then zero: the readings from the second command on, positive in its direction.
   Speeds reversal_test(std::size_t joint, double speed, const JointSpan& span);
 
+  // From rest a step to the speed, one to half of it, one to zero, each held until it must have been answered. One for which there is no room is cut
+  // short.
+  StepRecord step_test(const StepPlan& plan, const JointSpan& span);
+
   const Joints& fastest_reading() const { return fastest_; }  // rad/s, either direction
   double time_s() const { return now_.time_s; }
 
@@ -36,15 +41,19 @@ class Driver {
   void step(const Reading& reading);
   void move_to(const Joints& goal, const std::array<bool, 4>& moved);
   void go_to(std::size_t joint, double angle);
+  // Goes to where the joint has this room in this direction.
+  void make_room(std::size_t joint, double direction, double room, const JointSpan& span);
+  void step_to(const StepPlan& plan, double speed, double seconds, const JointSpan& span, StepRecord& record);
   void learn(const StopRecord& stop);
   double stop_room(double speed, const JointSpan& span) const;
+  double longest_stop_s(double speed) const;
   // Room for getting to a speed, holding it, and stopping.
   double test_room(double speed, const JointSpan& span) const;
   // Commands the speed until it is reached and held, or the room ends; appends the readings.
   void reach_speed(std::size_t joint, double velocity, const JointSpan& span, double hold_s, std::vector<Sample>& samples);
   void wait_for_rest(std::size_t joint, StopManner manner, double direction, std::vector<Sample>& samples);
 
-  struct Way { double speed, angle; };  // from the command to standstill
+  struct Way { double speed, angle, seconds; };  // from the command to standstill
 
   MachineLink& link_;
   const config::MachineFile& machine_;

@@ -1,7 +1,6 @@
 #include "identify/identification.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -11,8 +10,8 @@
 #include "identify/bench_run.hpp"
 #include "identify/bounds.hpp"
 #include "identify/braking_picture.hpp"
+#include "identify/output_files.hpp"
 #include "identify/result_text.hpp"
-#include "run/kernel_session.hpp"
 #include "run/parameter_file.hpp"
 #include "run/scenario_names.hpp"
 
@@ -21,13 +20,6 @@ namespace berm::identify {
 namespace {
 
 namespace fs = std::filesystem;
-
-void check_writable(const std::string& file) {
-  if (file.empty()) return;
-  const fs::path folder = fs::path(file).has_parent_path() ? fs::path(file).parent_path() : fs::path(".");
-  if (!fs::is_directory(folder)) throw std::runtime_error(file + ": its folder does not exist");
-  if (access(folder.c_str(), W_OK) != 0 || fs::is_directory(file)) throw std::runtime_error(file + ": cannot be written");
-}
 
 // Every value that will be replaced stands where it can be: known before hours of tests, not after.
 void check_editable(Result result, const config::MachineFile& machine) {
@@ -73,14 +65,6 @@ std::vector<BenchRecord> run_all(const Options& options, Result& result, const c
   }
   result.weighed_kg = weighed;
   return runs;
-}
-
-// The new file must be one that every reader takes.
-void check_readable(const std::string& text) {
-  const run::RunFolder folder;
-  const std::string path = folder.file("measured.toml");
-  config::write_whole_file(path, text);
-  config::load_machine_file(path);
 }
 
 }  // namespace

@@ -81,6 +81,15 @@ std::optional<Span> find_value(const std::string& text, const std::string& secti
   return found;
 }
 
+// Name in a header line; empty for another line.
+std::string header_of(std::string_view line) {
+  const std::string_view content = trimmed(line);
+  if (content.empty() || content.front() != '[') return {};
+  const std::size_t from = content.substr(0, 2) == "[[" ? 2 : 1;
+  const auto close = content.find(']');
+  return std::string(trimmed(content.substr(from, close == std::string_view::npos ? close : close - from)));
+}
+
 }  // namespace
 
 MachineFileText::MachineFileText(const std::string& path) : path_(path) {
@@ -96,6 +105,34 @@ void MachineFileText::replace(const std::string& section, const std::string& key
   const auto span = find_value(text_, section, key, times);
   if (!span || times != 1) throw std::runtime_error(fmt::format("{}: {}.{}: must stand once, under its header [{}], to be replaced", path_, section, key, section));
   text_.replace(span->begin, span->end - span->begin, value);
+}
+
+void MachineFileText::replace_tables(const std::string& table, const std::string& new_text) {
+  std::optional<Span> found;
+  bool inside = false;
+  for (std::size_t line = 0; line < text_.size();) {
+    std::size_t end = text_.find('\n', line);
+    const std::string_view content = std::string_view(text_).substr(line, end == std::string::npos ? end : end - line);
+    const std::string header = header_of(content);
+    const auto equals = content.find('='), comment = content.find('#');
+    if (header.empty() && equals < comment) end = text_.find('\n', Reader(text_, text_.find_first_not_of(" \t", line + equals + 1)).value_end());
+    end = end == std::string::npos ? text_.size() : end + 1;
+    if (!header.empty()) {
+      const bool ours = header == table || header.rfind(table + ".", 0) == 0;
+      if (ours && found && !inside) throw std::runtime_error(fmt::format("{}: [{}]: its tables must stand together to be replaced", path_, table));
+      if (ours && !found) found = Span{line, line};
+      inside = ours;
+    }
+    if (inside) found->end = end;
+    line = end;
+  }
+  if (found) {
+    const std::size_t last = text_.find_last_not_of(" \t\r\n", found->end - 1);  // empty lines before the next table stay
+    text_.replace(found->begin, last + 1 - found->begin, new_text.substr(0, new_text.find_last_not_of('\n') + 1));
+  } else {
+    if (!text_.empty() && text_.back() != '\n') text_ += '\n';
+    text_ += "\n" + new_text;
+  }
 }
 
 }  // namespace berm::identify

@@ -13,6 +13,9 @@ class MachineFileText {
   // Replaces the value of a key that stands under the header [section]; several lines when it is an array. Throws std::runtime_error when the key does
   // not stand so, once.
   void replace(const std::string& section, const std::string& key, const std::string& value);
+  // Puts the text, which begins with the header [table], in the place of that table and of all [table.*], which must stand together; else at the end.
+  // Throws std::runtime_error when they do not.
+  void replace_tables(const std::string& table, const std::string& text);
   const std::string& text() const { return text_; }
 
  private:

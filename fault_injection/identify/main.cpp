@@ -1,17 +1,17 @@
-// berm identify: measures a machine's braking table, accelerations and command latency over its bus.
+// berm identify: measures a machine's braking table, accelerations and command latency over its bus, or its step responses.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
 
-#include "identify/identification.hpp"
 #include "config/command_line.hpp"
+#include "identify/step_identification.hpp"
 #include "run/parameter_file.hpp"
 
 int main(int argc, char** argv) {
   berm::identify::Options options;
-  options.picture = "braking_table.svg";
+  bool steps = false;
   const std::map<std::string, std::size_t> joints{{"swing", 0}, {"boom", 1}, {"stick", 2}, {"bucket", 3}};
   std::vector<std::string> joint_names;
   CLI::App app{
@@ -34,18 +34,23 @@ int main(int argc, char** argv) {
   app.add_option("--scenario", options.scenario, "site with the heaviest payload: a name or a TOML file")->capture_default_str();
   app.add_option("--scenario-empty", options.scenario_empty, "the same with an empty bucket")->capture_default_str();
   app.add_option("--json", options.json, "write every entry with what was measured as one JSON object");
-  app.add_option("--picture", options.picture, "where the picture goes (SVG); \"\" for none")->capture_default_str();
+  auto* picture = app.add_option("--picture", options.picture, "where the picture goes (SVG; default: braking_table.svg or step_responses.svg); \"\" for none");
   app.add_option("--plant-out", options.plant_out,
                  "folder in which the simulated machine leaves what was true (trace.csv, truth.json), for others to judge by; not read here");
+  app.add_flag("--steps", steps,
+               "instead of stops: identify the joint models that the planning app predicts with, from step responses (dead time, lags, gain, rates of each\n"
+               "joint and direction, empty and loaded), and write them as [response]")
+      ->excludes("--joint", "--columns", "--allowance");
   app.add_flag("--quiet", options.quiet, "no progress, only the table");
   if (const auto status = berm::config::parse_options(app, argc, argv)) return *status;
+  if (picture->count() == 0) options.picture = steps ? "step_responses.svg" : "braking_table.svg";
   for (const auto& name : joint_names) options.joints.push_back(joints.at(name));
   for (auto* list : {&options.joints, &options.columns}) {
     std::sort(list->begin(), list->end());
     list->erase(std::unique(list->begin(), list->end()), list->end());
   }
   try {
-    berm::identify::identify(options);
+    steps ? berm::identify::identify_steps(options) : berm::identify::identify(options);
     return 0;
   } catch (const berm::run::ToldAlready&) {
     return 2;

@@ -240,6 +240,7 @@ MachineFile load_machine_file(const std::string& path) {
   m.braking = read_braking(file.table("braking"));
   if (m.braking.reach.back() < reach + kRoundingRoom)
     file.fail("braking.reach_m", fmt::format("the last row ends at {}, the implements reach {}", m.braking.reach.back(), reach));
+  if (file.has("response")) m.response = read_response(file.table("response"), kJointNames);
   for (auto& part : file.tables("part")) m.part.push_back(read_part(std::move(part)));
   if (m.part.empty() || m.part.size() > BERM_PARTS) file.fail("part", fmt::format("{} parts, 1 to {} are taken", m.part.size(), BERM_PARTS));
   check_every_link(file, m.part);

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "config/response_file.hpp"
 
 namespace berm::config {
 
@@ -86,6 +89,7 @@ struct MachineFile {
   double bucket_payload;                  // of a heaped bucket, kg
   double state_latency, command_latency;  // s
   BrakingFile braking;
+  std::optional<ResponseFile> response;   // none: never identified
   std::vector<PartFile> part;
   std::array<ScannerFile, 2> scanner;     // left, right
   std::vector<LidarFile> lidar;

@@ -104,6 +104,15 @@ std::vector<double> StrictTable::numbers(const std::string& key, std::size_t cou
   return out;
 }
 
+std::vector<double> StrictTable::numbers(const std::string& key, std::size_t least_count, std::size_t most_count, double low, double high) {
+  const toml::value& value = Node::at(*this, key);
+  if (!value.is_array() || value.as_array().size() < least_count || value.as_array().size() > most_count)
+    fail(key, fmt::format("must be an array of {} to {} numbers", least_count, most_count));
+  std::vector<double> out;
+  for (const toml::value& item : value.as_array()) out.push_back(Node::checked(*this, key, item, low, high));
+  return out;
+}
+
 std::array<double, 2> StrictTable::interval(const std::string& key, double low, double high, double least) {
   const auto ends = array<2>(key, low, high);
   if (ends[1] - ends[0] < least) fail(key, fmt::format("the low end {} is not below the high end {} by {} or more", ends[0], ends[1], least));

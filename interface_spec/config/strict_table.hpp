@@ -30,6 +30,7 @@ class StrictTable {
   std::string text(const std::string& key);
   std::string choice(const std::string& key, const std::vector<std::string>& allowed);
   std::vector<double> numbers(const std::string& key, std::size_t count, double low, double high);
+  std::vector<double> numbers(const std::string& key, std::size_t least_count, std::size_t most_count, double low, double high);
   template <std::size_t N>
   std::array<double, N> array(const std::string& key, double low, double high) {
     const std::vector<double> values = numbers(key, N, low, high);

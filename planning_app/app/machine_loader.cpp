@@ -7,6 +7,18 @@ namespace berm::app {
 
 static_assert(config::kJoints == joints);
 
+namespace {
+
+MachineModel::StepResponse step_response(const config::StepResponseFile& from) { return {from.dead_time, from.lag, from.stop_lag, from.gain, from.speeding, from.slowing}; }
+
+MachineModel::StepResponses step_responses(const config::ResponseFile& from) {
+  MachineModel::StepResponses out{from.payload, from.reach, {}};
+  for (std::size_t j = 0; j < joints; ++j) out.joint[j] = {step_response(from.joint[j][0]), step_response(from.joint[j][1])};
+  return out;
+}
+
+}  // namespace
+
 MachineModel machine_model(const config::MachineFile& file) {
   MachineModel m;
   m.boom_pin_x = file.boom_pin_x;
@@ -26,6 +38,7 @@ MachineModel machine_model(const config::MachineFile& file) {
   m.cycle = file.kernel.cycle;
   m.braking.reach = file.braking.reach;
   m.braking.angle = file.braking.angle;
+  if (file.response) m.responses = step_responses(*file.response);
   for (const config::PartFile& part : file.part) m.parts.push_back({static_cast<std::size_t>(part.link), part.half_width, part.outline});
   for (std::size_t i = 0; i < m.scanner.size(); ++i) {
     const config::ScannerFile& from = file.scanner[i];

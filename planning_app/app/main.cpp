@@ -1,6 +1,7 @@
 // berm_app: the planning app. Trusted with nothing: it sees the kernel's state segment and writes motion requests.
 #include <malloc.h>
 
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -38,6 +39,12 @@ void keep_memory_flat() {
   mallopt(M_TRIM_THRESHOLD, 2 * large);
 }
 
+std::array<double, berm::app::joints> in_degrees(const berm::app::Joints& angles) {
+  std::array<double, berm::app::joints> out{};
+  for (std::size_t j = 0; j < out.size(); ++j) out[j] = berm::app::degrees(angles[j]);
+  return out;
+}
+
 int run(const Options& options) {
   using namespace berm::app;
   std::vector<int> keep;
@@ -61,7 +68,9 @@ int run(const Options& options) {
   const char* why = end == LoopEnd::stopped ? "signal" : end == LoopEnd::kernel_gone ? "kernel gone" : "tick peer gone";
   const SlowDown& slowed = sequencer.slow_down();
   log.event("exit", {{"why", why}, {"finished", sequencer.finished()}, {"slowed_s", slowed.seconds()}, {"slowed_spans", slowed.spans()},
-                     {"least_share", slowed.least_share()},
+                     {"least_share", slowed.least_share()}, {"overruns", sequencer.joint_watch().overruns()},
+                     {"prediction_rms_deg", in_degrees(sequencer.joint_watch().prediction_rms())},
+                     {"prediction_largest_deg", in_degrees(sequencer.joint_watch().prediction_largest())},
                      {"points_compared", intake.check().compared()}, {"points_disagreeing", intake.check().disagreeing()},
                      {"blocks_missed", intake.counts().blocks_missed}, {"blocks_refused", intake.counts().blocks_refused},
                      {"returns", intake.counts().returns}, {"flagged", intake.counts().flagged}, {"confirmed", intake.counts().confirmed}});

@@ -28,7 +28,7 @@ const char* phase_name(std::uint16_t phase) {
 }  // namespace
 
 Sequencer::Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, const ScriptSet& scripts, TruckFinder& finder, const ProgressLog& log)
-    : scripts_(scripts), machine_(machine), scale_(scale_of(machine)), heaped_kg_(machine.bucket_payload_kg), full_bucket_kg_(full_share * heaped_kg_), site_(site), log_(log), trucks_(trucks), ground_(site_), arm_(machine_), brakes_(most_brake_share * machine.joint[swing].acceleration_max), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_),
+    : scripts_(scripts), machine_(machine), scale_(scale_of(machine)), heaped_kg_(machine.bucket_payload_kg), full_bucket_kg_(full_share * heaped_kg_), site_(site), log_(log), trucks_(trucks), ground_(site_), arm_(machine_), brakes_(most_brake_share * machine.joint[swing].acceleration_max), joint_watch_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_),
       load_check_(scale_.load), fill_(site.place.target_kg, full_bucket_kg_) {
   scanners_.begin_full_sweep();
   dig_.bearing = site.dig_swing_right - radians(60.0);  // no dig before the first: nothing to stay away from
@@ -138,6 +138,16 @@ void Sequencer::hear(const Observation& o) {
   heard_cycle_ = o.cycle;
   arm_.heard(o.commanded, o.permitted_low, o.permitted_high, cycles);
   slow_down_.step(o, arm_, machine_.cycle, phase_name(phase_), log_);
+  watch_joints(o);
+}
+
+void Sequencer::watch_joints(const Observation& o) {
+  const bool digs = stage_ == Stage::dig || stage_ == Stage::curl, lands = stage_ == Stage::pass || stage_ == Stage::approach || stage_ == Stage::settle;
+  // What was dug may be more than the weighing has seen yet.
+  const double carried_kg = holds_nothing_ ? 0.0 : std::max(recent_.kg(), goal_kg_);
+  joint_watch_.step(o, {carried_kg, !holds_nothing_, !digs, lands && script_.running() ? std::optional(script_.goals()) : std::nullopt}, log_);
+  arm_.carries(carried_kg);
+  arm_.limit(joint_watch_.paces(!holds_nothing_));
 }
 
 // A rule that waited for the swing is timed by it (a lowering over the dig, a pouring over the bed): it is slowed with the swing, so that each

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/bench_move.hpp"
+#include "app/joint_watch.hpp"
 #include "app/load_check.hpp"
 #include "app/observation.hpp"
 #include "app/progress_log.hpp"
@@ -39,6 +40,7 @@ public:
 
   bool finished() const { return stage_ == Stage::finished; }
   const SlowDown& slow_down() const { return slow_down_; }
+  const JointWatch& joint_watch() const { return joint_watch_; }
   KernelMap& kernel_map() { return kernel_map_; }
   TerrainMap& terrain() { return terrain_; }
   BedMap* bed() { return bed_ ? &*bed_ : nullptr; }  // of the truck that was recognised
@@ -51,6 +53,7 @@ private:
   void enter_phase(std::uint16_t phase, const Observation& o);
   Joints plan(const Observation& o);          // the stage's motion of this cycle
   void hear(const Observation& o);            // what the kernel let out of the request before, and what it permits now
+  void watch_joints(const Observation& o);    // against their models, with what is in the bucket
   Joints tempos() const;                      // of the script's active rules, with a slowed swing
   Joints run_script(const Observation& o, std::uint32_t events);
   Joints approach(const Observation& o);
@@ -106,6 +109,7 @@ private:
   double skyline_s_ = 0.0;
   ArmController arm_;
   SwingBraking brakes_;                       // with an empty bucket
+  JointWatch joint_watch_;
   ScanScheduler scanners_;
   TruckLook look_;
   Recovery recovery_;

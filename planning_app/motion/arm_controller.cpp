@@ -18,13 +18,20 @@ ArmController::ArmController(const MachineModel& machine)
     : machine_(&machine),
       controller_{controller_for(machine, swing), controller_for(machine, boom), controller_for(machine, stick), controller_for(machine, bucket)} {}
 
+ControllerLimits ArmController::limits_at(std::size_t joint, double reach_m) {
+  controller_[joint].respond(responses_of(*machine_, joint, reach_m, payload_kg_));
+  return limits_of(*machine_, joint, reach_m, payload_kg_);
+}
+
 Joints ArmController::toward(const Joints& goals, const Joints& paces, const Joints& tempos, const Joints& angle, const Joints& velocity) {
   Joints command{};
   const double reach = reach_of(*machine_, angle);
   for (std::size_t j = 0; j < joints; ++j) {
-    ControllerLimits limits = limits_of(*machine_, j, reach);
+    ControllerLimits limits = limits_at(j, reach);
     if (j == swing) swing_deceleration_ = limits.deceleration = std::max(limits.deceleration, swing_at_least_);
-    limits.velocity *= paces[j];
+    const double learned = (goals[j] >= angle[j] ? learned_.up : learned_.down)[j];
+    limits.velocity *= paces[j] * learned;
+    limits.deceleration *= learned * learned;
     limits = limits.at_tempo(tempos[j]);
     const double then = controller_[j].predict(angle[j], velocity[j]).angle;
     command[j] = within_range(*machine_, j, reach, then, controller_[j].toward(goals[j], angle[j], velocity[j], limits));
@@ -36,7 +43,7 @@ Joints ArmController::follow(const Joints& reference, const Joints& reference_ve
   Joints command{};
   const double reach = reach_of(*machine_, angle);
   for (std::size_t j = 0; j < joints; ++j) {
-    const double wanted = controller_[j].follow(reference[j], reference_velocity[j], angle[j], velocity[j], limits_of(*machine_, j, reach));
+    const double wanted = controller_[j].follow(reference[j], reference_velocity[j], angle[j], velocity[j], limits_at(j, reach));
     command[j] = within_range(*machine_, j, reach, controller_[j].predict(angle[j], velocity[j]).angle, wanted);
   }
   return command;

@@ -6,6 +6,9 @@
 
 namespace berm::app {
 
+// Shares of the speed limits, 0.5..1, of motions towards the left or up, and towards the right or down; of the decelerations planned with, their squares.
+struct LearnedPaces { Joints up{1.0, 1.0, 1.0, 1.0}, down{1.0, 1.0, 1.0, 1.0}; };
+
 class ArmController {
 public:
   explicit ArmController(const MachineModel& machine);
@@ -13,6 +16,10 @@ public:
   // To be told once a cycle, first: what the kernel told the machine, between which speeds it permits requests now, and how many cycles have
   // passed since the last (those not seen are taken to have been as this one).
   void heard(const Joints& commanded, const Joints& permitted_low, const Joints& permitted_high, int cycles = 1);
+  // What is in the bucket from now on, kg: the joints answer accordingly.
+  void carries(double payload_kg) { payload_kg_ = payload_kg; }
+  // What toward keeps to from now on: learned (OverrunLimits).
+  void limit(const LearnedPaces& paces) { learned_ = paces; }
   // paces scale the speed limits, tempos the whole motion in time; 0..1.
   Joints toward(const Joints& goals, const Joints& paces, const Joints& tempos, const Joints& angle, const Joints& velocity);
   Joints toward(const Joints& goals, const Joints& paces, const Joints& angle, const Joints& velocity) { return toward(goals, paces, {1.0, 1.0, 1.0, 1.0}, angle, velocity); }
@@ -32,8 +39,13 @@ public:
   bool cut(std::size_t joint) const { return controller_[joint].cut(); }
 
 private:
+  // Of a joint at this reach (m), which from now on answers as it does there.
+  ControllerLimits limits_at(std::size_t joint, double reach_m);
+
   const MachineModel* machine_;
   std::array<JointController, joints> controller_;
+  double payload_kg_ = 0.0;
+  LearnedPaces learned_;
   double swing_at_least_ = 0.0, swing_deceleration_ = 0.0;
 };
 

@@ -11,6 +11,7 @@ namespace {
 constexpr double swing_share = 0.775;  // with latency and error bounds a swing stays in the braking table's last column but one
 constexpr double arm_share = 0.95;
 constexpr double brake_share = 0.90;
+constexpr double empty_swing_brake_share = 0.60;  // of what was identified; landings at 0.9 of it made no pass shorter
 constexpr double acceleration_share = 0.85;  // the file's is an upper bound, measured on an empty machine too: a loaded one does less
 constexpr double bus_step = 0.0005;       // rad/s; the kernel cuts every command to whole ones
 constexpr double landing_gain = 4.5;      // 1/s; the dead time is predicted away, noise and a slower joint than its model remain
@@ -31,6 +32,18 @@ ControllerLimits limits_of(const MachineModel& machine, std::size_t joint, doubl
   const double acceleration = acceleration_share * j.acceleration_max;
   const double brake = std::min(table_deceleration(machine.braking, joint, reach_m, j.velocity_max), acceleration);
   return {(joint == swing ? swing_share : arm_share) * j.velocity_max, acceleration, brake_share * brake, landing_gain};
+}
+
+ControllerLimits limits_of(const MachineModel& machine, std::size_t joint, double reach_m, double payload_kg) {
+  ControllerLimits limits = limits_of(machine, joint, reach_m);
+  if (!machine.responses) return limits;
+  const TwoWayResponse response = responses_of(machine, joint, reach_m, payload_kg);
+  limits.acceleration = std::min(response.up.acceleration, response.down.acceleration);
+  const double able = std::min(response.up.deceleration, response.down.deceleration);
+  if (joint != swing) limits.deceleration = brake_share * able;
+  // A loaded swing lands beside the truck. Harder than by the braking table, by which the kernel foresees its stops, it would come so fast that it is slowed.
+  else limits.deceleration = payload_kg > 0.0 ? std::min(brake_share * able, limits.deceleration) : empty_swing_brake_share * able;
+  return limits;
 }
 
 double JointController::ramped(double wanted, double from, const ControllerLimits& limits) const {
@@ -59,7 +72,8 @@ void JointController::heard(double commanded, double low, double high, int steps
 
 double JointController::toward(double goal, double measured_angle, double measured_velocity, const ControllerLimits& limits) {
   const JointModel::State then = model_.predict(measured_angle, measured_velocity);
-  const double left = goal - then.angle;
+  // What is asked for has been taken up only a lag later: what is left then decides.
+  const double left = goal - then.angle - then.velocity * model_.response().up.lag;
   const double distance = std::fabs(left);
   // Below the switching distance a proportional landing replaces the square root, whose slope has no bound at zero.
   const double switching = limits.deceleration / (limits.landing_gain * limits.landing_gain);
@@ -70,7 +84,8 @@ double JointController::toward(double goal, double measured_angle, double measur
 
 double JointController::follow(double reference, double reference_velocity, double measured_angle, double measured_velocity, const ControllerLimits& limits) {
   const JointModel::State then = model_.predict(measured_angle, measured_velocity);
-  const double wanted = reference_velocity + limits.landing_gain * (reference - then.angle);
+  const double off = reference - then.angle + (reference_velocity - then.velocity) * model_.response().up.lag;  // a lag later
+  const double wanted = reference_velocity + limits.landing_gain * off;
   return proposed(std::clamp(wanted, -limits.velocity, limits.velocity), limits);
 }
 
@@ -83,7 +98,7 @@ void JointController::asked(double command) {
 
 void JointController::sent(double command) {
   asked(command);
-  const double limit = model_.response().velocity_max;
+  const double limit = model_.response().up.velocity_max;
   heard(command, -limit, limit);
 }
 

@@ -20,11 +20,17 @@ struct ControllerLimits {
 
 // Limits under what the machine file promises: a share of the braking ability at the reach (m), of the acceleration and of the speed.
 ControllerLimits limits_of(const MachineModel& machine, std::size_t joint, double reach_m);
+// The same under what was identified of the joint with so much in the bucket, where anything was.
+ControllerLimits limits_of(const MachineModel& machine, std::size_t joint, double reach_m, double payload_kg);
 
 class JointController {
 public:
-  JointController(const JointResponse& response, double step_s)
-      : model_(response, step_s), step_(step_s), low_(-response.velocity_max), high_(response.velocity_max) {}
+  JointController(const JointResponse& response, double step_s) : JointController(TwoWayResponse{response, response}, step_s) {}
+  JointController(const TwoWayResponse& response, double step_s)
+      : model_(response, step_s), step_(step_s), low_(-response.up.velocity_max), high_(response.up.velocity_max) {}
+
+  // How the joint answers from now on.
+  void respond(const TwoWayResponse& response) { model_.respond(response); }
 
   // At the start of each step: what the machine was told in each of the steps since the last, and between which speeds (low <= 0 <= high)
   // requests are permitted now.

@@ -5,19 +5,14 @@
 
 namespace berm::app {
 
-JointResponse response_of(const MachineModel& machine, std::size_t joint) {
-  return {machine.command_latency, machine.joint[joint].acceleration_max, machine.joint[joint].velocity_max};
-}
-
 std::size_t JointModel::delay_steps() const {
-  return static_cast<std::size_t>(std::lround(response_.dead_time / step_));
+  return static_cast<std::size_t>(std::lround(response_.up.dead_time / step_));
 }
 
 JointModel::State JointModel::moved(State state, double command) const {
-  const double wanted = std::clamp(command, -response_.velocity_max, response_.velocity_max);
-  const double change = response_.acceleration * step_;
   const double before = state.velocity;
-  state.velocity += std::clamp(wanted - state.velocity, -change, change);
+  const bool up = before > 0.0 || (before == 0.0 && command > 0.0);
+  state.velocity = speed_after(up ? response_.up : response_.down, before, command, step_);
   state.angle += 0.5 * (before + state.velocity) * step_;
   return state;
 }
@@ -35,7 +30,7 @@ void JointModel::remember(double command) {
 void JointModel::advance(double command) {
   under_way_.push_back(command);
   double acting = 0.0;
-  if (under_way_.size() > delay_steps()) {
+  while (under_way_.size() > delay_steps()) {  // more than one only when the dead time became shorter
     acting = under_way_.front();
     under_way_.pop_front();
   }
@@ -51,9 +46,10 @@ JointModel::State JointModel::predict(double measured_angle, double measured_vel
 double time_to_reach(const JointResponse& response, double start, double goal) {
   const double distance = std::fabs(goal - start);
   if (distance == 0.0) return 0.0;
-  const double ramp = response.velocity_max * response.velocity_max / response.acceleration;  // both ramps together
-  if (distance <= ramp) return response.dead_time + 2.0 * std::sqrt(distance / response.acceleration);
-  return response.dead_time + 2.0 * response.velocity_max / response.acceleration + (distance - ramp) / response.velocity_max;
+  const double braking = response.deceleration > 0.0 ? response.deceleration : response.acceleration;
+  const double ramps = 1.0 / response.acceleration + 1.0 / braking;  // s for a rad/s, up and down
+  const double peak = std::min(response.velocity_max, std::sqrt(2.0 * distance / ramps));
+  return response.dead_time + response.lag + peak * ramps + (distance - 0.5 * peak * peak * ramps) / peak;
 }
 
 }  // namespace berm::app

@@ -1,27 +1,24 @@
-// First-order model of a joint under closed-loop velocity control (stentz-1999, 4.4): dead time, then a velocity that follows the command
-// within an acceleration limit and a velocity limit.
+// A joint moved by its response: where it is and will be, from the commands under way.
 #pragma once
 
 #include <deque>
 
-#include "motion/machine_model.hpp"
+#include "motion/joint_response.hpp"
 
 namespace berm::app {
 
-struct JointResponse {
-  double dead_time = 0.1;      // from a command to its first effect, s
-  double acceleration = 0.0;   // rad/s2
-  double velocity_max = 0.0;   // rad/s
-};
-
-// What the machine file promises of a joint.
-JointResponse response_of(const MachineModel& machine, std::size_t joint);
-
 class JointModel {
 public:
-  JointModel(const JointResponse& response, double step_s) : response_(response), step_(step_s) {}
+  JointModel(const JointResponse& response, double step_s) : response_{response, response}, step_(step_s) {}
+  JointModel(const TwoWayResponse& response, double step_s) : response_(response), step_(step_s) {}
 
+  // From now on, for commands under way too. Both ways have the dead time of the way up.
+  void respond(const TwoWayResponse& response) { response_ = response; }
   void reset(double angle, double velocity);
+  // There it is in truth; the commands under way stay so.
+  void place(double angle, double velocity) { state_ = {angle, velocity}; }
+  // The command that the next step obeys when it adds one.
+  double acting() const { return under_way_.size() < delay_steps() || under_way_.empty() ? 0.0 : under_way_.front(); }
   // The command takes effect dead_time later.
   void advance(double command);
   // Where the joint will be when a command given now begins to act, from a measurement made now. The model keeps the commands under way.
@@ -32,19 +29,19 @@ public:
 
   double angle() const { return state_.angle; }
   double velocity() const { return state_.velocity; }
-  const JointResponse& response() const { return response_; }
+  const TwoWayResponse& response() const { return response_; }
 
 private:
   State moved(State state, double command) const;
   std::size_t delay_steps() const;
 
-  JointResponse response_;
+  TwoWayResponse response_;
   double step_;
   State state_;
   std::deque<double> under_way_;  // oldest first
 };
 
-// Time from standstill at start to standstill at goal, by a trapezoidal profile after the dead time.
+// Time from standstill at start to standstill at goal, by a trapezoidal profile after dead time and lag.
 double time_to_reach(const JointResponse& response, double start, double goal);
 
 }  // namespace berm::app

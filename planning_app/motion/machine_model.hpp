@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "motion/angles.hpp"
@@ -40,6 +41,19 @@ struct BrakingTable {
 struct Cylinder { double bottom = 0.0, rod = 0.0; };  // moment about the joint's pin that a kPa in either side makes, N m
 
 struct MachineModel {
+  // Of one joint in one direction, identified from step responses. Rates in rad/s2, [empty, heaviest payload][reach]; joints that the reach does not
+  // matter to have one for all.
+  struct StepResponse {
+    double dead_time = 0.0, lag = 0.0, stop_lag = 0.0, gain = 1.0;
+    std::array<std::vector<double>, 2> speeding, slowing;
+  };
+  struct TwoWayStep { StepResponse up, down; };
+  struct StepResponses {
+    double payload_kg = 0.0;
+    std::vector<double> reach;        // m, ascending
+    std::array<TwoWayStep, joints> joint;
+  };
+
   double boom_pin_x = 0.0, boom_pin_z = 0.0;
   double boom_length = 0.0, stick_length = 0.0, bucket_length = 0.0;
   double own_body_radius = 0.0;
@@ -49,6 +63,7 @@ struct MachineModel {
   double state_latency = 0.0, command_latency = 0.0;
   double cycle = 0.01;
   BrakingTable braking;
+  std::optional<StepResponses> responses;
   std::vector<Prism> parts;
   std::array<ScannerMount, 2> scanner;  // left, right
   double margin = 0.0;                  // the kernel's, on every column

@@ -251,6 +251,10 @@ PassSearch::Outcome PassSearch::simulate(const PassThresholds& thresholds) const
     if (k % script_every == 0) script.evaluate(angle, event_weighed | pours | (open_s >= emptying ? event_emptied : event_none));
     const bool returning = script.of(swing).reached(RuleMark::returns);
     arm.brake_swing(returning ? task_.brake_empty : 0.0);
+    const double carried_kg = returning ? 0.0 : machine_.bucket_payload_kg;
+    arm.carries(carried_kg);
+    if (k % script_every == 0)
+      for (std::size_t j = 0; j < joints; ++j) model[j].respond(responses_of(machine_, j, reach_of(machine_, angle), carried_kg));
     if (k % check_every == 0) {
       const ReachIntervals box = preview(machine_, angle, velocity);
       const double beyond = side > 0.0 ? task_.next_bearing - box.low[swing] : box.high[swing] - task_.next_bearing;

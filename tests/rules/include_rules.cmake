@@ -17,7 +17,7 @@ set(validate_rooms plant run in_process validate)
 set(watch_rooms plant run in_process watch io core record ${app_rooms})  # the app's own pan schedule moves the scanners
 set(truck_world_rooms plant run in_process truck_world points recognition)  # in_process: trials over the cores; points: clouds as files; recognition: what is judged
 set(echoes_rooms plant run echoes)
-set(identify_rooms identify run)  # never the plant: it measures what is on the bus
+set(identify_rooms identify run motion)  # never the plant: it measures what is on the bus; of the app the joint model that it fits
 
 set(violations 0)
 set(files_read 0)

@@ -74,7 +74,7 @@ TEST(SlowedSwing, IsNeverAskedBeyondWhatIsPermitted) {
   }
   EXPECT_GT(cut, 200) << "hardly anything was cut: the test shows nothing";
   constexpr double bus_step = 500.0;
-  EXPECT_LE(most_jump, limits_of(run.machine, swing, 8.0).acceleration * run.machine.cycle * 1e6 + bus_step);
+  EXPECT_LE(most_jump, limits_of(run.machine, swing, 8.0, 0.0).acceleration * run.machine.cycle * 1e6 + bus_step + 1.0);
 }
 
 TEST(SlowedSwing, AtAQuarterOfItsSpeedStillDumpsIntoTheBedAndReturns) {
@@ -93,7 +93,7 @@ TEST(SlowedSwing, AtAQuarterOfItsSpeedStillDumpsIntoTheBedAndReturns) {
   // What the swing times keeps to the swing: at every angle of the way back from which the arm may reach out over the dig, the tip is no lower than the
   // plan has it. Before, while the emptied bucket is folded whatever the swing does, it is nowhere lower than the lowest that the plan has there.
   constexpr int reaches_out = 55;  // deg, and beyond that
-  // (0.13 m: what the arm does at its speed in a look of the script and while its joints lag.)
+  // (0.18 m: what the arm does at its speed in a look of the script and while its joints lag.)
   int compared = 0;
   const auto lowest = [](const Heights& heights) {
     double z = 1e9;
@@ -106,7 +106,7 @@ TEST(SlowedSwing, AtAQuarterOfItsSpeedStillDumpsIntoTheBedAndReturns) {
     const auto plan = planned.find(deg);
     if (plan == planned.end() || deg < 8 || deg >= reaches_out) continue;  // the last degrees, where the swing lands, differ by a cycle of the script
     ++compared;
-    EXPECT_GT(z, plan->second - 0.13) << "swing at " << deg << " deg";
+    EXPECT_GT(z, plan->second - 0.18) << "swing at " << deg << " deg";
   }
   EXPECT_GT(compared, 30);
 }

@@ -7,6 +7,8 @@
 
 #include "app/machine_loader.hpp"
 #include "motion/arm_kinematics.hpp"
+#include "motion/joint_response.hpp"
+#include "motion/reach_preview.hpp"
 #include "planning/truck_place.hpp"
 
 namespace berm::app_bench {
@@ -96,19 +98,22 @@ void BenchMachine::measure() {
 }
 
 void BenchMachine::move() {
-  const std::size_t delay = static_cast<std::size_t>(std::lround(machine_.command_latency / machine_.cycle));
+  const double reach = reach_of(machine_, angle_);
   for (std::size_t j = 0; j < joints; ++j) {
     const JointLimits& limits = machine_.joint[j];
+    const double before = velocity_[j];
+    const TwoWayResponse both = responses_of(machine_, j, reach, payload_);
+    JointResponse response = before > 0.0 || (before == 0.0 && commanded_[j] > 0) ? both.up : both.down;
     under_way_[j].push_back(commanded_[j] * 1e-6);
     double acting = 0.0;
-    if (under_way_[j].size() > delay) {
+    if (under_way_[j].size() > static_cast<std::size_t>(std::lround(response.dead_time / machine_.cycle))) {
       acting = under_way_[j].front();
       under_way_[j].pop_front();
     }
-    // A loaded bucket makes the machine 15 % slower to answer than its file promises at best.
-    const double change = limits.acceleration_max * (payload_ > 500.0 ? 0.85 : 1.0) * machine_.cycle;
-    const double before = velocity_[j];
-    velocity_[j] += std::clamp(acting - velocity_[j], -change, change);
+    // A loaded bucket makes the machine 15 % slower to answer than its file says.
+    response.acceleration *= payload_ > 500.0 ? 0.85 : 1.0;
+    response.deceleration *= brake_share[j];
+    velocity_[j] = speed_after(response, before, acting, machine_.cycle);
     angle_[j] += 0.5 * (before + velocity_[j]) * machine_.cycle;
     if (angle_[j] < limits.low || angle_[j] > limits.high) ++findings_.range_contacts;
   }

@@ -54,6 +54,7 @@ public:
   std::uint8_t stop_reason = BERM_STOP_COLLISION_PREDICTED;
   bool weighs = true;             // false: the on-board weighing says nothing
   app::Joints most_speed{};       // rad/s, of each joint: what the kernel lets out of a request at most; by default the machine's largest
+  app::Joints brake_share{1.0, 1.0, 1.0, 1.0};  // of the deceleration that was identified
 
 private:
   struct Outline { std::vector<std::array<double, 3>> points; };  // r, z, lateral

@@ -1,8 +1,9 @@
-"""A reduced identification: its bounds hold the plant's true stops, the same seed gives the same bytes, and what it writes is a good machine file.
+"""A reduced identification: its bounds hold the plant's true stops, the same seed gives the same bytes, and what it writes is a good machine file; joint models from
+step responses are those of the plant.
 
 The command sees the bus alone; this test judges it by what was true (trace.csv of the plant).
 
-verifies: IF-CF-6, IF-CF-7
+verifies: IF-CF-6, IF-CF-7, IF-CF-23
 """
 import csv
 import json
@@ -162,6 +163,57 @@ def the_kernel_refuses_such_a_block():
                            timeout=20), "falls.params", words)
 
 
+TRUE = tomllib.loads((ROOT / "fault_injection/plant/profiles/zx200_plant.toml").read_text())
+
+
+def identify_steps(name, machine):
+    files = {kind: scratch / f"{name}.{kind}" for kind in ("toml", "json", "svg")}
+    done = run("berm_identify", "--steps", "--repetitions", 1, "--seed", 3, "--quiet", "--machine", machine, "--out", files["toml"], "--json", files["json"],
+               "--picture", files["svg"], timeout=200)
+    print(done.stdout[-4000:], done.stderr, flush=True)
+    assert done.returncode == 0, done.stderr
+    return files
+
+
+def step_responses_find_the_true_joints():
+    """Dead time, lag, gain and rates of the plant's profile, which the command does not see. A machine file that has no models gets some."""
+    bare = scratch / "bare.toml"
+    bare.write_text(MACHINE.read_text().split("[response]")[0])
+    seen["steps"] = identify_steps("steps", bare)
+    fitted = tomllib.loads(seen["steps"]["toml"].read_text())["response"]
+    assert seen["steps"]["toml"].read_text().startswith(bare.read_text()), "something else in the file changed"
+    for joint in ("swing", "boom", "stick", "bucket"):
+        true = TRUE["joint"][joint]
+        for direction in ("up", "down"):
+            model = fitted[joint][direction]
+            assert abs(model["dead_time_s"] - true["dead_time_s"]) < 0.003, (joint, direction, model)
+            assert abs(model["lag_s"] - true["lag_s"]) < 0.01, (joint, direction, model)
+            assert abs(model["gain"] - 1.0) < 0.01, (joint, direction, model)
+            assert abs(model["speeding_rad_s2"][0][0] / true["acceleration_rad_s2"] - 1.0) < 0.03, (joint, direction, model)
+            if joint != "swing":
+                brake = TRUE["dynamics"]["boom_lower_brake_loaded_rad_s2"] if (joint, direction) == ("boom", "down") else true["brake_rad_s2"]
+                assert abs(model["slowing_rad_s2"][0][0] / true["brake_rad_s2"] - 1.0) < 0.05, (joint, direction, model)
+                assert abs(model["slowing_rad_s2"][1][0] / brake - 1.0) < 0.05, (joint, direction, model)
+    slowing = fitted["swing"]["up"]["slowing_rad_s2"]
+    assert all(empty > 1.4 * loaded for empty, loaded in zip(*slowing)) and slowing[0] == sorted(slowing[0], reverse=True), slowing
+
+
+def step_fits_say_how_surely():
+    result = json.loads(seen["steps"]["json"].read_text())
+    assert len(result["fits"]) == 8 and result["step_responses"] >= 140 and 1750 <= result["weighed_kg"] <= 1850
+    for fit in result["fits"]:
+        assert 0.0 < fit["residual_deg_s"] < 0.3 and fit["worst_residual_deg_s"] >= fit["residual_deg_s"], fit
+        assert 0.0 < fit["dead_time_s"]["confidence"] < 0.005 and 0.0 < fit["lag_s"]["confidence"] < 0.02, fit
+        assert {(rate["load"]) for rate in fit["slowing_rad_s2"]} == {"empty", "loaded"}
+    assert seen["steps"]["svg"].read_text().count("<polyline") >= 2 * 8 * 6
+
+
+def steps_again_are_the_same_bytes():
+    """From a file that has models already: they are replaced, once."""
+    again = identify_steps("steps_again", seen["steps"]["toml"])
+    assert again["toml"].read_bytes() == seen["steps"]["toml"].read_bytes()
+
+
 def bad_input():
     out = scratch / "none.toml"
     broken = scratch / "broken.toml"
@@ -180,6 +232,12 @@ def bad_input():
         one_clear_line(run("berm_identify", *REDUCED, "--out", out, "--picture", "", *arguments, timeout=60), *words)
         assert not out.exists(), f"a machine file after {arguments}"
     one_clear_line(run("berm_identify", "--out", scratch / "no" / "x.toml"), "x.toml", "folder")
+    apart = scratch / "apart.toml"
+    apart.write_text(MACHINE.read_text().replace("[response.boom.up]", "[response.boom]\nup.gain = 1.0\n[response.boom.up]"))
+    for arguments, words in ((("--joint", "boom"), ("--steps", "--joint")), (("--allowance", 0.2), ("--steps", "--allowance")), (("--repetitions", 0), ("repetitions",)),
+                             (("--machine", apart), ("apart.toml",)), (("--json", scratch / "no" / "x.json"), ("x.json", "folder"))):
+        one_clear_line(run("berm_identify", "--steps", "--out", out, "--picture", "", *arguments, timeout=60), *words)
+        assert not out.exists(), f"a machine file after --steps {arguments}"
 
 
 def help_is_no_error():
@@ -189,6 +247,7 @@ def help_is_no_error():
 
 try:
     main([bounds_hold_the_true_stops, entries_say_what_was_measured, only_what_was_measured_changes, same_seed_same_bytes, from_its_own_result_the_same_table,
-          the_result_is_a_good_machine_file, a_table_that_falls_or_has_holes_is_refused, the_kernel_refuses_such_a_block, bad_input, help_is_no_error])
+          the_result_is_a_good_machine_file, step_responses_find_the_true_joints, step_fits_say_how_surely, steps_again_are_the_same_bytes,
+          a_table_that_falls_or_has_holes_is_refused, the_kernel_refuses_such_a_block, bad_input, help_is_no_error])
 finally:
     shutil.rmtree(scratch)

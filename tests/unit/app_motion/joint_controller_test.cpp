@@ -82,7 +82,7 @@ TEST(CutJoint, PredictsFromWhatWasLetOut) {
     JointModel model = joint.model;
     controller.heard(joint.let_out, joint.low, joint.high);
     const JointModel::State then = controller.predict(model.angle(), model.velocity());
-    for (int later = 0; later < std::lround(joint.machine.command_latency / joint.machine.cycle); ++later) model.advance(0.0);  // these act later still
+    for (int later = 0; later < std::lround(response_of(joint.machine, swing).dead_time / joint.machine.cycle); ++later) model.advance(0.0);  // these act later still
     ASSERT_NEAR(then.angle, model.angle(), 1e-9) << "in step " << k;
     ASSERT_NEAR(then.velocity, model.velocity(), 1e-9) << "in step " << k;
   }

@@ -34,6 +34,26 @@ TEST(MachineFileTest, TheDefaultInSiUnits) {
   EXPECT_DOUBLE_EQ(m.kernel.request_hold, 0.05);
 }
 
+// verifies: IF-CF-23
+TEST(MachineFileTest, JointModelsAreThereOrNot) {
+  const MachineFile m = load_machine_file(machine_path());
+  ASSERT_TRUE(m.response);
+  EXPECT_NEAR(m.response->payload, 1800.0, 10.0);
+  ASSERT_EQ(m.response->reach.size(), 4u);
+  const auto& [up, down] = m.response->joint[0];
+  EXPECT_NEAR(up.dead_time, 0.06, 0.002);
+  EXPECT_NEAR(up.lag, 0.12, 0.005);
+  ASSERT_EQ(up.slowing[1].size(), 4u);
+  EXPECT_GT(up.slowing[0][3], 1.5 * up.slowing[1][3]) << "the heaviest payload at the farthest reach";
+  EXPECT_NEAR(down.gain, 1.0, 0.01);
+  EXPECT_LT(m.response->joint[1][1].slowing[1][0], m.response->joint[1][1].slowing[0][0]) << "a boom that is lowered under load";
+
+  const Scratch scratch;
+  std::string text = read_text(machine_path());
+  text.resize(text.find("[response]"));
+  EXPECT_FALSE(load_machine_file(scratch.write("machine.toml", text)).response);
+}
+
 // verifies: IF-CF-5, IF-CF-17
 TEST(MachineFileTest, TheOneWithLidarsWatchesItsTail) {
   EXPECT_FALSE(load_machine_file(machine_path()).tail.watched);

@@ -55,5 +55,27 @@ TEST_F(MachineText, TheShippedFileIsTheSameWhereNothingIsReplaced) {
   EXPECT_EQ(changed, 1);
 }
 
+TEST_F(MachineText, TablesThatStandTogetherAreReplacedTogether) {
+  MachineFileText t = written("[a]\nx = 1\n\n[r] # note\ny = [\n  [1],\n]\n[r.s.up]\nz = 1\n\n[[part]]\nx = 2\n[rest]\nx = 3\n");
+  t.replace_tables("r", "[r]\nnew = 1\n[r.t]\nnew = 2\n");
+  EXPECT_EQ(t.text(), "[a]\nx = 1\n\n[r]\nnew = 1\n[r.t]\nnew = 2\n\n[[part]]\nx = 2\n[rest]\nx = 3\n");
+  t.replace_tables("r", "[r]\nnew = 4\n");
+  EXPECT_EQ(t.text(), "[a]\nx = 1\n\n[r]\nnew = 4\n\n[[part]]\nx = 2\n[rest]\nx = 3\n");
+}
+
+TEST_F(MachineText, TablesThatAreMissingComeToTheEnd) {
+  MachineFileText t = written("[a]\nx = 1");
+  t.replace_tables("r", "[r]\nnew = 1\n");
+  EXPECT_EQ(t.text(), "[a]\nx = 1\n\n[r]\nnew = 1\n");
+  t.replace_tables("r", "[r]\nnew = 2\n");
+  EXPECT_EQ(t.text(), "[a]\nx = 1\n\n[r]\nnew = 2\n") << "once";
+}
+
+TEST_F(MachineText, TablesThatStandApartAreRefused) {
+  MachineFileText t = written("[r]\nx = 1\n[a]\nx = 1\n[r.s]\nx = 2\n");
+  EXPECT_THROW(t.replace_tables("r", "[r]\n"), std::runtime_error);
+  EXPECT_EQ(t.text(), "[r]\nx = 1\n[a]\nx = 1\n[r.s]\nx = 2\n");
+}
+
 }  // namespace
 }  // namespace berm::identify::test
