@@ -79,7 +79,7 @@ Density measure(const PlaneOptions& o, int samples, int scenes) {
   return out;
 }
 
-int run(const PlaneOptions& o) {
+int measure_all(const PlaneOptions& o) {
   std::array<Density, 2> measured;
   auto rows = nlohmann::json::array();
   for (int d = 0; d < 2; ++d) {
@@ -124,7 +124,7 @@ int main(int argc, char** argv) {
     return 0;
   }
   try {
-    return run(o);
+    return measure_all(o);
   } catch (const std::exception& error) {
     fmt::print(stderr, "berm_bench_planes: {}\n", error.what());
     return 2;
