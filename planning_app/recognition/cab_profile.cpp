@@ -14,6 +14,7 @@ constexpr double kCoreLow = -1.4, kCoreHigh = -0.75, kCoreHalf = 1.0;
 constexpr double kReturnLow = -1.6, kReturnHigh = 0.9, kReturnHalf = 1.4;
 constexpr std::array<double, 3> kGaps{0.15, 0.3, 0.45};
 constexpr double kSideGate = 0.08;                              // m, of a return from the plane of a bed's side
+constexpr float kOfSide = 0.5F;                               // of the weight of such a return
 constexpr double kShortest = 1.2;
 constexpr double kReturnWeight = 0.3, kReturnsMost = 300.0;  // in rays
 constexpr float kFlatWeight = 0.5F;                         // of a return that is none of an upright surface: a roof, a canopy
@@ -36,7 +37,7 @@ Stretch between(double from, double by, double low, double high) {
 }  // namespace
 
 CabProfile::CabProfile(double half_inner, double half_outer) : inner_(half_inner), outer_(half_outer) {
-  for (std::vector<float>* s : {&returns_, &own_, &within_, &begins_, &ends_}) s->assign(kCabCells + 2, 0.0F);
+  for (std::vector<float>* s : {&returns_, &shared_, &within_, &begins_, &ends_}) s->assign(kCabCells + 2, 0.0F);
 }
 
 void CabProfile::take(const Eigen::Vector3d& a, const Eigen::Vector3d& d, bool upright) {
@@ -45,7 +46,7 @@ void CabProfile::take(const Eigen::Vector3d& a, const Eigen::Vector3d& d, bool u
     const std::size_t cell = static_cast<std::size_t>(cab_cell(end.x())) + 1;
     const float weight = upright ? 1.0F : kFlatWeight;
     returns_[cell] += weight;
-    if (!of_side(a, end)) own_[cell] += weight;
+    shared_[cell] += of_side(a, end) ? kOfSide * weight : weight;
   }
   if (std::abs(end.y()) < kCoreHalf - 0.05 && end.z() > kCoreLow && end.z() < kCoreHigh && std::abs(end.x()) < kCabReach)
     within_[static_cast<std::size_t>(cab_cell(end.x())) + 1] += 1.0F;
@@ -66,7 +67,7 @@ bool CabProfile::of_side(const Eigen::Vector3d& a, const Eigen::Vector3d& end) c
 }
 
 void CabProfile::finish() {
-  for (std::vector<float>* s : {&returns_, &own_, &within_, &begins_, &ends_})
+  for (std::vector<float>* s : {&returns_, &shared_, &within_, &begins_, &ends_})
     for (std::size_t k = 1; k < s->size(); ++k) (*s)[k] += (*s)[k - 1];
 }
 
@@ -79,7 +80,7 @@ double CabProfile::block(const std::vector<float>& returns, double low, double h
 }
 
 double CabProfile::beyond(double u, int side, double share, Returns which) const {
-  const std::vector<float>& returns = which == Returns::all ? returns_ : own_;
+  const std::vector<float>& returns = which == Returns::all ? returns_ : shared_;
   double best = -1e9;
   for (const double gap : kGaps) {
     const double begin = u + side * gap, end = begin + side * kShortest;
