@@ -99,7 +99,7 @@ Trial judge(const Scene& scene, const app::RecognisedTruck& answer) {
   app::BedInterpretation truly;
   truly.pose = true_pose;
   app::weigh_whole(sweep, truly);
-  t.true_cab = truly.cab;
+  t.true_cab = truly.cab_seen;
   t.true_score = truly.evidence.score;
   if (!t.found) return t;
   Vector3d middle = Vector3d::Zero();

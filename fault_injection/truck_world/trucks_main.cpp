@@ -65,7 +65,7 @@ std::vector<Trial> trials_of(int number, const TrialOptions& o, const std::vecto
   return trials;
 }
 
-constexpr int kSamples = 72000;  // about 36,000 returns: the rest of a mirror's turn sees the sky or the machine
+constexpr int kSamples = 72000;  // about 18,800 returns: the rest of a mirror's turn sees the sky or the machine
 
 int run(int argc, char** argv) {
   TrialOptions o;
@@ -83,7 +83,7 @@ int run(int argc, char** argv) {
   auto* with = app.add_flag("--trucks", o.trucks, "only the scenes with a truck");
   app.add_flag("--no-trucks", o.no_trucks, "only the scenes without")->excludes(with);
   app.add_flag("--list", o.list, "one line for every scene, with its evidence");
-  app.add_option("--points", o.scene.samples, "samples of a sweep; about half of them come back with a return")->check(CLI::Range(9200, 1000000))->capture_default_str();
+  app.add_option("--points", o.scene.samples, "samples of a sweep; about a quarter of them come back with a return")->check(CLI::Range(9200, 1000000))->capture_default_str();
   app.add_option("--noise", o.scene.noise.stddev, "standard deviation of a range, m")->check(CLI::Range(0.0, 0.5))->capture_default_str();
   app.add_option("--hidden", o.scene.hidden_max, "most of the edge that an occluder hides")->check(CLI::Range(0.0, 0.3))->capture_default_str();
   app.add_option("--end-hidden", o.scene.end_hidden_share, "share of the trucks of which an occluder hides an end wall whole, where their place allows it")

@@ -19,6 +19,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kMeanFit = 2.0 / 3.0;  // of fit over its gate
 constexpr int kEndsApart = 2;  // steps
 constexpr double kAsGood = 2.0;  // rays
+constexpr double kAboveTop = 0.1;  // m, of a return that lies above a wall's top
 
 double place_of(int end) { return -kEndReach + kEndStep * end; }
 // The first end at or beyond u; kEnds when there is none.
@@ -111,7 +112,8 @@ struct StripRay {
 class Weighing {
  public:
   Weighing(const BedStrip& strip, const std::vector<Ray>& rays, const Steps& steps)
-      : sums(steps), inner_(strip.width / 2), outer_(inner_ + strip.thickness), thickness_(strip.thickness), slack_(strip.slack) {
+      : sums(steps), cab(strip.width / 2, strip.width / 2 + strip.thickness),
+        inner_(strip.width / 2), outer_(inner_ + strip.thickness), thickness_(strip.thickness), slack_(strip.slack) {
     BedPose pose;
     pose.yaw = strip.yaw, pose.pitch = strip.pitch, pose.roll = strip.roll;
     pose.middle = strip.middle;
@@ -127,6 +129,7 @@ class Weighing {
       if (!enter(r)) continue;
       take(r, ray.upright);
       if (r.a.z() + r.d.z() > 0.0) over_opening(r, ray.upright);
+      if (r.a.z() + r.d.z() > kAboveTop + slack_) above_end(r);
     }
     sums.finish();
     for (EndSums* s : {&rear_face, &front_face, &side_faces}) s->finish();
@@ -176,7 +179,7 @@ class Weighing {
       side_face(r);
     } else if (r.rim < r.out) {
       rim(r, is_upright);
-    } else if (r.near_side != 0 && r.at(r.in).z() > 0.1 + slack_ && std::abs(1.0 - r.in) < r.gate) {
+    } else if (r.near_side != 0 && r.at(r.in).z() > kAboveTop + slack_ && std::abs(1.0 - r.in) < r.gate) {
       between(r.u(r.in), -thickness_, -kAbove);
     }
   }
@@ -192,6 +195,14 @@ class Weighing {
       between(end.x(), 0.0, -kUpright);
       if (to_side >= margin) between(end.x(), margin, kUpright);
     }
+  }
+
+  // The return lies above an end's top, in the plane of the outer face that the ray comes to.
+  void above_end(const StripRay& r) {
+    const Vector3d end = r.a + r.d;
+    if (std::abs(end.y()) > outer_) return;
+    const double gate = r.gate * std::abs(r.d.x()), inner = end.x() + (r.d.x() > 0.0 ? thickness_ : -thickness_);
+    (r.d.x() > 0.0 ? rear_face : front_face).add(inner - gate, inner + gate, -kAbove);
   }
 
   // The ray comes to a side from outside, below its top.

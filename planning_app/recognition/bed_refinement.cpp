@@ -17,11 +17,13 @@ constexpr double kLevelTilt = 0.025, kLevelStep = 0.03;  // rad; m
 constexpr int kLevelSteps = 3;
 constexpr double kWidthSlack = 0.08;  // m
 constexpr int kRounds = 4;          // with one step
-constexpr int kMoves = 10;
+constexpr int kMoves = 13;
 constexpr double kNear = 0.25;      // m: more than any corner goes by one move
+constexpr double kSightMost = 6.0;   // of the sight of a sensor that stands low
 constexpr double kHalfLength = 2.5, kHalfWidth = 1.2;  // m: a turn that moves an end, a side, by a step
 
-BedPose moved(const BedPose& from, int which, double by) {
+// sight: from the bed towards the sensor along u and v, m for each m that it stands over the tops.
+BedPose moved(const BedPose& from, int which, double by, const Vector2d& sight) {
   BedPose p = from;
   const Vector2d u(std::cos(p.yaw), std::sin(p.yaw)), v(-u.y(), u.x());
   switch (which) {
@@ -35,9 +37,23 @@ BedPose moved(const BedPose& from, int which, double by) {
     case 6: p.width += by, p.middle.head<2>() += 0.5 * by * v; break;
     case 7: p.width += by, p.middle.head<2>() -= 0.5 * by * v; break;
     case 8: p.length += by, p.middle.head<2>() += 0.5 * by * u; break;
-    default: p.length += by, p.middle.head<2>() -= 0.5 * by * u; break;
+    case 9: p.length += by, p.middle.head<2>() -= 0.5 * by * u; break;
+    // A higher top along the rays that pass the near end's wall, the near side's, or both: their inner edges come towards the sensor, and the far walls stay.
+    default: {
+      p.middle.z() += 0.5 * by;
+      const double end = which == 10 ? 0.0 : 0.5 * by * sight.x(), side = which == 11 ? 0.0 : 0.5 * by * sight.y();
+      p.length += std::copysign(end, by), p.width += std::copysign(side, by);
+      p.middle.head<2>() += 0.5 * end * u + 0.5 * side * v;
+    }
   }
   return p;
+}
+
+Vector2d sight_of(const BedPose& pose, const std::vector<Ray>& rays) {
+  if (rays.empty()) return Vector2d::Zero();
+  const Eigen::Vector3d sensor = pose.rotation().transpose() * (rays[rays.size() / 2].head - pose.middle);
+  const Vector2d level = sensor.head<2>() / std::max(sensor.z(), 0.1);
+  return level * std::min(1.0, kSightMost / std::max(level.norm(), 1e-9));
 }
 
 std::array<double, 2> ends_along(const BedPose& p, const Vector2d& origin) {
@@ -62,11 +78,12 @@ BedPose refined(const BedPose& start, const std::vector<Ray>& rays, const SizeRa
   std::vector<Ray> near = rays_meeting(best, rays, kNear);
   BedPose near_of = best;
   double score = weigh(best, near).score, step = first_step;
+  const Vector2d sight = sight_of(start, rays);
   for (int halving = 0; halving < halvings; ++halving, step /= 2) {
     int idle = 0;  // moves since one was kept: after all of them none is left to try
     for (int k = 0; k < kRounds * kMoves && idle < kMoves; ++k, ++idle)
       for (const double sense : {1.0, -1.0}) {
-        const BedPose p = moved(best, k % kMoves, sense * step);
+        const BedPose p = moved(best, k % kMoves, sense * step, sight);
         const std::array<double, 2> now = ends_along(p, origin);
         if (std::max(std::abs(now[0] - ends[0]), std::abs(now[1] - ends[1])) > kEndsMost) continue;
         if (std::max(std::abs(p.pitch), std::abs(p.roll)) > kRefinedTiltMost) continue;

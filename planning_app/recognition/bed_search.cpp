@@ -134,16 +134,18 @@ void weigh_whole(const FanSweep& sweep, BedInterpretation& i) {
   const BedPose& p = i.pose;
   i.rays = rays_near(sweep, p);
   i.evidence = weigh(p, i.rays);
-  CabProfile profile;
+  CabProfile profile(p.width / 2, p.face(1, 1, true));
   const Eigen::Matrix3d turn = p.rotation().transpose();
   visit_around(sweep, p.middle, [&](std::size_t fan, std::size_t k) {
     const FanReturn& r = sweep.returns[k];
     profile.take(turn * (sweep.heads[fan] - p.middle), turn * (r.at - sweep.heads[fan]), r.upright);
   });
   profile.finish();
-  const double front = profile.beyond(p.face(0, 1, true), 1, 1.0), rear = profile.beyond(-p.face(0, -1, true), -1, 1.0);
+  const double at_front = p.face(0, 1, true), at_rear = -p.face(0, -1, true);
+  const double front = profile.beyond(at_front, 1, 1.0, CabProfile::Returns::all), rear = profile.beyond(at_rear, -1, 1.0, CabProfile::Returns::all);
   i.cab_end = p.open_end != 0 ? -p.open_end : front >= rear ? 1 : -1;
-  i.cab = i.cab_end > 0 ? front : rear;
+  i.cab_seen = i.cab_end > 0 ? front : rear;
+  i.cab = i.cab_end > 0 ? profile.beyond(at_front, 1, 1.0) : profile.beyond(at_rear, -1, 1.0);
 }
 
 double longer_length(const FanSweep& sweep, const BedPose& pose, const TruckRangeSet& ranges, double cab) {

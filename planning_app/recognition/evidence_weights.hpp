@@ -5,10 +5,10 @@ namespace berm::app {
 
 constexpr double kInside = 0.08;   // a return somewhere inside
 constexpr double kThrough = 4.0;   // a ray through a wall, or a return deeper than any floor
-constexpr double kTop = 0.7;       // a return on a wall's top
+constexpr double kTop = 0.4;       // a return on a wall's top: a load that is level with it has as many
 constexpr double kAbove = 1.0;     // a return where a wall goes on above its top
 constexpr double kAboveInner = 0.05, kAboveInnerMost = 0.35, kInnerGate = 0.09;  // m: the same on inner faces; of the return from the face
-constexpr double kLevel = 0.35;    // a return over the opening in the plane of the tops: a lid
+constexpr double kLevel = 0.15;    // a return over the opening in the plane of the tops: a lid
 constexpr double kUpright = 1.0;    // an upright surface within the opening, over the load or in it: soil lies flatter
 constexpr double kCabShare = 1.0;  // of the bed's evidence, at most
 constexpr double kOpenEnd = 12.0;  // for an end without a wall: a wall more would explain less

@@ -12,8 +12,8 @@
 namespace berm::app {
 namespace {
 
-constexpr double kScoreLeast = 115.0;  // evidence of a bed
-constexpr int kOuterLeast = 12, kInnerLeast = 12;  // returns on outer faces of its walls, on inner faces of its far ones
+constexpr double kScoreLeast = 80.0;  // evidence of a bed
+constexpr int kOuterLeast = 12, kInnerLeast = 17;  // returns on outer faces of its walls, on inner faces of its far ones (of 781 found beds: 19 at least)
 constexpr double kCabSeen = 100.0;     // evidence of a cab that leaves little doubt
 constexpr double kCabFaint = 2.0;      // evidence of anything at all where the cab would stand
 constexpr double kCabLeast = -12.0;   // evidence of its cab
@@ -27,9 +27,8 @@ constexpr int kFootLeast = 12;            // returns
 constexpr double kFloorFlat = 0.15;       // m between its returns: a floor, not a load
 constexpr double kLengthUnsure = 0.5;  // m, standard deviation
 constexpr double kMuchBetter = 1.1;
-constexpr double kCabOfWhole = 0.5;     // of the bed's evidence: what its cab counts at most against something larger
 constexpr double kMovesGain = 1.6;      // of evidence, by moves of walls: hardly more; 1.25 lost two trucks in 300
-constexpr double kThroughFew = 5.0, kThroughShare = 0.018;  // rays through walls; of those that agree: of found beds 0.2 % in the median, 2 % in one of 100
+constexpr double kThroughFew = 5.0, kThroughShare = 0.03;  // rays through walls; of those on faces and tops: of 780 found beds one has more
 constexpr int kBeyondMost = 12;
 constexpr int kPasses = 2;              // where all that a pass found was refused, one looks at the rest
 constexpr double kPi = 3.14159265358979323846;
@@ -105,19 +104,20 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
   const BedPose& p = fit.pose;
   if (e.score < kScoreLeast)
     return fmt::format("what is most like a bed is too little like one: its evidence weighs {:.0f} of the {:.0f} needed", e.score, kScoreLeast);
-  if (i.cab < kCabLeast) return fmt::format("rays pass where its cab would stand, at either end: evidence of {:.0f}", i.cab);
+  if (i.cab_seen < kCabLeast) return fmt::format("rays pass where its cab would stand, at either end: evidence of {:.0f}", i.cab_seen);
   if (!fit.converged) return "the fit of the bed did not converge";
-  // From behind an open rear the walls show their inner faces alone, and often hide the cab; from anywhere else a bed shows an outer one.
+  // From behind an open rear the walls show their inner faces alone, and often hide the cab; from anywhere else a bed shows an outer one, unless something
+  // stands before it: then a cab must be seen well.
   const double along = p.rotation().col(0).dot(sweep.heads[sweep.heads.size() / 2] - p.middle);
-  const bool from_behind = p.open_end != 0 && p.open_end * along > 0.5 * p.length;
-  if (e.outer_face < kOuterLeast && (!from_behind || e.inner_face < (i.cab < kCabFaint ? kInnerAlone : kInnerBeforeCab)))
+  const bool from_behind = p.open_end != 0 && p.open_end * along > 0.5 * p.length, inner_alone = from_behind || i.cab_seen >= kCabSeen;
+  if (e.outer_face < kOuterLeast && (!inner_alone || e.inner_face < (i.cab_seen < kCabFaint ? kInnerAlone : kInnerBeforeCab)))
     return fmt::format("the bed has {} returns on outer faces of its walls, and needs {}", e.outer_face, kOuterLeast);
   const int over_opening = e.level_inside + e.below_inside + e.above_inside;
   if (e.level_inside > 0.75 * over_opening && over_opening >= 30)
     return fmt::format("it is closed on top: {} of {} returns over its opening lie in the plane of the walls' tops", e.level_inside, over_opening);
   // A closed box, a lorry's board or a trench box matches as well from outside: the far walls' inside tells a bed.
   if (e.inner_face < kInnerLeast) return fmt::format("the bed has {} returns on inner faces of its far walls, and needs {}", e.inner_face, kInnerLeast);
-  const int explained = e.outer_face + e.inner_face + e.wall_top + e.inside;
+  const int explained = e.outer_face + e.inner_face + e.wall_top;
   if (e.through > kThroughFew + kThroughShare * explained) return fmt::format("{} rays pass through its walls, {} agree with them", e.through, explained);
   const int beyond = sides_beyond(sweep, p, i.cab_end);
   if (beyond > kBeyondMost) return fmt::format("{} returns lie where its sides would go on beyond its ends", beyond);
@@ -125,11 +125,11 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
   const double ground = share_of_ground(sweep, p, over_ground);
   if (ground < kGroundLeast)
     return fmt::format("{:.1f} % of the returns beside it lie {:.2f} to {:.2f} m below the walls' tops, where the ground would be", 100 * ground, over_ground[0], over_ground[1]);
-  if (i.cab < kCabSeen) {
+  if (i.cab_seen < kCabSeen) {
     const double unsure = std::sqrt(fit.covariance(6, 6));
-    if (i.cab < kCabFaint && unsure > kLengthUnsure) return fmt::format("it has no cab, and its length is known to {:.2f} m only: an end of it is not seen", unsure);
+    if (i.cab_seen < kCabFaint && unsure > kLengthUnsure) return fmt::format("it has no cab, and its length is known to {:.2f} m only: an end of it is not seen", unsure);
     // Without a cab, what goes on beyond the lengths of trucks' beds is a container.
-    const double further = longer_length(sweep, p, ranges, i.cab);
+    const double further = longer_length(sweep, p, ranges, i.cab_seen);
     if (further > 0.0) return fmt::format("it goes on for {:.2f} m, longer than every class of trucks", further);
   }
   if (ranges.find(p.length, p.width, p.open_end != 0) == nullptr)
@@ -178,7 +178,7 @@ bool same_place(const BedPose& a, const BedPose& b) {
   return across < 0.3 && 0.5 * (a.length + b.length) - along > 0.5 * std::min(a.length, b.length);
 }
 
-double with_own_cab(const BedInterpretation& i) { return i.evidence.score + std::min(i.cab, kCabOfWhole * i.evidence.score); }
+double with_own_cab(const BedInterpretation& i) { return with_cab(i.evidence.score, i.cab_seen); }
 
 // The bed with the most evidence; with none, of those refused the one most like a bed, whatever stands beyond its ends. A bed that is only a part of something that agrees with the rays
 // much better than bed and cab do, and is none, is none either: a container. A bed and its cab taken for one long bed are no better than both.
@@ -267,7 +267,7 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
     if (last.converged && ranges.find(last.pose.length, last.pose.width, last.pose.open_end != 0) != nullptr) fit = last;
   }
   out.evidence = best.evidence;
-  out.cab = best.cab;
+  out.cab = best.cab_seen;
   out.pose = fit.pose;
   out.reason = chosen.refusal;
   if (!out.reason.empty()) return out;

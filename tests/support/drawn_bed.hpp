@@ -17,6 +17,7 @@ struct DrawnBed {
   double thickness = 0.1, ground = -1.2;
   bool carrier = false;                                      // below the bed, flush with its walls' outer faces, down to the ground
   bool lid = false, cab = true, rear_wall = true;            // the cab stands 0.3 m beyond the end at +x of the bed
+  double load = -1e9;                                        // height of a level load, where that is over the floor
   double swing_rate = 0.0;                                   // rad/s, of the sensor about z
 };
 
@@ -54,6 +55,7 @@ inline std::vector<ScanPoint> sweep_of(const DrawnBed& bed) {
     };
     const double x = bed.length / 2, y = bed.width / 2, t = bed.thickness;
     const double rear = bed.rear_wall ? -x - t : -x;
+    if (bed.load > bed.floor) box(-x, x, -y, y, bed.floor, bed.load);
     box(rear, x + t, y, y + t, bed.floor, bed.top);
     box(rear, x + t, -y - t, -y, bed.floor, bed.top);
     box(x, x + t, -y - t, y + t, bed.floor, bed.top);

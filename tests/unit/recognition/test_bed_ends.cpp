@@ -6,6 +6,7 @@
 
 #include "drawn_bed.hpp"
 #include "recognition/bed_ends.hpp"
+#include "recognition/evidence_weights.hpp"
 #include "recognition/bed_search.hpp"
 #include "recognition/rays_of_sweep.hpp"
 
@@ -74,11 +75,12 @@ TEST(BedEnds, WeighAsTheRaysOneByOne) {
           for (const BedEnds& e : best_ends(strip, rays, kLengths, 1.0, 6)) {
             BedEvidence one_by_one = weigh(e.pose, rays);
             one_by_one.score += kAbove * one_by_one.above_inner;  // what lies above an inner face the table leaves out
-            EXPECT_NEAR(e.bed, one_by_one.score, 12.0 + 0.15 * std::abs(one_by_one.score)) << along << " " << aside << " " << up << " " << turn;
+            // Five rays through walls: near a wall's end the table, whose ends are 0.1 m apart, may miss so many.
+            EXPECT_NEAR(e.bed, one_by_one.score, 5 * kThrough + 0.15 * std::abs(one_by_one.score)) << along << " " << aside << " " << up << " " << turn;
             ++compared;
           }
         }
-  EXPECT_GT(compared, 150);
+  EXPECT_GT(compared, 120);
 }
 
 TEST(BedEnds, OfNothingAreNone) {
