@@ -50,7 +50,6 @@ DigNeeds Sequencer::needs_for(double kg) const {
   needs.volume = cut_reserve * std::max(300.0 * scale_.load, kg) / (yield_ * bank_density);
   needs.bucket_width = bucket_width(machine_);
   needs.deepest *= scale_.bucket;
-  if (filled_.known()) needs.effort = soil_speed * yield_ * bank_density / filled_.kg_per_impulse();  // N s a kg, at the tip's speed
   return needs;
 }
 

@@ -51,16 +51,13 @@ std::vector<DigWaypoint> drag_of(const Profile& p, double depth, double lowest) 
   return w;
 }
 
-// In seconds, as if the machine's power, and the passes that a lack of volume costs, were time.
-double cost_of(const MachineModel& machine, const SiteModel& site, const DigNeeds& needs, const DigPlan& plan) {
+// In seconds, as if the machine's power, and the passes that a lack of volume costs, were time. Swing and drag are left out: with them only the columns
+// near the truck are dug, into a hole, and trucks need more passes.
+double cost_of(const DigNeeds& needs, const DigPlan& plan) {
   constexpr double lack_s = 45.0;          // a bucket that is not full costs more than its share of a pass: the truck may need another
-  constexpr double tip_speed = 1.2;        // m/s, of a drag as a whole
   constexpr double power = 60e3;           // W, at the bucket
   constexpr double reference_depth = 0.5;  // m: the soil resists the more the deeper the cut
-  const double lack = std::max(0.0, needs.volume - plan.volume) / needs.volume;
-  const double energy_s = needs.effort * needs.volume * plan.depth / reference_depth / power;
-  const double truck = std::atan2(site.place.y, site.place.x);
-  return lack_s * lack + energy_s + plan.length / tip_speed + 2.0 * std::fabs(truck - plan.bearing) / machine.joint[swing].velocity_max;
+  return lack_s * std::max(0.0, needs.volume - plan.volume) / needs.volume + needs.effort * plan.depth / reference_depth / power;
 }
 
 }  // namespace
@@ -77,7 +74,6 @@ DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const DigGr
   DigPlan plan;
   const auto volume = [&](double depth) {
     const auto path = DigPath::solve(machine, drag_of(profile, depth, bounds.floor));
-    plan.length = path ? path->length() : 0.0;
     return path ? cut_volume(machine, surface, needs.bucket_width, *path) : 0.0;
   };
   double low = 0.0, high = needs.deepest;
@@ -91,7 +87,7 @@ DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const DigGr
   plan.volume = volume(high);
   plan.start_height = profile.z.front();
   plan.drag = drag_of(profile, high, bounds.floor);
-  plan.cost = cost_of(machine, site, needs, plan);
+  plan.cost = cost_of(needs, plan);
   return plan;
 }
 

@@ -15,8 +15,7 @@ struct DigPlan {
   double bearing = 0.0;             // swing angle
   double depth = 0.0;               // greatest vertical depth under the surface, m
   double volume = 0.0;              // bank volume the forward model expects, m3
-  double length = 0.0;              // of the drag, m
-  double cost = 0.0;                // s: what it lacks of the wanted volume, its energy and its time
+  double cost = 0.0;                // s: what it lacks of the wanted volume, and its energy
   double start_height = 0.0;        // surface where the tip enters, z
   std::vector<DigWaypoint> drag;    // from above the entry to the end with the bucket curled
 };
@@ -26,7 +25,7 @@ struct DigNeeds {
   double bucket_width = 1.1;        // m
   double deepest = 1.0;             // most vertical depth under the surface, m
   double floor_guard = 0.75;        // the tip stays this far above the dig zone's floor
-  double effort = 130e3;            // J that cutting a cubic metre takes half a metre under the surface
+  double effort = 135e3;            // J that cutting a bucket takes half a metre under the surface
 };
 
 // What a region leaves open.

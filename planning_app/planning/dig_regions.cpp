@@ -39,7 +39,7 @@ std::vector<double> column_bearings(const SiteModel& site) {
 
 // What of the order a region costs, s. Left to right is free; what slid into the last cut is missing beside it.
 double order_cost(const DigRegion& region, const DigRegion& last) {
-  constexpr double beside_s = 2.0, leftward_s = 0.1, beside = radians(15.0);
+  constexpr double beside_s = 0.675, leftward_s = 0.09, beside = radians(9.0);
   if (last.bench == 0) return 0.0;
   const double overlap = std::max(0.0, 1.0 - std::fabs(region.bounds.bearing - last.bounds.bearing) / beside);
   return beside_s * overlap + (region.bounds.bearing > last.bounds.bearing ? leftward_s : 0.0);

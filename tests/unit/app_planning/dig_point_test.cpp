@@ -78,24 +78,21 @@ TEST(DigPoint, CutsTheWantedVolumeAndStaysAboveTheFloor) {
     EXPECT_LE(w.r, site.dig_radius_start + 1e-9);
     EXPECT_GE(w.r, 5.8 - 0.11);
   }
-  const auto path = DigPath::solve(berm::app_bench::zx200(), plan.drag);
-  ASSERT_TRUE(path);
-  EXPECT_NEAR(plan.length, path->length(), 1e-9);
+  EXPECT_TRUE(DigPath::solve(berm::app_bench::zx200(), plan.drag));
 }
 
-TEST(DigPoint, CostsWhatItLacksItsEnergyAndTheWayToTheTruck) {
+TEST(DigPoint, CostsWhatItLacksAndItsEnergy) {
   const MachineModel machine = berm::app_bench::zx200();
-  const SiteModel site = berm::app_bench::bench();  // its truck parks on the left
+  const SiteModel site = berm::app_bench::bench();
   const TerrainMap map = seen_bench();
   const DigNeeds needs{1.1, 1.1, 1.0, 0.75};
-  const auto cost = [&](const DigNeeds& n, double bearing) { return plan_dig(machine, site, ground_of(map), n, {bearing, -2.65, 5.6}).cost; };
-  const double ahead = cost(needs, 0.0), tenth = radians(6.0);
-  EXPECT_NEAR(cost(needs, -tenth) - cost(needs, tenth), 4.0 * tenth / machine.joint[swing].velocity_max, 0.4) << "to the truck and back";
+  const auto cost = [&](const DigNeeds& n) { return plan_dig(machine, site, ground_of(map), n, {0.0, -2.65, 5.6}).cost; };
+  const double usual = cost(needs);
   DigNeeds hard = needs, more = needs;
   hard.effort = 2.0 * needs.effort;
   more.volume = 3.0;  // a metre deep it is not there
-  EXPECT_GT(cost(hard, 0.0), ahead + 1.0);
-  EXPECT_GT(cost(more, 0.0), ahead + 5.0);
+  EXPECT_GT(cost(hard), usual + 1.0);
+  EXPECT_GT(cost(more), usual + 5.0);
 }
 
 }  // namespace
