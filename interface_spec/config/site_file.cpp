@@ -93,6 +93,8 @@ SiteFile load_site_file(const std::string& path) {
   site.dig.swing = {radians(swing[0]), radians(swing[1])};
   site.dig.radius = dig.array<2>("radius", 1.0, 15.0);
   if (site.dig.radius[0] <= site.dig.radius[1]) dig.fail("radius", "the drag goes inwards: the start is farther out than the end");
+  site.dig.floor = dig.number("floor", -15.0, -0.1);
+  site.dig.bench_height = dig.number("bench_height", 0.3, 10.0);
   dig.finish();
   file.finish();
   return site;

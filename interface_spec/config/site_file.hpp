@@ -21,6 +21,8 @@ struct TruckPlaceFile {            // where trucks park
 struct DigFile {
   std::array<double, 2> swing;     // leftmost and rightmost dig bearing, rad
   std::array<double, 2> radius;    // of the tip at the start and at the end of the drag
+  double floor;                    // z of the ground that digs leave
+  double bench_height;             // a higher face is taken bench by bench
 };
 
 struct SiteFile {

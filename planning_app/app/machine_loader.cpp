@@ -66,6 +66,8 @@ SiteModel site_model(const config::SiteFile& file) {
   s.dig_swing_right = std::min(file.dig.swing[0], file.dig.swing[1]);
   s.dig_radius_start = std::max(file.dig.radius[0], file.dig.radius[1]);
   s.dig_radius_end = std::min(file.dig.radius[0], file.dig.radius[1]);
+  s.dig_floor = file.dig.floor;
+  s.bench_height = file.dig.bench_height;
   return s;
 }
 

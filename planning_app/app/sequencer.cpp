@@ -31,7 +31,6 @@ Sequencer::Sequencer(const MachineModel& machine, const SiteModel& site, int tru
     : scripts_(scripts), machine_(machine), scale_(scale_of(machine)), heaped_kg_(machine.bucket_payload_kg), full_bucket_kg_(full_share * heaped_kg_), site_(site), log_(log), trucks_(trucks), ground_(site_), arm_(machine_), brakes_(most_brake_share * machine.joint[swing].acceleration_max), joint_watch_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_),
       load_check_(scale_.load), fill_(site.place.target_kg, full_bucket_kg_) {
   scanners_.begin_full_sweep();
-  dig_.bearing = site.dig_swing_right - radians(60.0);  // no dig before the first: nothing to stay away from
 }
 
 void Sequencer::enter(Stage stage, const Observation& o) {

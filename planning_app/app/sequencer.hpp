@@ -18,7 +18,7 @@
 #include "motion/swing_braking.hpp"
 #include "perception/kernel_map.hpp"
 #include "planning/bed_map.hpp"
-#include "planning/dig_point.hpp"
+#include "planning/dig_regions.hpp"
 #include "planning/dump_point.hpp"
 #include "planning/face_reserve.hpp"
 #include "planning/pass_script.hpp"
@@ -62,6 +62,7 @@ private:
   Joints curl(const Observation& o);
   Joints pass(const Observation& o);
   void plan_next_dig(const Observation& o);
+  void tell_region(const Observation& o, const RegionDig& next) const;
   DigNeeds needs_for(double kg) const;
   void note_cut(const Observation& o);
   void plan_landing(const Observation& o);    // how hard the swing brakes
@@ -126,6 +127,7 @@ private:
   double stage_s_ = 0.0;
   std::uint16_t phase_ = BERM_PHASE_WAIT;
   DigPlan dig_;
+  DigRegion region_;                          // that is worked
   std::optional<CutModel> cut_;               // of this dig
   ImplementWeight weight_;
   DigFill filled_;                            // of this dig, by force

@@ -53,11 +53,25 @@ DigNeeds Sequencer::needs_for(double kg) const {
   return needs;
 }
 
+// When another bench or reach is taken up, with the reason.
+void Sequencer::tell_region(const Observation& o, const RegionDig& next) const {
+  const DigRegion& to = next.region;
+  if (to.bench == region_.bench && to.reach == region_.reach) return;
+  const char* why = region_.bench == 0 ? "begin" : next.left == 0 ? "yields again" : "dug out before it";
+  log_.event("region", {{"time_s", o.time_s}, {"bench", to.bench}, {"reach", reach_name(to.reach)}, {"floor_m", to.bounds.floor},
+                        {"end_m", to.bounds.end_radius}, {"why", why}, {"columns_dug_out", next.left}});
+}
+
 void Sequencer::plan_next_dig(const Observation& o) {
   const auto began = std::chrono::steady_clock::now();
   ground_.observe(terrain_);
-  dig_ = choose_dig(machine_, site_, ground_, needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg_), dig_.bearing);
-  log_.event("next_dig", {{"time_s", o.time_s}, {"bearing_deg", degrees(dig_.bearing)}, {"volume_m3", dig_.volume}, {"plan_ms", milliseconds_since(began)}});
+  RegionDig next = next_dig(machine_, site_, ground_, needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg_), region_);
+  const double plan_ms = milliseconds_since(began);
+  tell_region(o, next);
+  dig_ = std::move(next.plan);
+  region_ = next.region;
+  log_.event("next_dig", {{"time_s", o.time_s}, {"bearing_deg", degrees(dig_.bearing)}, {"bench", region_.bench}, {"column", region_.column},
+                          {"reach", reach_name(region_.reach)}, {"volume_m3", dig_.volume}, {"cost_s", dig_.cost}, {"plan_ms", plan_ms}});
 }
 
 void Sequencer::begin_dig(const Observation& o) {
@@ -65,9 +79,8 @@ void Sequencer::begin_dig(const Observation& o) {
   const DigNeeds needs = needs_for(goal_kg_);
   ground_.observe(terrain_);
   cut_.emplace(machine_, SurfaceProfile(ground_, o.angle[swing], needs.bucket_width), needs.bucket_width);
-  SiteModel here = site_;
-  here.dig_radius_end = dig_.end_radius;
-  dig_ = plan_dig(machine_, here, ground_, needs, o.angle[swing]);
+  region_.bounds.bearing = o.angle[swing];
+  dig_ = plan_dig(machine_, site_, ground_, needs, region_.bounds);
   const ArmPoints now = forward(machine_, arm_.predicted(o.angle, o.velocity));  // it may still be lowered
   std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}};
   way.insert(way.end(), dig_.drag.begin(), dig_.drag.end());

@@ -85,7 +85,7 @@ void Sequencer::begin_anew(const Observation& o) {
   face_yield_.clear();
   yield_ = 1.0;  // what was learned last was of loose soil at the foot of the old face
   loaded_here_kg_ = 0.0;
-  dig_.bearing = site_.dig_swing_right - radians(60.0);
+  region_ = DigRegion{};
   scanners_.begin_full_sweep();
   enter(Stage::survey, o);
 }

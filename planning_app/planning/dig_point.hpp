@@ -1,12 +1,13 @@
-// Where and how deep to dig next: a forward model of the cut along each bearing, over the observed terrain.
+// The refined dig planner (stentz-1999, 4.2, Figure 13): how deep to dig within a region, by a forward model of the cut over the ground as it is believed
+// to be, and what that costs.
 #pragma once
 
 #include <vector>
 
 #include "motion/dig_path.hpp"
 #include "planning/cut_model.hpp"
-#include "planning/site_model.hpp"
 #include "planning/dig_ground.hpp"
+#include "planning/site_model.hpp"
 
 namespace berm::app {
 
@@ -14,7 +15,7 @@ struct DigPlan {
   double bearing = 0.0;             // swing angle
   double depth = 0.0;               // greatest vertical depth under the surface, m
   double volume = 0.0;              // bank volume the forward model expects, m3
-  double end_radius = 0.0;          // of the tip
+  double cost = 0.0;                // s: what it lacks of the wanted volume, and its energy
   double start_height = 0.0;        // surface where the tip enters, z
   std::vector<DigWaypoint> drag;    // from above the entry to the end with the bucket curled
 };
@@ -24,17 +25,20 @@ struct DigNeeds {
   double bucket_width = 1.1;        // m
   double deepest = 1.0;             // most vertical depth under the surface, m
   double floor_guard = 0.75;        // the tip stays this far above the dig zone's floor
+  double effort = 135e3;            // J that cutting a bucket takes half a metre under the surface
 };
 
-// First between the site's bearings; where these no longer yield enough, beside them and nearer the machine, inside the dig zone.
-// Bearings stand from left to right; the one after the last is preferred, then the one that yields the wanted volume with the least depth.
-// Always gives a plan; where nothing yields enough, the best there is.
-DigPlan choose_dig(const MachineModel& machine, const SiteModel& site, const DigGround& ground, const DigNeeds& needs, double last_bearing);
+// What a region leaves open.
+struct DigBounds {
+  double bearing = 0.0;
+  double floor = 0.0;               // z: the tip stays above
+  double end_radius = 0.0;          // of the tip: the drag goes no farther inward
+};
 
-// The tip stays above this height: the highest floor of the dig zones and the guard over it.
+// The tip stays above this height: the highest floor of the dig zones and the guard over it, or the site's floor of the digs.
 double lowest_tip(const SiteModel& site, double floor_guard);
 
-// The dig along one bearing.
-DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const DigGround& ground, const DigNeeds& needs, double bearing);
+// The dig within the bounds that brings the wanted volume, or what there is.
+DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const DigGround& ground, const DigNeeds& needs, const DigBounds& bounds);
 
 }  // namespace berm::app

@@ -38,6 +38,8 @@ struct SiteModel {
   std::optional<TruckBed> bed;    // of the truck that was recognised, while it is there
   double dig_swing_left = 0.0, dig_swing_right = 0.0;  // bearings between which the app digs; left > right
   double dig_radius_start = 0.0, dig_radius_end = 0.0; // of the tip, start > end
+  double dig_floor = -std::numeric_limits<double>::infinity();  // z of the ground that digs leave
+  double bench_height = std::numeric_limits<double>::infinity();  // a higher face is taken from the top, bench by bench
 };
 
 }  // namespace berm::app

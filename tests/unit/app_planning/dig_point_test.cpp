@@ -57,7 +57,7 @@ TEST(CutModel, TakesWhatLiesAboveTheBucketOnce) {
 TEST(CutModel, FillGrowsAlongAPath) {
   const MachineModel m = berm::app_bench::zx200();
   const SurfaceProfile surface(ground_of(seen_bench()), 0.0, 1.1);
-  const DigPlan plan = plan_dig(m, berm::app_bench::bench(), ground_of(seen_bench()), {1.1, 1.1, 1.0, 0.75}, 0.0);
+  const DigPlan plan = plan_dig(m, berm::app_bench::bench(), ground_of(seen_bench()), {1.1, 1.1, 1.0, 0.75}, {0.0, -2.65, 5.6});
   const auto path = DigPath::solve(m, plan.drag);
   ASSERT_TRUE(path);
   const std::vector<double> fill = fill_along(m, surface, 1.1, *path);
@@ -69,39 +69,30 @@ TEST(CutModel, FillGrowsAlongAPath) {
 TEST(DigPoint, CutsTheWantedVolumeAndStaysAboveTheFloor) {
   const SiteModel site = berm::app_bench::bench();
   const DigNeeds needs{1.1, 1.1, 1.0, 0.75};
-  const DigPlan plan = choose_dig(berm::app_bench::zx200(), site, ground_of(seen_bench()), needs, radians(-90.0));
+  const DigPlan plan = plan_dig(berm::app_bench::zx200(), site, ground_of(seen_bench()), needs, {0.0, -2.4, 5.8});
   EXPECT_NEAR(plan.volume, 1.1, 0.06);
   EXPECT_GT(plan.depth, 0.2);
   EXPECT_LT(plan.depth, 1.0);
   for (const DigWaypoint& w : plan.drag) {
-    EXPECT_GE(w.z, site.dig_zones[0].floor + needs.floor_guard - 1e-9);
+    EXPECT_GE(w.z, -2.4 - 1e-9);
     EXPECT_LE(w.r, site.dig_radius_start + 1e-9);
-    EXPECT_GE(w.r, site.dig_radius_end - 0.11);
+    EXPECT_GE(w.r, 5.8 - 0.11);
   }
   EXPECT_TRUE(DigPath::solve(berm::app_bench::zx200(), plan.drag));
 }
 
-TEST(DigPoint, BearingsStayInsideTheSiteAndDoNotRepeatWhereOthersAreAsGood) {
+TEST(DigPoint, CostsWhatItLacksAndItsEnergy) {
+  const MachineModel machine = berm::app_bench::zx200();
   const SiteModel site = berm::app_bench::bench();
   const TerrainMap map = seen_bench();
-  double last = radians(-90.0);
-  for (int i = 0; i < 6; ++i) {
-    const DigPlan plan = choose_dig(berm::app_bench::zx200(), site, ground_of(map), {1.1, 1.1, 1.0, 0.75}, last);
-    EXPECT_LE(plan.bearing, site.dig_swing_left + 1e-9);
-    EXPECT_GE(plan.bearing, site.dig_swing_right - 1e-9);
-    EXPECT_GT(std::fabs(plan.bearing - last), radians(8.0));
-    last = plan.bearing;
-  }
-}
-
-TEST(DigPoint, LeavesWhatIsDugOut) {
-  const SiteModel site = berm::app_bench::bench();
-  TerrainMap map = seen_bench();
-  for (double r = 5.0; r < 8.0; r += 0.1)
-    for (double across = -0.9; across < 0.9; across += 0.1)
-      map.insert(r * std::cos(site.dig_swing_left) - across * std::sin(site.dig_swing_left), r * std::sin(site.dig_swing_left) + across * std::cos(site.dig_swing_left), -2.6, 50.0);
-  const DigPlan plan = choose_dig(berm::app_bench::zx200(), site, ground_of(map), {1.1, 1.1, 1.0, 0.75}, radians(-90.0));
-  EXPECT_LT(plan.bearing, site.dig_swing_left - radians(5.0));
+  const DigNeeds needs{1.1, 1.1, 1.0, 0.75};
+  const auto cost = [&](const DigNeeds& n) { return plan_dig(machine, site, ground_of(map), n, {0.0, -2.65, 5.6}).cost; };
+  const double usual = cost(needs);
+  DigNeeds hard = needs, more = needs;
+  hard.effort = 2.0 * needs.effort;
+  more.volume = 3.0;  // a metre deep it is not there
+  EXPECT_GT(cost(hard), usual + 1.0);
+  EXPECT_GT(cost(more), usual + 5.0);
 }
 
 }  // namespace

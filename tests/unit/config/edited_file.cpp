@@ -179,6 +179,9 @@ const std::vector<BadEdit>& bad_site_edits() {
       {"truck with a size", "target_kg = 18000.0", "target_kg = 18000.0\nlength = 4.88", "truck.length", "not a known key"},
       {"no target", "target_kg = 18000.0", "", "truck.target_kg", "is missing"},
       {"digging outwards", "radius = [7.4, 5.6]", "radius = [5.6, 7.4]", "dig.radius", "inwards"},
+      {"digs without a floor", "floor = -2.65", "", "dig.floor", "is missing"},
+      {"digs that go upwards", "floor = -2.65", "floor = 0.5", "dig.floor", "outside"},
+      {"benches of no height", "bench_height = 3.0", "bench_height = 0.0", "dig.bench_height", "outside"},
       {"right before left", "swing_deg = [12.0, -12.0]", "swing_deg = [-12.0, 12.0]", "dig.swing_deg", "leftmost first"},
   };
   return edits;

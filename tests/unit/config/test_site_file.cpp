@@ -35,6 +35,8 @@ TEST(SiteFileTest, TheDefaultInSiUnits) {
   EXPECT_DOUBLE_EQ(site.truck.target_kg, 18000.0);
   EXPECT_DOUBLE_EQ(site.dig.swing[0], radians(12.0));
   EXPECT_DOUBLE_EQ(site.dig.radius[1], 5.6);
+  EXPECT_DOUBLE_EQ(site.dig.floor, -2.65);
+  EXPECT_DOUBLE_EQ(site.dig.bench_height, 3.0);
 }
 
 // verifies: IF-CF-16
