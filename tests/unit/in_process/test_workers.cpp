@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <thread>
+#include <chrono>
 #include <set>
 #include <stdexcept>
 #include <vector>
@@ -39,6 +41,7 @@ TEST(Workers, WhatATrialThrowsIsThrownAndEndsTheRest) {
         [&](int i) {
           ++begun;
           if (i == 5) throw std::runtime_error("a scene that cannot be drawn");
+          std::this_thread::sleep_for(std::chrono::microseconds(100));  // else all may be done before the one is heard of
         },
         [](int, int) {});
   };
