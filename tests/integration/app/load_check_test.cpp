@@ -78,6 +78,15 @@ TEST(LoadCheck, WhatIsTooMuchIsLetGoOf) {
     }
 }
 
+// So little lies still up to a steep tilt.
+TEST(LoadCheck, OfAHandfulTooMuchIsLetGoOfToo) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Outcome out = run(4294.0, 395.0, seed);
+    EXPECT_TRUE(out.tilted);
+    EXPECT_LE(4294.0 + out.kg, 1.0 * target) << "seed " << seed;
+  }
+}
+
 TEST(LoadCheck, WhatFitsGoesAsSoonAsItIsWeighed) {
   const Outcome out = run(2900.0, 1550.0, 5, 2.0);
   EXPECT_FALSE(out.tilted);

@@ -103,8 +103,7 @@ def trucks_that_stand_elsewhere_and_are_of_other_sizes_are_loaded():
     assert result["trucks_loaded"] == 3 and result["contacts"] == 0 and result["kernel_faults"] == 0, result
     assert len(result["recognition_error_m"]) == 3 and max(result["recognition_error_m"]) < 0.05, result["recognition_error_m"]
     assert result["spill_fraction"] < 0.02, result["spill_fraction"]
-    # The third truck's last bucket, 0.39 t of which 0.15 are allowed, is weighed too light where it is tilted steeply, and 0.08 t too much are loaded: 101.9 %.
-    assert all(0.97 * result["target_kg"] <= kg <= 1.02 * result["target_kg"] for kg in result["payload_kg"]), result["payload_kg"]
+    assert all(0.97 * result["target_kg"] <= kg <= 1.01 * result["target_kg"] for kg in result["payload_kg"]), result["payload_kg"]
     shutil.rmtree(out)
 
 
