@@ -177,10 +177,10 @@ class Weighing {
   void take(const StripRay& r, bool is_upright) {
     if (r.near_side != 0 && r.rim < r.in) {
       side_face(r);
-    } else if (r.rim < r.out) {
-      rim(r, is_upright);
     } else if (r.near_side != 0 && r.at(r.in).z() > kAboveTop + slack_ && std::abs(1.0 - r.in) < r.gate) {
       between(r.u(r.in), -thickness_, -kAbove);
+    } else if (r.rim < r.out) {
+      rim(r, is_upright);
     }
   }
 
