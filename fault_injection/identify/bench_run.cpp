@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "identify/bench_machine.hpp"
-
 namespace berm::identify {
 
 namespace {
@@ -33,7 +31,7 @@ void test_station(Driver& driver, const config::MachineFile& machine, const Benc
     stop.direction = direction;
     stop.manner = static_cast<StopManner>(manner);
     StopRecord result = driver.stop_test(stop, station.span);
-    result.seed = plan.seed;
+    result.seed = plan.place.seed;
     result.loaded = plan.loaded;
     record.stops.push_back(std::move(result));
   };
@@ -53,7 +51,7 @@ std::string progress(const config::MachineFile& machine, const BenchPlan& plan, 
     angle = std::max(angle, s.farthest_angle - angle_at(s, s.sent_s));
     time = std::max(time, s.rest_s - s.sent_s);
   }
-  return fmt::format("seed {}, {}: {} at {:.2f} m{}: {} stops, from the command at most {:.2f} deg, {:.2f} s", plan.seed, plan.loaded ? "loaded" : "empty",
+  return fmt::format("seed {}, {}: {} at {:.2f} m{}: {} stops, from the command at most {:.2f} deg, {:.2f} s", plan.place.seed, plan.loaded ? "loaded" : "empty",
                      config::kJointNames[station.joint], station.reach_m,
                      station.joint == swing ? fmt::format(" (row to {:g} m)", machine.braking.reach[station.row]) : "",
                      record.stops.size() - begin, angle * kDegree, time);
@@ -91,7 +89,7 @@ void go_through(Driver& driver, MachineLink& link, const config::MachineFile& ma
 BenchRecord run_tests(const config::MachineFile& machine, const BenchPlan& plan, const Interruption& interruption,
                       const std::function<void(const std::string&)>& say) {
   BenchRecord record;
-  on_bench(machine, {plan.scenario, plan.seed, plan.plant_out}, interruption,
+  on_bench(machine, plan.place, interruption,
            [&](Driver& driver, MachineLink& link) { go_through(driver, link, machine, plan, record, say); });
   return record;
 }

@@ -5,18 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "identify/interruption.hpp"
+#include "identify/bench_machine.hpp"
 #include "identify/programme.hpp"
 
 namespace berm::identify {
 
 struct BenchPlan {
-  std::string scenario;              // file
-  std::uint64_t seed = 1;
+  BenchPlace place;
   bool loaded = true;                // with the heaviest payload: every column, and halfway below it; else the highest column alone, once in a row
   std::vector<std::size_t> joints;
   std::vector<std::size_t> columns;  // 1..7, rising
-  std::string plant_out;             // folder for what the plant writes, not read here; empty: thrown away
 };
 
 struct ReversalRecord { std::size_t joint = 0; bool loaded = true; int sevenths = 0; Speeds speeds; };

@@ -4,16 +4,14 @@
 #include <string>
 
 #include "identify/bounds.hpp"
+#include "identify/measurement.hpp"
 
 namespace berm::identify {
 
-struct Result {
-  std::string machine_path, machine_name, scenario, scenario_empty;
-  std::uint64_t seed = 1;
-  int repetitions = 1;
+struct Result : Measurement {
   double allowance = 0.1;
   std::vector<std::size_t> joints, columns;
-  double weighed_kg = 0.0, simulated_s = 0.0, largest_state_gap_s = 0.0;
+  double largest_state_gap_s = 0.0;
   int stops = 0;
   Bounds bounds;
 };

@@ -42,7 +42,7 @@ StepRun run_steps(const config::MachineFile& machine, const StepRunPlan& plan, c
                   const std::function<void(const std::string&)>& say) {
   StepRun run;
   on_bench(machine, plan.place, interruption, [&](Driver& driver, MachineLink& link) {
-    for (const std::size_t joint : plan.joints) test_joint(driver, machine, plan, joint, run, say);
+    for (const std::size_t joint : {swing, boom, stick, bucket}) test_joint(driver, machine, plan, joint, run, say);
     run.weighed_kg = link.weighed_kg().value_or(0.0);
     run.simulated_s = driver.time_s();
   });

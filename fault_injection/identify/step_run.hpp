@@ -13,7 +13,6 @@ namespace berm::identify {
 struct StepRunPlan {
   BenchPlace place;
   bool loaded = true;              // with the heaviest payload
-  std::vector<std::size_t> joints;
 };
 
 struct StepRun {

@@ -4,16 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "config/machine_file.hpp"
+#include "identify/measurement.hpp"
 #include "identify/step_fit.hpp"
 
 namespace berm::identify {
 
-struct StepResult {
-  std::string machine_path, machine_name, scenario, scenario_empty;
-  std::uint64_t seed = 1;
-  int repetitions = 1;
-  double weighed_kg = 0.0, simulated_s = 0.0;
+struct StepResult : Measurement {
   std::vector<double> reach_m;                      // of the poses in which the swing was tested
   std::array<std::array<StepFit, 2>, 4> fit;        // [joint][up, down]
   std::size_t records() const;
