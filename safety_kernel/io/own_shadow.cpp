@@ -46,7 +46,7 @@ bool OwnShadow::clear(const View& view, std::int64_t now_us) const {
   return now_us - view.seen_us < generation_us_ && now_us - view.hidden_us > 2LL * generation_us_;
 }
 
-// high_mm: the beam's in the cell. Below the ground that was seen there it hides nothing.
+// high_mm: the beam's in the cell. Below the ground that was seen there it hides nothing, there and beyond.
 bool OwnShadow::buried(const View& view, double high_mm, std::int64_t now_us) const {
   return now_us - view.seen_us < 2LL * generation_us_ && high_mm < view.low_mm - kGroundMm;
 }
@@ -60,7 +60,8 @@ void OwnShadow::keep(int scanner, const sk_point& head, const sk_point& own, std
   while (x.in_map() && y.in_map() && enters_mm >= kLowestMm) {
     const double leaves_mm = own.z_mm + slope * std::fmin(x.next_mm, y.next_mm);
     View& view = view_[scanner][y.index][x.index];
-    if (std::fmin(enters_mm, leaves_mm) <= sk_map_top(&map, y.index, x.index) && !buried(view, std::fmax(enters_mm, leaves_mm), now_us)) {
+    if (buried(view, std::fmax(enters_mm, leaves_mm), now_us)) return;
+    if (std::fmin(enters_mm, leaves_mm) <= sk_map_top(&map, y.index, x.index)) {
       view.hidden_us = now_us;
       bool seen = false;
       for (int other = 0; other < kViewers; ++other) seen = seen || (other != scanner && clear(view_[other][y.index][x.index], now_us));

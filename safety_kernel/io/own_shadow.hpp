@@ -24,7 +24,8 @@ class OwnShadow {
   // A return of the ground or a thing, that goes into the map.
   void note_view(int scanner, const sk_point& point, std::int64_t now_us);
   // An own return. From it on along its beam every cell of the map whose column the beam would have met carries its height on (sk_map_keep), unless
-  // another scanner's word counts. head: the scanner's, base frame. Bounded: a cell is visited once.
+  // another scanner's word counts; up to where the beam goes under ground that this scanner has seen, for there it would have ended: returns at the
+  // machine's feet are own ones too. head: the scanner's, base frame. Bounded: a cell is visited once.
   void keep(int scanner, const sk_point& head, const sk_point& own, std::int64_t now_us, sk_height_map& map);
 
  private:

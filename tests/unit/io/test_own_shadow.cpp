@@ -80,6 +80,33 @@ TEST_F(OwnShadowTest, NothingIsHiddenBelowTheGround) {
   }
 }
 
+// Where the beam goes under seen ground it would have ended: the machine's feet hide nothing behind the crest of the bench that they stand on.
+// verifies: SK-CY-105
+TEST_F(OwnShadowTest, NothingIsHiddenBehindTheGroundThatTheBeamGoesUnder) {
+  const Place behind = cell_of(6000, 150);
+  const sk_point low = {4000, 100, 400};  // the beam enters the cell at 5 m 0.18 m under zero
+  struct Case {
+    const char* what;
+    std::int32_t ground_mm;
+    std::int64_t age_us;
+    int scanner;
+    bool kept;
+  };
+  for (const Case& c : {Case{"ground well over the beam", 500, 0, 0, false}, Case{"ground hardly over the beam", 100, 0, 0, true},
+                        Case{"seen long ago", 500, 2 * kGeneration, 0, true}, Case{"seen by the other scanner only", 500, 0, 1, true}}) {
+    SetUp();
+    shadow = std::make_unique<OwnShadow>(kGeneration);
+    put_thing(behind);
+    for (int k = 1; k <= 5; ++k) {
+      const std::int64_t now = kNow + k * kGeneration;
+      shadow->note_view(c.scanner, {5000, 150, c.ground_mm}, now - c.age_us);
+      sk_map_insert(map.get(), behind.iy, behind.ix, 0, now, kGeneration);
+      shadow->keep(0, kHead, low, now, *map);
+    }
+    EXPECT_EQ(top(behind), c.kept ? kThingMm : 0) << c.what;
+  }
+}
+
 // verifies: SK-CY-105
 TEST_F(OwnShadowTest, AnotherScannersWordCountsWhereNothingIsInItsWay) {
   const Place behind = cell_of(6000, 150);
