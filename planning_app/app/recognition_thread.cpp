@@ -53,7 +53,9 @@ std::optional<RecognisedTruck> RecognitionThread::answer(std::uint64_t cycle) {
 }
 
 void RecognitionThread::work() {
-  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), behind_the_loop);  // of this thread; where it fails the scheduler is merely fairer
+  // Of this thread; where it fails the scheduler is merely fairer. In lockstep the loop waits for the answer, and on a busy computer a thread that stands
+  // behind all others would keep it waiting until the plant takes the app for dead.
+  if (lockstep_cycles_ == 0) ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), behind_the_loop);
   std::unique_lock lock(mutex_);
   runs_ = true;
   changed_.notify_all();

@@ -109,6 +109,16 @@ double Scene::cast_truck(const TruckSolid& truck, const Ray& world, double range
   return range;
 }
 
+// The step up from a map's rim to the level beyond, for a ray from inside that leaves the map under that level.
+double Scene::cast_step_at_rim(const Ray& world, double range) const {
+  const HeightGrid& g = terrain_->grid();
+  if (!g.contains(world.origin.x, world.origin.y)) return range;
+  const auto leaves = [](double from, double per_m, double low, double high) { return per_m > 0 ? (high - from) / per_m : per_m < 0 ? (low - from) / per_m : inf; };
+  const double t = std::min(leaves(world.origin.x, world.direction.x, g.x_low(), g.x_low() + g.count_x() * g.cell_x()),
+                            leaves(world.origin.y, world.direction.y, g.y_low(), g.y_low() + g.count_y() * g.cell_y()));
+  return t < range && world.at(t).z < terrain_->levels_beyond().front() ? t : range;
+}
+
 // The ground outside the map: the two levels, and the slopes between them taken as steps.
 double Scene::cast_beyond(const Ray& world, double range) const {
   if (world.direction.z >= 0) return range;
@@ -152,6 +162,7 @@ std::optional<SceneHit> Scene::first(const Indices& of, const Ray& world, const 
   if (terrain_ != nullptr) {
     nearer(terrain_->grid().cast(world, range), range);
     range = cast_beyond(world, range);
+    if (terrain_->measured()) range = cast_step_at_rim(world, range);
   }
   if (range >= range_max) return std::nullopt;
   return SceneHit{range, range < nearest_mover ? no_mover : mover};

@@ -82,6 +82,7 @@ class Scene {
   [[nodiscard]] std::optional<SceneHit> first(const Indices& of, const Ray& world, const Ray& base, const Ray& upper, double range_max) const;
   [[nodiscard]] double cast_truck(const TruckSolid& truck, const Ray& world, double range) const;
   [[nodiscard]] double cast_beyond(const Ray& world, double range) const;
+  [[nodiscard]] double cast_step_at_rim(const Ray& world, double range) const;
 
   const Terrain* terrain_ = nullptr;
   std::uint64_t ground_changes_ = 0;  // of the terrain, and below of a truck's load: how many there had been

@@ -25,6 +25,8 @@ class Terrain {
   [[nodiscard]] double as_built(double x, double y) const;
   // The heights of the level ground beyond the grid.
   [[nodiscard]] std::array<double, 2> levels_beyond() const;
+  // Measured ground meets the level beyond it in a step, up or down.
+  [[nodiscard]] bool measured() const { return config_.measured.has_value(); }
   [[nodiscard]] double loose_thickness(int ix, int iy) const { return loose_[index(ix, iy)]; }
 
   // Lowers a column to z if it is higher. Returns the loose volume of what was taken, m3; loose soil goes before bank.
