@@ -172,7 +172,7 @@ const std::vector<BadEdit>& bad_site_edits() {
       {"lane beyond the map", "y = [4.5, 9.0]", "y = [4.5, 15.5]", "truck_lane[0].y", "outside"},
       {"five lanes", "[[truck_lane]]", four_lanes() + "[[truck_lane]]", "truck_lane", "5 lanes, up to 4 are taken"},
       {"truck zone the wrong way", "x = [-3.3, 4.5]", "x = [4.5, -3.3]", "truck_zone[0].x", "not below"},
-      {"truck zone without a ceiling", "ceiling = 1.0 ", "roof = 1.0 ", "truck_zone[0].ceiling", "is missing"},
+      {"truck zone without a ceiling", "ceiling = 1.3 ", "roof = 1.3 ", "truck_zone[0].ceiling", "is missing"},
       {"no truck", "[truck]", "[lorry]", "truck", "is missing"},
       {"truck beyond the map", "centre = [-0.70, 6.75]", "centre = [-0.70, 15.1]", "truck.centre", "outside"},
       {"truck's yaw as text", "yaw_deg = 0.0", "yaw_deg = \"east\"", "truck.yaw_deg", "number"},

@@ -30,7 +30,7 @@ TEST(SiteFileTest, TheDefaultInSiUnits) {
   EXPECT_DOUBLE_EQ(site.truck_zone[0].x_high, 4.5);
   EXPECT_DOUBLE_EQ(site.truck_zone[0].y_low, 4.8);
   EXPECT_DOUBLE_EQ(site.truck_zone[0].y_high, 10.5);
-  EXPECT_DOUBLE_EQ(site.truck_zone[0].ceiling, 1.0);
+  EXPECT_DOUBLE_EQ(site.truck_zone[0].ceiling, 1.3);
   EXPECT_DOUBLE_EQ(site.truck.centre[1], 6.75);
   EXPECT_DOUBLE_EQ(site.truck.target_kg, 18000.0);
   EXPECT_DOUBLE_EQ(site.dig.swing[0], radians(12.0));
