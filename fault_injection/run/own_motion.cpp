@@ -1,6 +1,7 @@
 #include "run/own_motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -8,10 +9,15 @@ namespace berm::run {
 
 namespace {
 
-bool somebody_near(const std::vector<TraceRow>& rows, double from_s, double to_s, double radius_m) {
+// Half a body and a cell of the kernel's map: whoever comes is told of with his front, when his middle is not in the region yet.
+constexpr double kSamePlace_m = 1.0;
+
+bool somebody_near(const std::vector<TraceRow>& rows, double from_s, const StopEvent& stop, double radius_m) {
+  const auto near = [&](const std::array<double, 2>& at) {
+    return std::hypot(at[0], at[1]) < radius_m || (stop.has_place && std::hypot(at[0] - stop.x_m, at[1] - stop.y_m) < kSamePlace_m);
+  };
   return std::any_of(rows.begin(), rows.end(), [&](const TraceRow& row) {
-    if (row.time_s < from_s || row.time_s > to_s) return false;
-    return std::any_of(row.intruder.begin(), row.intruder.end(), [&](const auto& at) { return std::hypot(at[0], at[1]) < radius_m; });
+    return row.time_s >= from_s && row.time_s <= stop.time_s && std::any_of(row.intruder.begin(), row.intruder.end(), near);
   });
 }
 
@@ -35,7 +41,7 @@ std::map<std::string, int> own_motion_stops(const std::vector<StopEvent>& stops,
   for (const StopEvent& stop : stops) {
     const bool disturbed = std::any_of(disturbances.begin(), disturbances.end(),
                                        [&](const Disturbance& d) { return d.from_s <= stop.time_s && stop.time_s <= d.to_s + memory_s; });
-    if (!disturbed && !somebody_near(rows, stop.time_s - memory_s, stop.time_s, radius_m)) ++own[stop.reason];
+    if (!disturbed && !somebody_near(rows, stop.time_s - memory_s, stop, radius_m)) ++own[stop.reason];
   }
   return own;
 }

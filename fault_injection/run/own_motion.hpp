@@ -19,7 +19,8 @@ struct Disturbance { double from_s, to_s; };
 std::vector<Disturbance> disturbances_of(const nlohmann::json& truth, const RunOptions& options);
 
 // Of each reason the stops at which in the seconds of memory before there was no disturbance, and no person or vehicle nearer than radius to the
-// swing axis. memory_s: for so long the kernel takes what it saw for true, kernel.fresh; radius_m: of its safety region, workspace.radius.
+// swing axis or within a metre of the place that the kernel told. memory_s: for so long the kernel takes what it saw for true, kernel.fresh;
+// radius_m: of its safety region, workspace.radius.
 std::map<std::string, int> own_motion_stops(const std::vector<StopEvent>& stops, const std::vector<Disturbance>& disturbances,
                                             const std::vector<TraceRow>& rows, double radius_m, double memory_s);
 

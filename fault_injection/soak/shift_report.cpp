@@ -91,7 +91,7 @@ std::string shift_text(const json& j) {
   row("spill", fmt::format("{:.2f} % of what was dug", 100 * j["spill_fraction"].get<double>()));
   row("worst load", fmt::format("centre {} m off, height standard deviation {} m", number("load_centre_offset_m_worst", 2), number("load_height_stddev_m_worst", 2)));
   row("memory", fmt::format("kernel and app grow by {} KiB an hour", number("memory_growth_kib_per_hour", 1)));
-  row("longest without a pass", fmt::format("{} s from {} s{}", number("longest_without_pass_s", 0), number("longest_without_pass_from_s", 0), j["stuck"].get<bool>() ? ": STUCK; " + j["last_operator_message"].get<std::string>() : ""));
+  row("longest without pass", fmt::format("{} s from {} s{}", number("longest_without_pass_s", 0), number("longest_without_pass_from_s", 0), j["stuck"].get<bool>() ? ": STUCK; " + j["last_operator_message"].get<std::string>() : ""));
   return text;
 }
 

@@ -62,6 +62,7 @@ std::string Transport::open_multicast(const std::string& group, int port) {
   membership.imr_interface.s_addr = htonl(INADDR_LOOPBACK);
   const in_addr loopback = membership.imr_interface;
   setsockopt(fd_, SOL_SOCKET, SO_RCVBUF, &kReceiveBuffer, sizeof kReceiveBuffer);
+  datagram::take_uncut(fd_);
   if (setsockopt(fd_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) != 0 || bind(fd_, reinterpret_cast<const sockaddr*>(&group_), sizeof group_) != 0)
     return failed(address, "bind");
   if (setsockopt(fd_, IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof membership) != 0) return failed(address, "join");
@@ -135,7 +136,7 @@ bool Transport::send_batch(const berm_can_frame* frames, int count) {
 }
 
 bool Transport::receive(berm_can_frame& frame) {
-  decltype(waiting_)::One one;
+  datagram::Waiting::One one;
   while (waiting_.next(fd_, one)) {
     canfd_frame in{};
     const std::size_t expected = multicast_ ? sizeof(canfd_frame) : sizeof(can_frame);

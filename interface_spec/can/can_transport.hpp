@@ -40,8 +40,7 @@ class Transport {
   const TransportCounters& counters() const { return counters_; }
 
  private:
-  static constexpr int kBatch = 32;          // frames that one call of the system takes
-  static constexpr std::size_t kRoom = 80;   // for a datagram: more than the largest, so that one that is too long does not look right
+  static constexpr int kBatch = 32;  // frames that one call of the system takes
 
   bool send_batch(const berm_can_frame* frames, int count);
   std::string open_multicast(const std::string& group, int port);
@@ -51,7 +50,7 @@ class Transport {
   bool multicast_ = false;
   bool segments_ = true;  // the system cuts one message into datagrams; until it says that it does not
   sockaddr_in group_{};
-  datagram::Waiting<kBatch, kRoom> waiting_;
+  datagram::Waiting waiting_;
   TransportCounters counters_;
 };
 

@@ -22,10 +22,13 @@ double brake_angle(const BrakingTable& table, std::size_t joint, double reach_m,
 std::vector<PlanePoint> outline_points(const Prism& part, double spacing) {
   std::vector<PlanePoint> points;
   const std::size_t n = part.outline.size();
+  points.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
     const auto& from = part.outline[i];
     const auto& to = part.outline[(i + 1) % n];
-    const int pieces = std::max(1, static_cast<int>(std::ceil(std::hypot(to[0] - from[0], to[1] - from[1]) / spacing)));
+    const double dx = to[0] - from[0], dy = to[1] - from[1];
+    const bool near = std::fabs(dx) + std::fabs(dy) < spacing;  // then hypot is no larger either, and takes longer
+    const int pieces = near ? 1 : std::max(1, static_cast<int>(std::ceil(std::hypot(dx, dy) / spacing)));
     for (int k = 0; k < pieces; ++k) {
       const double t = static_cast<double>(k) / pieces;
       points.push_back({from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])});

@@ -9,9 +9,6 @@
 #include <cerrno>
 #include <cstring>
 
-#include "io/vlp16.hpp"
-#include "scan/scan_packet.h"
-
 namespace berm::kernel {
 
 namespace {
@@ -35,14 +32,14 @@ bool UdpReceiver::open(std::uint16_t port, std::string& error) {
   // Beyond the system's limit only with privilege; the plain call takes what the system grants.
   if (setsockopt(fd_, SOL_SOCKET, SO_RCVBUFFORCE, &kReceiveBufferBytes, sizeof kReceiveBufferBytes) != 0)
     setsockopt(fd_, SOL_SOCKET, SO_RCVBUF, &kReceiveBufferBytes, sizeof kReceiveBufferBytes);
+  datagram::take_uncut(fd_);
   return true;
 }
 
 ssize_t UdpReceiver::receive(std::uint8_t* bytes, std::size_t capacity) {
-  static_assert(kRoom > BERM_SCAN_PACKET_MAX_BYTES && kRoom > kVlp16PacketBytes);
-  decltype(waiting_)::One one;
+  datagram::Waiting::One one;
   if (!waiting_.next(fd_, one)) return -1;
-  std::memcpy(bytes, one.bytes, std::min({capacity, kRoom, one.length}));
+  std::memcpy(bytes, one.bytes, std::min(capacity, one.length));
   return static_cast<ssize_t>(one.length);
 }
 

@@ -25,11 +25,8 @@ class UdpReceiver {
   ssize_t receive(std::uint8_t* bytes, std::size_t capacity);
 
  private:
-  static constexpr int kBatch = 32;           // datagrams that one call of the system takes
-  static constexpr std::size_t kRoom = 1536;  // for one: more than any that is right
-
   int fd_ = -1;
-  datagram::Waiting<kBatch, kRoom> waiting_;
+  datagram::Waiting waiting_;
 };
 
 }  // namespace berm::kernel

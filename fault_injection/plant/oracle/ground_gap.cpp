@@ -8,6 +8,8 @@ namespace {
 
 using Corner = Eigen::Vector2d;
 
+constexpr double rounding = 1e-9;  // m: more than that of the heights along an edge
+
 // The part's lower boundary as a convex chain from the least r to the greatest.
 std::vector<Corner> lower_chain(std::vector<Corner> p) {
   std::sort(p.begin(), p.end(), [](const Corner& a, const Corner& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
@@ -48,10 +50,9 @@ bool wholly_inside(const std::vector<Zone>& zones, double x, double y, double ha
 
 }  // namespace
 
-double gap_outside_zones(const Upright& upright, const Ground& g, const std::vector<Zone>& zones) {
+double gap_outside_zones(const Upright& upright, const Ground& g, const std::vector<Zone>& zones, double gap) {
   const Profile& part = upright.part;
   const std::vector<Corner> chain = lower_chain(part.corner);
-  double gap = 1e9;
   if (chain.size() < 2 || g.height == nullptr) return gap;
   const double c = std::cos(upright.bearing), s = std::sin(upright.bearing), half = g.cell / 2;
   // Half the sides of the bounding rectangle of a cell's square, along r and across.
@@ -62,10 +63,13 @@ double gap_outside_zones(const Upright& upright, const Ground& g, const std::vec
   };
   const auto [ix_low, ix_high] = range(upright.x + std::min(r_low * c, r_high * c) - side * std::abs(s), upright.x + std::max(r_low * c, r_high * c) + side * std::abs(s), g.x_low, g.count_x);
   const auto [iy_low, iy_high] = range(upright.y + std::min(r_low * s, r_high * s) - side * std::abs(c), upright.y + std::max(r_low * s, r_high * s) + side * std::abs(c), g.y_low, g.count_y);
+  double lowest = chain.front().y();
+  for (const Corner& q : chain) lowest = std::min(lowest, q.y());
   for (int iy = iy_low; iy <= iy_high; ++iy) {
     const double y = g.y_low + (iy + 0.5) * g.cell;
     const double* row = g.height + static_cast<ptrdiff_t>(iy) * g.count_x;
     for (int ix = ix_low; ix <= ix_high; ++ix) {
+      if (lowest - row[ix] > gap + rounding) continue;  // whatever is over the cell
       const double x = g.x_low + (ix + 0.5) * g.cell;
       if (std::abs(c * (y - upright.y) - s * (x - upright.x)) > side) continue;
       const double r = c * (x - upright.x) + s * (y - upright.y);

@@ -17,8 +17,8 @@ struct Upright {                       // a part along a bearing from a point on
   double x = 0, y = 0, bearing = 0;
 };
 
-// Least gap over columns outside every zone; 1e9 when there is none below the part.
-double gap_outside_zones(const Upright& upright, const Ground& ground, const std::vector<Zone>& zones);
+// Least gap over columns outside every zone, or `gap` when none below the part is less.
+double gap_outside_zones(const Upright& upright, const Ground& ground, const std::vector<Zone>& zones, double gap);
 // Least height of the part's corners over the floor of the zones they are in; 1e9 when none is.
 double gap_over_floor(const Upright& upright, const std::vector<Zone>& zones);
 

@@ -116,9 +116,10 @@ Judgement Oracle::judge(const std::array<double, 4>& joints, const Site& site, c
   out.contact = out.closest <= 0;
 
   double floor_gap = 1e9;
-  for (const Profile& p : profiles(shape_, joints)) {
-    const Upright u = upright(p, joints[0], placed(stand));
-    out.ground_gap = std::min(out.ground_gap, gap_outside_zones(u, site.ground, site.zones));
+  const std::vector<Profile> parts = profiles(shape_, joints);
+  for (auto p = parts.rbegin(); p != parts.rend(); ++p) {  // the bucket first: over most columns the others are higher than it is over its own
+    const Upright u = upright(*p, joints[0], placed(stand));
+    out.ground_gap = gap_outside_zones(u, site.ground, site.zones, out.ground_gap);
     floor_gap = std::min(floor_gap, gap_over_floor(u, site.zones));
   }
   if (!out.contact && out.ground_gap <= 0) {

@@ -190,7 +190,6 @@ void PlantRun::send(double t) {
 // as they do, until it has answered.
 void PlantRun::use_spare_time(double t) {
   verdict_ = world_.judge(t, dynamics_.state());
-  world_.draw_ahead();
   if (options_.realtime || !side_) return;
   JointDynamics next = dynamics_;
   next.step(kCycle, controller_.drive(), controller_.command(), soil_, world_.payload_kg());

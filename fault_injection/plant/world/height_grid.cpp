@@ -17,12 +17,16 @@ constexpr double never = std::numeric_limits<double>::infinity();
 // along the borders that the sums would round too much, there are but few, and all are quotients.
 class Crossings {
  public:
-  // Begins in the nearest of these squares to where the ray is at t.
-  Crossings(double origin, double direction, double inverse, double t, int side, int low, int high)
+  // Begins in the nearest of these squares to where the ray is at t, as if it had walked there from `entered`.
+  Crossings(double origin, double direction, double inverse, double entered, double t, int side, int low, int high)
       : origin_(origin), direction_(direction), side_(side), step_(direction > 0 ? 1 : -1), along_(std::abs(direction) < 1e-4),
         each_(side * std::abs(inverse)) {
-    const double square = (origin + t * direction) / side;
-    index_ = std::clamp(static_cast<int>(square) - (square < 0 ? 1 : 0), low, high);
+    const auto nearest = [&](double at) {
+      const double square = (origin + at * direction) / side;
+      return std::clamp(static_cast<int>(square) - (square < 0 ? 1 : 0), low, high);
+    };
+    index_ = nearest(t);
+    moved_ = t > entered && index_ != nearest(entered);
     next_ = along_ ? next_exactly() : (side_ * (index_ + (step_ > 0 ? 1 : 0)) - origin_) * inverse;
   }
   [[nodiscard]] int index() const { return index_; }
@@ -48,8 +52,8 @@ class Crossings {
 // Steps through the squares that a ray crosses.
 class Walk {
  public:
-  Walk(const Ray& r, const Vec3& inverse, double t, int side, int i_low, int i_high, int j_low, int j_high)
-      : x_(r.origin.x, r.direction.x, inverse.x, t, side, i_low, i_high), y_(r.origin.y, r.direction.y, inverse.y, t, side, j_low, j_high) {}
+  Walk(const Ray& r, const Vec3& inverse, double entered, double t, int side, int i_low, int i_high, int j_low, int j_high)
+      : x_(r.origin.x, r.direction.x, inverse.x, entered, t, side, i_low, i_high), y_(r.origin.y, r.direction.y, inverse.y, entered, t, side, j_low, j_high) {}
   [[nodiscard]] int i() const { return x_.index(); }
   [[nodiscard]] int j() const { return y_.index(); }
   // About where the ray leaves the present square.
@@ -183,11 +187,13 @@ std::optional<double> HeightGrid::cast_patch(const Patch& patch, int i, int j, c
   return std::nullopt;
 }
 
-// The part of the ray in [t_in, t_out] that lies in the block, which it enters at t_in.
-std::optional<double> HeightGrid::cast_block(int bi, int bj, const Ray& r, const Vec3& inverse, double t_in, double t_out) const {
+// The part of the ray in [t_in, t_out] that lies in the block, which it enters at t_in, and in which nothing is higher than top. As long as a falling ray
+// is higher, it need not be looked at; from a little before, far more than is lost in rounding.
+std::optional<double> HeightGrid::cast_block(int bi, int bj, double top, const Ray& r, const Vec3& inverse, double t_in, double t_out) const {
+  constexpr double falls = -1e-4, before = 1e-3;
   const int i_low = bi * block_side, i_high = i_low + block_side - 1, j_low = bj * block_side, j_high = j_low + block_side - 1;
-  double t = t_in, z = r.origin.z + t * r.direction.z;
-  for (Walk walk(r, inverse, t, 1, i_low, i_high, j_low, j_high);
+  double t = r.direction.z < falls ? std::max(t_in, (top - r.origin.z) * inverse.z - before) : t_in, z = r.origin.z + t * r.direction.z;
+  for (Walk walk(r, inverse, t_in, t, 1, i_low, i_high, j_low, j_high);
        t < t_out && walk.i() >= i_low && walk.i() <= i_high && walk.j() >= j_low && walk.j() <= j_high; walk.advance()) {
     t = std::min(walk.leaves(), t_out);
     const double z_out = r.origin.z + t * r.direction.z;
@@ -226,14 +232,15 @@ std::optional<double> HeightGrid::cast_low(const Ray& ray, double range_max) con
               {ray.direction.x / cell_x_, ray.direction.y / cell_y_, ray.direction.z}};
   if (!clip(r.origin.x, r.direction.x, 0.5, count_x_ + 0.5, t_in, t_out)) return std::nullopt;
   if (!clip(r.origin.y, r.direction.y, 0.5, count_y_ + 0.5, t_in, t_out)) return std::nullopt;
-  const Vec3 inverse{r.direction.x == 0 ? 0 : 1 / r.direction.x, r.direction.y == 0 ? 0 : 1 / r.direction.y, 0};
+  const auto inverted = [](double v) { return v == 0 ? 0 : 1 / v; };
+  const Vec3 inverse{inverted(r.direction.x), inverted(r.direction.y), inverted(r.direction.z)};
   double t = t_in, z = r.origin.z + t_in * r.direction.z;
-  for (Walk walk(r, inverse, t_in, block_side, 0, blocks_x_ - 1, 0, blocks_y_ - 1);
+  for (Walk walk(r, inverse, t_in, t_in, block_side, 0, blocks_x_ - 1, 0, blocks_y_ - 1);
        t < t_out && walk.i() >= 0 && walk.j() >= 0 && walk.i() < blocks_x_ && walk.j() < blocks_y_; walk.advance()) {
     t = std::min(walk.leaves(), t_out);
     const double z_out = r.origin.z + t * r.direction.z, top = block_max_[static_cast<size_t>(walk.j() * blocks_x_ + walk.i())];
     if (std::min(z, z_out) <= top + rounding)
-      if (const auto hit = cast_block(walk.i(), walk.j(), r, inverse, std::min(walk.enter_exactly(t_in), t_out), t_out)) return hit;
+      if (const auto hit = cast_block(walk.i(), walk.j(), top, r, inverse, std::min(walk.enter_exactly(t_in), t_out), t_out)) return hit;
     z = z_out;
   }
   return std::nullopt;

@@ -45,6 +45,8 @@ class HeightGrid {
   [[nodiscard]] double surface(double x, double y) const;
   // No cell is higher than this (kept up to date by refresh).
   [[nodiscard]] double highest() const { return highest_; }
+  // Higher than everything, by more than rounding.
+  [[nodiscard]] bool over(const Vec3& from) const { return from.z > highest_ + rounding; }
   // Recomputes the maxima of the blocks that changed. cast needs it after the last set.
   void refresh();
   [[nodiscard]] const HeightChange& newest_change() const { return change_; }
@@ -53,14 +55,15 @@ class HeightGrid {
 
  private:
   static constexpr double rounding = 1e-9;  // m: more than that of the heights along a ray
-  [[nodiscard]] bool passes_over(const Ray& ray) const { return ray.direction.z >= 0 && ray.origin.z > highest_ + rounding; }
+  [[nodiscard]] bool passes_over(const Ray& ray) const { return ray.direction.z >= 0 && over(ray.origin); }
   [[nodiscard]] bool leaves_before(const Ray& ray, double t) const;
   [[nodiscard]] std::optional<double> cast_low(const Ray& ray, double range_max) const;
   [[nodiscard]] double clamped(int ix, int iy) const;
   struct Patch { double h00, h10, h01, h11; };  // heights at its corners
   [[nodiscard]] Patch patch(int i, int j) const;
   [[nodiscard]] static std::optional<double> cast_patch(const Patch& patch, int i, int j, const Ray& grid_ray, double t_in, double t_out);
-  [[nodiscard]] std::optional<double> cast_block(int bi, int bj, const Ray& grid_ray, const Vec3& inverse, double t_in, double t_out) const;
+  [[nodiscard]] std::optional<double> cast_block(int bi, int bj, double top, const Ray& grid_ray, const Vec3& inverse, double t_in,
+                                                 double t_out) const;
 
   double x_low_, y_low_, cell_x_, cell_y_;
   int count_x_, count_y_, blocks_x_, blocks_y_;

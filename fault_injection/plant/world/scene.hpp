@@ -40,6 +40,8 @@ struct FanView {
   };
   bool implement = true;
   Few upper_body, track, truck, box, person;
+  // Nothing but the ground.
+  [[nodiscard]] bool bare() const { return !implement && upper_body.count + track.count + truck.count + box.count + person.count == 0; }
 };
 
 // Where a scene differs from another of the same machine and site, by boxes that hold what is otherwise in either.
@@ -62,6 +64,8 @@ class Scene {
   [[nodiscard]] std::optional<SceneHit> meet(const Ray& world, const Ray& base, const Ray& upper, double range_max) const;
   // The same of a ray of the fan that the view is of.
   [[nodiscard]] std::optional<SceneHit> meet(const FanView& view, const Ray& world, const Ray& base, const Ray& upper, double range_max) const;
+  // Whether no ray that does not fall meets the ground from there.
+  [[nodiscard]] bool over_ground(const Vec3& from) const { return terrain_ == nullptr || terrain_->grid().over(from); }
   // The fan in the same three frames. False, and no view, where the scene has more than a view can tell of.
   [[nodiscard]] bool look(const RayFan& world, const RayFan& base, const RayFan& upper, FanView& view) const;
   [[nodiscard]] SceneDifference difference(const Scene& before) const;

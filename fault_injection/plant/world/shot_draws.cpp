@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <numbers>
+#include <tuple>
 
 #include "plant/world/lanes.hpp"
 
@@ -10,6 +11,9 @@ namespace {
 
 constexpr std::size_t pairs = ShotDraws::lasers / 2;
 struct Uniforms { std::array<double, pairs> one, other; };
+
+// A product costs less than a quotient, and these need not be right to the last bit.
+constexpr double over(int n) { return 1.0 / n; }
 
 // Box and Muller's pairs by series, which go into lanes: the logarithm of [sqrt(1/2), sqrt(2)) by that of the area tangent, sine and cosine of an
 // eighth of a turn to either side.
@@ -28,8 +32,9 @@ BERM_PLANT_LANES void near_normals(const Uniforms& u, double* noise) {
     const double turn = 4.0 * u.other[i], rounded = turn + nearest;
     const std::uint64_t quadrant = std::bit_cast<std::uint64_t>(rounded);
     const double a = (turn - (rounded - nearest)) * quarter, b = a * a;
-    const double sine = a * (1.0 - b / 6 * (1.0 - b / 20 * (1.0 - b / 42 * (1.0 - b / 72 * (1.0 - b / 110)))));
-    const double cosine = 1.0 - b / 2 * (1.0 - b / 12 * (1.0 - b / 30 * (1.0 - b / 56 * (1.0 - b / 90 * (1.0 - b / 132)))));
+    const double sine = a * (1.0 - b * over(6) * (1.0 - b * over(20) * (1.0 - b * over(42) * (1.0 - b * over(72) * (1.0 - b * over(110))))));
+    const double cosine =
+        1.0 - b * over(2) * (1.0 - b * over(12) * (1.0 - b * over(30) * (1.0 - b * over(56) * (1.0 - b * over(90) * (1.0 - b * over(132))))));
     const std::uint64_t odd = 0 - (quadrant & 1);
     const std::uint64_t sine_bits = std::bit_cast<std::uint64_t>(sine), cosine_bits = std::bit_cast<std::uint64_t>(cosine);
     const std::uint64_t x = (cosine_bits & ~odd) | (sine_bits & odd), y = (sine_bits & ~odd) | (cosine_bits & odd);
@@ -44,38 +49,19 @@ BERM_PLANT_LANES void near_normals(const Uniforms& u, double* noise) {
 
 }  // namespace
 
-void ShotDraws::draw(std::size_t firings) {
-  if (taken_ > 0) {
-    word_.erase(word_.begin(), word_.begin() + static_cast<std::ptrdiff_t>(taken_ * words()));
-    near_.erase(near_.begin(), near_.begin() + static_cast<std::ptrdiff_t>(taken_ * lasers));
-    drawn_ -= taken_;
-    taken_ = 0;
-  }
-  word_.resize((drawn_ + firings) * words());
-  near_.resize((drawn_ + firings) * lasers);
-  for (; firings > 0; --firings, ++drawn_) {
-    std::uint64_t* const word = word_.data() + drawn_ * words();
-    bits_.fill(word, words());
-    Uniforms u;
-    for (std::size_t i = 0; i < pairs; ++i) {
-      u.one[i] = uniform_of(word[i * words_a_pair(more_)]);
-      u.other[i] = uniform_of(word[i * words_a_pair(more_) + 1]);
-    }
-    near_normals(u, near_.data() + drawn_ * lasers);
-  }
-}
-
-void ShotDraws::ahead(std::size_t firings) {
-  if (drawn_ - taken_ < firings) draw(firings - (drawn_ - taken_));
-}
-
 ShotDraws::Firing ShotDraws::next() {
-  if (taken_ == drawn_) draw(1);
+  static_assert(std::tuple_size_v<decltype(word_)> >= pairs * words_a_pair(true));
+  bits_.fill(word_.data(), words());
+  Uniforms u;
+  for (std::size_t i = 0; i < pairs; ++i) {
+    u.one[i] = uniform_of(word_[i * words_a_pair(more_)]);
+    u.other[i] = uniform_of(word_[i * words_a_pair(more_) + 1]);
+  }
+  near_normals(u, near_.data());
   Firing firing;
-  firing.word_ = word_.data() + taken_ * words();
-  firing.near_ = near_.data() + taken_ * lasers;
+  firing.word_ = word_.data();
+  firing.near_ = near_.data();
   firing.more_ = more_;
-  ++taken_;
   return firing;
 }
 

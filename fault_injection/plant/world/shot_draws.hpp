@@ -1,12 +1,12 @@
 // What is drawn for the shots of a lidar of sixteen lasers, whatever they hit: range noise, whether the shot is lost, and, of sensors with dust or
 // outliers, what comes back besides and from where. One stream, in the order in which Random draws for shot after shot: a normal number, a uniform
-// one, and two more. It is kept as drawn, and made into numbers where a shot asks for them.
+// one, and two more. It is kept as drawn, and made into numbers where a shot asks for them. A firing's is drawn when it is asked for: it stays near the
+// processor until it is used, as that of a whole step would not.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
 #include "plant/world/random.hpp"
 
@@ -49,20 +49,16 @@ class ShotDraws {
   // more: what and where as well.
   ShotDraws(std::uint64_t seed, bool more) : bits_(seed), more_(more) {}
   [[nodiscard]] Firing next();
-  // Draws for so many of the next firings, in time that is to spare; what comes of it is the same.
-  void ahead(std::size_t firings);
 
  private:
   // The normal numbers of two shots come from the same two uniform ones.
   [[nodiscard]] static constexpr std::size_t words_a_pair(bool more) { return more ? 8 : 4; }
   [[nodiscard]] std::size_t words() const { return lasers / 2 * words_a_pair(more_); }
-  void draw(std::size_t firings);
 
   Twister bits_;
   bool more_;
-  std::vector<std::uint64_t> word_;  // of firing after firing; those before taken_ are used up
-  std::vector<double> near_;
-  std::size_t drawn_ = 0, taken_ = 0;  // firings
+  std::array<std::uint64_t, lasers / 2 * 8> word_{};  // of the newest firing, as near_
+  std::array<double, lasers> near_{};
 };
 
 }  // namespace berm::plant

@@ -18,7 +18,7 @@ class SideThread {
     thread_.join();
   }
 
-  // Begins the job; the one before has been waited for. It must not throw.
+  // Begins the job as soon as the thread gets to it; the one before has ended. It must not throw.
   void give(std::function<void()> job) {
     {
       const std::lock_guard lock(mutex_);
@@ -27,9 +27,10 @@ class SideThread {
     }
     changed_.notify_one();
   }
-  // Until the job is done.
-  void wait() {
+  // Until the job is done; one that has not begun is taken back, and never done.
+  void end() {
     std::unique_lock lock(mutex_);
+    if (!begun_) given_ = false;
     changed_.wait(lock, [this] { return !given_; });
   }
 
@@ -39,10 +40,11 @@ class SideThread {
     for (;;) {
       changed_.wait(lock, [this] { return given_; });
       if (!job_) return;
+      begun_ = true;
       lock.unlock();
       job_();
       lock.lock();
-      given_ = false;
+      given_ = begun_ = false;
       changed_.notify_one();
     }
   }
@@ -50,7 +52,7 @@ class SideThread {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::function<void()> job_;
-  bool given_ = false;
+  bool given_ = false, begun_ = false;
   std::thread thread_;  // last: it uses all of the above
 };
 

@@ -110,14 +110,14 @@ Vec3 SpinningLidar::turned(const Vec3& v) const { return v.x * x_ + v.y * y_ + v
 
 // Dust sends back less than the target behind it: the target is the last and the strongest, and the strongest but that is the dust (VLP-16 manual, dual
 // return mode).
-SpinningLidar::Returns SpinningLidar::received(const SceneHit* hit, const ShotDraws::Firing& drawn, std::size_t laser) const {
+SpinningLidar::Returns SpinningLidar::received(const std::optional<SceneHit>& hit, const ShotDraws::Firing& drawn, std::size_t laser) const {
   Returns back;
-  const bool hits = hit != nullptr && hit->range >= range_least;
+  const bool hits = hit && hit->range >= range_least;
   back.met = hits;
   if (hits) back.last = back.other = std::max(range_least, drawn.noisy(hit->range, noise_.range_stddev, range_lsb, laser));
   if (!draws_more()) return back;
   const double outlier = mount_.outliers ? noise_.outlier_probability : 0.0, what = drawn.what(laser);
-  const auto between = [&] { return range_least + drawn.where(laser) * std::max(0.0, (hit != nullptr ? hit->range : range_most) - range_least); };
+  const auto between = [&] { return range_least + drawn.where(laser) * std::max(0.0, (hit ? hit->range : range_most) - range_least); };
   if (what < outlier) {
     back.last = back.other = between();
     back.met = false;
@@ -178,9 +178,14 @@ void SpinningLidar::look(const Aim& aim, const Scene& scene, const BaseFrame& st
   FanView view;
   const bool seen = scene.look(aim.world, aim.base, aim.upper, view);
   const Aim::Directions to = aim.directions({x_, y_, z_}, stand);
+  const bool sky_above = seen && view.bare() && scene.over_ground(aim.world.origin);
   for (std::size_t laser = 0; laser < lasers; ++laser) {
+    if (sky_above && to.world.z[laser] >= 0) {
+      hits.set(laser, std::nullopt);
+      continue;
+    }
     const Ray upper{aim.upper.origin, to.upper.of(laser)}, base{aim.base.origin, to.base.of(laser)}, world{aim.world.origin, to.world.of(laser)};
-    hits.of[laser] = seen ? scene.meet(view, world, base, upper, range_most) : scene.meet(world, base, upper, range_most);
+    hits.set(laser, seen ? scene.meet(view, world, base, upper, range_most) : scene.meet(world, base, upper, range_most));
   }
 }
 
@@ -188,9 +193,9 @@ void SpinningLidar::report(double at, double swing, const Hits& hits, const Sens
                            std::uint8_t* others, std::vector<MoverReturn>* returns) {
   const ShotDraws::Firing drawn = draws_.next();
   for (std::size_t laser = 0; laser < lasers; ++laser) {
-    const SceneHit* const hit = hits.of[laser] ? &*hits.of[laser] : nullptr;
+    const std::optional<SceneHit> hit = hits.of(laser);
     Returns back = received(hit, drawn, laser);
-    blow(hit != nullptr ? hit->range : 0.0, air, back);
+    blow(hit ? hit->range : 0.0, air, back);
     if (air.covers(at) || drawn.lost(laser) < noise_.dropout_probability) continue;
     if (back.met && hit->mover != no_mover) {
       const Aim to = aim(at, swing, stand);
@@ -218,8 +223,16 @@ bool SpinningLidar::foresee(const Span& span, std::size_t k, const Scene& scene,
   return true;
 }
 
+bool SpinningLidar::may_meet(const Span& span, std::size_t k, const SceneDifference& difference, const BaseFrame& stand) const {
+  if (difference.none()) return false;
+  const Nanoseconds ns(span);
+  const std::int64_t firing = first_firing(ns.begin) + static_cast<std::int64_t>(k);
+  const Aim to = aim(azimuth(firing), swing_at(span, ns, firing), stand);
+  return difference.may_be_met(to.world, to.upper);
+}
+
 void SpinningLidar::step(const Span& span, const SensorAir& air, const Scene& scene, const BaseFrame& stand, std::vector<LidarPacket>& out,
-                         std::vector<MoverReturn>* returns, const Foreseen* foreseen) {
+                         std::vector<MoverReturn>* returns, std::span<const Hits> foreseen) {
   const Nanoseconds ns(span);
   const std::int64_t firings_a_packet = mount_.dual ? blocks : 2 * blocks;
   const std::size_t blocks_a_pair = mount_.dual ? 2 : 1;
@@ -242,15 +255,9 @@ void SpinningLidar::step(const Span& span, const SensorAir& air, const Scene& sc
     for (std::uint8_t* records : {block, other})
       if (records != nullptr) std::fill_n(records + record, record_bytes * lasers, std::uint8_t{0});
     if (in_sector(at)) {
-      const Hits* hits = foreseen != nullptr && k < foreseen->hits.size() ? &foreseen->hits[k] : nullptr;
-      if (hits == nullptr || !foreseen->difference.none()) {
-        const Aim to = aim(at, swing, stand);
-        if (hits == nullptr || foreseen->difference.may_be_met(to.world, to.upper)) {
-          look(to, scene, stand, anew);
-          hits = &anew;
-        }
-      }
-      report(at, swing, *hits, air, stand, block + record, other == nullptr ? nullptr : other + record, returns);
+      const bool known = k < foreseen.size();
+      if (!known) look(aim(at, swing, stand), scene, stand, anew);
+      report(at, swing, known ? foreseen[k] : anew, air, stand, block + record, other == nullptr ? nullptr : other + record, returns);
     }
     if (place + 1 < firings_a_packet) continue;
     const auto stamp = static_cast<std::uint32_t>((time_ns(next_) / 1000) % hour_us);

@@ -30,21 +30,32 @@ class SpinningLidar {
   SpinningLidar(const ScannerConfig& noise, const LidarMount& mount, std::uint8_t number, std::uint64_t seed);
   // A span of time in which the sensor's place is told: the swing angle moves evenly from one end to the other.
   struct Span { double t, dt, swing_before, swing_now; bool operator==(const Span&) const = default; };
-  // What the lasers of a firing meet: none of one that looks where the sensor is blank.
-  struct Hits { std::array<std::optional<SceneHit>, lasers_of_firing> of{}; };
-  // Hits of the first firings of a step that were worked out before it, in another scene: those stand whose fan does not meet the difference.
-  struct Foreseen { std::span<const Hits> hits; const SceneDifference& difference; };
+  // What the lasers of a firing meet; of one that looks where the sensor is blank whatever was there.
+  struct Hits {
+    static constexpr double nothing = -1.0;
+    std::array<double, lasers_of_firing> range{};  // m, or nothing
+    std::array<std::int32_t, lasers_of_firing> mover{};
+    void set(std::size_t laser, const std::optional<SceneHit>& hit) {
+      range[laser] = hit ? hit->range : nothing;
+      mover[laser] = hit ? hit->mover : no_mover;
+    }
+    [[nodiscard]] std::optional<SceneHit> of(std::size_t laser) const {
+      if (range[laser] == nothing) return std::nullopt;
+      return SceneHit{range[laser], mover[laser]};
+    }
+  };
 
   // The firings in (t - dt, t], appended as packets when twelve blocks are full: of two firings each, or, dual return, each two of two.
-  // air.covered: something lies on the window, and nothing comes back. returns: takes what people and vehicles sent back, or null.
+  // air.covered: something lies on the window, and nothing comes back. returns: takes what people and vehicles sent back, or null. foreseen: what its
+  // firings meet, or none, and they are looked at here.
   void step(const Span& span, const SensorAir& air, const Scene& scene, const BaseFrame& stand, std::vector<LidarPacket>& out,
-            std::vector<MoverReturn>* returns = nullptr, const Foreseen* foreseen = nullptr);
+            std::vector<MoverReturn>* returns = nullptr, std::span<const Hits> foreseen = {});
   // Of the next step: what firing k of it meets in a scene; false when it has no more.
-  [[nodiscard]] bool foresee(const Span& span, std::size_t k, const Scene& scene, const BaseFrame& stand, Hits& hits) const;
+  bool foresee(const Span& span, std::size_t k, const Scene& scene, const BaseFrame& stand, Hits& hits) const;
+  // Whether that firing may meet where two scenes differ.
+  [[nodiscard]] bool may_meet(const Span& span, std::size_t k, const SceneDifference& difference, const BaseFrame& stand) const;
   void draw_anew(std::uint64_t seed) { draws_ = ShotDraws(seed, draws_more()), dust_random_ = Random(~seed); }
   static constexpr std::size_t firings_a_cycle = 182;  // at most, of 10 ms
-  // Draws for so many of the next firings, in time that is to spare; what comes of it is the same.
-  void draw_ahead(std::size_t firings) { draws_.ahead(firings); }
 
  private:
   struct Returns {
@@ -52,8 +63,8 @@ class SpinningLidar {
     double last = 0.0, other = 0.0;  // m; 0: none. other: the strongest but the last, or the last again
   };
   [[nodiscard]] bool draws_more() const { return mount_.dual || mount_.outliers; }
-  // What comes back of a laser's shot that met something, or nothing (null), with what was drawn for it.
-  [[nodiscard]] Returns received(const SceneHit* hit, const ShotDraws::Firing& drawn, std::size_t laser) const;
+  // What comes back of a laser's shot that met something, or nothing, with what was drawn for it.
+  [[nodiscard]] Returns received(const std::optional<SceneHit>& hit, const ShotDraws::Firing& drawn, std::size_t laser) const;
   void blow(double met_at, const SensorAir& air, Returns& back);
   // Where a firing looks that the sensor's turn has come to, in the three frames of a scene.
   struct Aim;

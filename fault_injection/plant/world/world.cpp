@@ -1,11 +1,13 @@
 #include "plant/world/world.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <iomanip>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 
 #include "plant/machine/implement_shape.hpp"
 #include "plant/oracle/oracle.hpp"
@@ -122,12 +124,13 @@ struct World::State {
   BasePose base;
   Foresight foresight;
   std::vector<MoverReturn> mover_returns;
-  struct Aside {  // what the side thread senses
+  struct Sensed {  // of one sensor in one step
     std::vector<berm_scan_packet> scans;
     std::vector<LidarPacket> lidars;
-    std::vector<MoverReturn> scan_returns, lidar_returns;
-    void clear() { scans.clear(), lidars.clear(), scan_returns.clear(), lidar_returns.clear(); }
-  } aside;
+    std::vector<MoverReturn> returns;
+    void clear() { scans.clear(), lidars.clear(), returns.clear(); }
+  } scanned;                   // of the second scanner
+  std::vector<Sensed> sensed;  // of each lidar
   size_t current = 0;
   std::vector<Overflow> over;
 };
@@ -168,8 +171,7 @@ void World::State::scan(size_t i, double t, double dt, const JointState& before,
 void World::State::fire(size_t i, double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out,
                         std::vector<MoverReturn>& returns) {
   const SensorAir a = air(config.lidar_faults, i, t);
-  const SpinningLidar::Foreseen foreseen = foresight.hits(i);
-  if (!a.silent) lidar[i].step({t, dt, before.angle[0], now.angle[0]}, a, scene, BaseFrame(base), out, &returns, &foreseen);
+  if (!a.silent) lidar[i].step({t, dt, before.angle[0], now.angle[0]}, a, scene, BaseFrame(base), out, &returns, foresight.hits(i));
 }
 
 void World::scan(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
@@ -195,32 +197,36 @@ void World::sense(double t, double dt, const JointState& before, const JointStat
   }
   w.mover_returns.clear();
   w.place(now, w.scene);
-  w.foresight.compare({t, dt, before.angle[0], now.angle[0]}, w.base, w.scene);
-  w.aside.clear();
-  side->give([&] {
-    w.scan(1, t, dt, before, now, pan_before, pan_now, w.aside.scans, w.aside.scan_returns);
-    for (size_t i = 1; i < w.lidar.size(); ++i) w.fire(i, t, dt, before, now, w.aside.lidars, w.aside.lidar_returns);
-  });
-  std::vector<MoverReturn> first;
+  w.foresight.compare({t, dt, before.angle[0], now.angle[0]}, w.base, w.scene, w.lidar.size());
+  w.sensed.resize(w.lidar.size());
+  for (State::Sensed& of : w.sensed) of.clear();
+  w.scanned.clear();
+  std::atomic<bool> scans_second = false;
+  std::atomic<size_t> next_lidar = 0;
+  // What either thread takes of what none has begun; a lidar's returns are made when all rays of all lidars are known.
+  const auto work = [&] {
+    if (!scans_second.exchange(true)) w.scan(1, t, dt, before, now, pan_before, pan_now, w.scanned.scans, w.scanned.returns);
+    w.foresight.complete(w.lidar, w.scene);
+    while (!w.foresight.completed()) std::this_thread::yield();
+    for (size_t i; (i = next_lidar.fetch_add(1)) < w.lidar.size();) w.fire(i, t, dt, before, now, w.sensed[i].lidars, w.sensed[i].returns);
+  };
+  side->give(work);
   w.scan(0, t, dt, before, now, pan_before, pan_now, scans, w.mover_returns);
-  w.fire(0, t, dt, before, now, lidars, first);
-  side->wait();
+  work();
+  side->end();
   const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  append(scans, w.aside.scans);
-  append(lidars, w.aside.lidars);
-  append(w.mover_returns, w.aside.scan_returns);
-  append(w.mover_returns, first);
-  append(w.mover_returns, w.aside.lidar_returns);
+  append(scans, w.scanned.scans);
+  append(w.mover_returns, w.scanned.returns);
+  for (const State::Sensed& of : w.sensed) {
+    append(lidars, of.lidars);
+    append(w.mover_returns, of.returns);
+  }
 }
 
 void World::foresee(double t, double dt, const JointState& before, const JointState& now, const std::function<bool()>& enough) {
   State& w = *state_;
   w.place(now, w.foresight.begin({t, dt, before.angle[0], now.angle[0]}, w.base, w.lidar.size()));
   w.foresight.look(w.lidar, enough);
-}
-
-void World::draw_ahead() {
-  for (SpinningLidar& l : state_->lidar) l.draw_ahead(SpinningLidar::firings_a_cycle);
 }
 
 oracle::Site World::State::site() const {

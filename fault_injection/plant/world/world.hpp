@@ -72,14 +72,12 @@ class World {
             std::vector<berm_scan_packet>& out);
   // Firings of the lidars on the upper body in (t - dt, t], after scan() of the same step: it has gathered what there is to see.
   void scan_lidars(double t, double dt, const JointState& before, const JointState& now, std::vector<LidarPacket>& out);
-  // Both in one, with the same results: the second scanner and all lidars but the first in the side thread, if there is one.
+  // Both in one, with the same results: shared with the side thread, if there is one.
   void sense(double t, double dt, const JointState& before, const JointState& now, const PanState& pan_before, const PanState& pan_now,
              std::vector<berm_scan_packet>& scans, std::vector<LidarPacket>& lidars, SideThread* side);
   // Works out, in time that is to spare, what the lidars of the next sense() with a side thread will meet, if the joints move as told here; until all
   // is seen or it is enough. What comes of the step is the same, whatever has changed until then.
   void foresee(double t, double dt, const JointState& before, const JointState& now, const std::function<bool()>& enough);
-  // Draws what the lidars' next step will need, in time that is to spare; what comes of it is the same.
-  void draw_ahead();
   // Of people and vehicles, in the newest scan() and the scan_lidars() after it.
   const std::vector<MoverReturn>& mover_returns() const;
   OracleVerdict judge(double t, const JointState& joints);  // independent oracle

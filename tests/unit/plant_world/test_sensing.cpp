@@ -1,4 +1,4 @@
-// What makes sensing quick changes nothing that is sensed: the view of a fan, the side thread, draws made ahead, rays foreseen.
+// What makes sensing quick changes nothing that is sensed: the view of a fan, the side thread, rays foreseen.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -170,7 +170,7 @@ TEST(Sensing, AHighestHeightThatChangesIsADifferenceEverywhere) {
   EXPECT_TRUE(site.scene(0.6, 0.3).difference(before).everywhere);
 }
 
-enum class Manner { plain, aside, ahead, foreseen, foreseen_in_part };
+enum class Manner { plain, aside, foreseen, foreseen_in_part };
 
 Sensed sensed(Manner manner) {
   World world(crowded_site(), with_two_lidars(), 5, 1);
@@ -194,7 +194,6 @@ Sensed sensed(Manner manner) {
       world.scan(t, 0.01, before, now, {}, {}, all.scans);
       world.scan_lidars(t, 0.01, before, now, all.lidars);
     } else {
-      if (manner != Manner::aside) world.draw_ahead();
       world.sense(t, 0.01, before, now, {}, {}, all.scans, all.lidars, &side);
     }
     all.movers.insert(all.movers.end(), world.mover_returns().begin(), world.mover_returns().end());
@@ -207,7 +206,7 @@ TEST(Sensing, ASideThreadAndWhatIsDoneAheadChangeNothing) {
   const Sensed plain = sensed(Manner::plain);
   ASSERT_GT(plain.lidars.size(), 1000u);
   ASSERT_GT(plain.movers.size(), 100u);
-  for (const Manner manner : {Manner::aside, Manner::ahead, Manner::foreseen, Manner::foreseen_in_part}) {
+  for (const Manner manner : {Manner::aside, Manner::foreseen, Manner::foreseen_in_part}) {
     const Sensed other = sensed(manner);
     ASSERT_EQ(other.scans.size(), plain.scans.size());
     for (std::size_t i = 0; i < plain.scans.size(); ++i) {

@@ -94,6 +94,16 @@ TEST(OwnMotionStops, LeaveOutWhatAnIntruderOrAFaultMayHaveCaused) {
   EXPECT_EQ(own_motion_stops(stops, {{90, 120}}, rows, 5.0, 10.0).at("stale_ground"), 2) << "farther away than 5 m he is not near";
 }
 
+TEST(OwnMotionStops, LeaveOutWhomTheKernelToldOfBeforeHisMiddleWasInTheRegion) {
+  const std::vector<TraceRow> rows{{184.9, {}, {{-13.96, -7.04}}}, {185.1, {}, {{-13.82, -7.01}}}};
+  const StopEvent front{185.15, "intruder", true, -13.35, -7.05, 1.4}, elsewhere{185.15, "intruder", true, -9.75, -6.15, 0.8};
+  EXPECT_TRUE(own_motion_stops({front}, {}, rows, 15.0, 10.0).empty());
+  EXPECT_EQ(own_motion_stops({elsewhere}, {}, rows, 15.0, 10.0).at("intruder"), 1) << "he is 4 m from there";
+  StopEvent placeless = front;
+  placeless.has_place = false;
+  EXPECT_EQ(own_motion_stops({placeless}, {}, rows, 15.0, 10.0).at("intruder"), 1);
+}
+
 TEST(OwnMotionStops, DisturbancesAreThePlantsAndTheProcessFault) {
   RunOptions options;
   options.fault = ProcessFault{FaultKind::kill_app, 33.0};
