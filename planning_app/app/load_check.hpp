@@ -1,4 +1,5 @@
-// Whether a lifted bucket holds more than may go into the truck. It is weighed while it is raised over the dig, and lets go of what is too much there.
+// Whether a lifted bucket holds more than may go into the truck. It is weighed while it swings there; of one that holds too much a part is poured over the
+// bed, tilt by tilt, and the rest goes back to the dig.
 #pragma once
 
 #include "app/progress_log.hpp"
@@ -20,24 +21,28 @@ public:
     double time_s = 0.0;
     double payload_kg = 0.0;  // on-board weighing; negative: unknown, as while it digs and shortly after
     double attitude = 0.0;    // absolute angle of the bucket, rad
-    bool raised = false;      // it has room to tilt
+    bool over_bed = false;    // it may pour
     double stays_kg = 0.0;    // of its load, in the bucket after the dump
   };
-  // Once a cycle from then on. How fast the bucket is to tilt towards the dump, rad/s; 0: it is to be held; negative: nothing is asked for.
+  // Once a cycle from then on. How fast the bucket is to tilt towards the dump, rad/s; negative: nothing is asked for.
   double step(const Lifted& now, const TruckFill& fill, const ProgressLog& log);
 
+  bool weighed() const { return stage_ == Stage::pours || stage_ == Stage::passed; }  // or need not be, or cannot: it may go over the bed
+  bool pours_part() const { return stage_ == Stage::pours; }                          // as soon as it is there
+  bool keeps_rest() const { return keeps_rest_; }                                     // has poured a part
   bool passed() const { return stage_ == Stage::passed; }
-  // What was in it before anything was let go of; negative when it was not weighed.
+  // What was in it before anything was poured; negative when it was not weighed.
   double lifted_kg() const { return lifted_; }
 
 private:
-  enum class Stage { blind, weighs, tilts, settles, passed };
+  enum class Stage { blind, weighs, pours, passed };
   void enter(Stage stage, double time_s);
 
   double load_scale_;
   Stage stage_ = Stage::passed;
   double stage_s_ = 0.0, began_s_ = 0.0, last_s_ = 0.0;
-  double lifted_ = -1.0, goal_ = 0.0;
+  double lifted_ = -1.0, rest_ = 0.0;  // rest_: what is to stay in it
+  bool keeps_rest_ = false;
   MeanWeight mean_;
   RecentWeight recent_;
 };

@@ -173,7 +173,17 @@ Joints Sequencer::run_script(const Observation& o, std::uint32_t events) {
     script_.evaluate(o.angle, events);
     script_s_ = o.time_s;
   }
-  return arm_.toward(script_.goals(), script_.paces(), tempos(), o.angle, o.velocity);
+  return arm_.toward(stage_ == Stage::pass ? pass_goals() : script_.goals(), script_.paces(), tempos(), o.angle, o.velocity);
+}
+
+// A load that is poured in part: meanwhile the arm stays where its lip is over the bed's middle, and on the way back the bucket holds the rest level.
+Joints Sequencer::pass_goals() const {
+  Joints goals = script_.goals();
+  const bool pours = load_check_.pours_part() && script_.of(bucket).reached(RuleMark::opens);
+  if (pours)
+    for (const Joint j : {boom, stick}) goals[j] = poses_.spill[j];
+  if (load_check_.keeps_rest() && !script_.of(swing).at_last()) goals[bucket] = level_bucket(machine_, goals[boom] + goals[stick]);
+  return goals;
 }
 
 Joints Sequencer::approach(const Observation& o) {
@@ -206,8 +216,13 @@ double Sequencer::share_that_may_trail() const {
 std::uint32_t Sequencer::pass_events(const Observation& o) {
   constexpr double open_at_least = 0.25, open_at_most = 2.0, empty_share = 0.05;
   const bool opening = script_.of(bucket).reached(RuleMark::opens);
-  const std::uint32_t weighed = load_check_.passed() ? event_weighed : event_none;
+  const std::uint32_t weighed = load_check_.weighed() ? event_weighed : event_none;
   if (!opening || emptied_) return emptied_ ? event_emptied | event_empties | weighed : weighed;
+  if (load_check_.pours_part()) return weighed;
+  if (load_check_.keeps_rest()) {
+    emptied_ = true;
+    return event_emptied | event_empties | weighed;
+  }
   if (open_since_s_ < 0.0 && o.angle[bucket] > poses_.dump[bucket] - radians(30.0)) open_since_s_ = o.time_s;
   // More than half of what was in it is gone, and the bucket opens on: known only where it was weighed on the way.
   const bool empties = o.payload_kg >= 0.0 && before_.known() && recent_.kg() < share_that_may_trail() * before_.kg();
@@ -224,8 +239,8 @@ std::uint32_t Sequencer::pass_events(const Observation& o) {
 }
 
 Joints Sequencer::pass(const Observation& o) {
-  const bool raised = o.angle[boom] > poses_.carry[boom] - radians(3.0);
-  const double tilt = load_check_.step({o.time_s, o.payload_kg, forward(machine_, o.angle).bucket_attitude, raised, sticking_.stays_kg(std::max(0.0, o.payload_kg))}, fill_, log_);
+  const bool over_bed = script_.of(bucket).reached(RuleMark::opens);
+  const double tilt = load_check_.step({o.time_s, o.payload_kg, forward(machine_, o.angle).bucket_attitude, over_bed, sticking_.stays_kg(std::max(0.0, o.payload_kg))}, fill_, log_);
   Joints command = run_script(o, pass_events(o));
   if (tilt >= 0.0) command[bucket] = tilt;
   if (!script_.of(swing).reached(RuleMark::leaves)) enter_phase(BERM_PHASE_LIFT, o);
@@ -233,7 +248,7 @@ Joints Sequencer::pass(const Observation& o) {
   else enter_phase(script_.of(bucket).reached(RuleMark::opens) ? BERM_PHASE_DUMP : BERM_PHASE_SWING_TO_TRUCK, o);
   // Until the load slides, also when the bucket begins to open.
   if (phase_ == BERM_PHASE_SWING_TO_TRUCK || (phase_ == BERM_PHASE_DUMP && forward(machine_, o.angle).bucket_attitude < resting)) before_.add(o.payload_kg);
-  if (emptied_) after_.add(o.payload_kg);
+  if (emptied_ && !(load_check_.keeps_rest() && script_.of(swing).at_last())) after_.add(o.payload_kg);  // what it keeps it lets go over the dig
   const Joints goals = script_.goals();
   // The boom may be higher yet: the drag's way down begins from where it is.
   constexpr Joints close{radians(4.0), radians(5.0), radians(4.0), radians(5.0)};
@@ -245,7 +260,9 @@ Joints Sequencer::pass(const Observation& o) {
 
 void Sequencer::end_pass(const Observation& o) {
   const bool weighed = before_.known() && after_.known();
-  const double before = weighed ? before_.kg() : goal_kg_, after = weighed ? after_.kg() : 0.0;
+  // A bucket that was not weighed in time is taken for no less than the dig's force says: else the truck would be overloaded.
+  const double unweighed_kg = filled_.known() ? std::max(goal_kg_, std::min(heaped_kg_, filled_.kg())) : goal_kg_;
+  const double before = weighed ? before_.kg() : unweighed_kg, after = weighed ? after_.kg() : 0.0;
   const double had = fill_.loaded_kg();
   fill_.add_pass(before, after);
   const double payload = fill_.loaded_kg() - had;
@@ -253,7 +270,7 @@ void Sequencer::end_pass(const Observation& o) {
     const double lifted = std::max(before, load_check_.lifted_kg()), brought_along = sticking_.sticks() ? sticking_.in_bucket_kg() : 0.0;
     learn_yield(lifted, brought_along);
     filled_.learn(lifted - brought_along, heaped_kg_ - brought_along);
-    sticking_.learn(lifted, after);  // what was let go of over the dig has stuck to it too
+    if (!load_check_.keeps_rest()) sticking_.learn(lifted, after);
     if (sticking_.sticks())
       log_.event("sticking", {{"time_s", o.time_s}, {"stays_kg", after}, {"share", sticking_.share()}, {"open_farther_deg", degrees(sticking_.open_farther())}});
   }
@@ -385,9 +402,7 @@ Answer Sequencer::step(const Observation& o) {
   arm_.asked(answer.velocity);
   const double truck_bearing = site_.bed ? std::atan2(site_.bed->centre_y, site_.bed->centre_x) : std::atan2(site_.place.y, site_.place.x);
   const bool lifts_soon = stage_ == Stage::curl || (stage_ == Stage::dig && follower_.progress() > 0.6);
-  // A bucket that is weighed over the dig waits: what lies under it and ahead has to stay seen as in a dig.
-  const bool weighs = stage_ == Stage::pass && !load_check_.passed();
-  answer.pan = scanners_.step(lifts_soon ? std::uint16_t{BERM_PHASE_LIFT} : weighs ? std::uint16_t{BERM_PHASE_DIG} : phase_, task_.next_bearing, truck_bearing, o.angle[swing], o.velocity[swing], o.pan);
+  answer.pan = scanners_.step(lifts_soon ? std::uint16_t{BERM_PHASE_LIFT} : phase_, task_.next_bearing, truck_bearing, o.angle[swing], o.velocity[swing], o.pan);
   answer.phase = phase_;
   answer.horn = stage_ == Stage::horn || (stage_ == Stage::ask_move && sounds_move_back(o.time_s - stage_s_, back_m_));
   return answer;

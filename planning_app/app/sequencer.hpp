@@ -61,6 +61,7 @@ private:
   Joints dig(const Observation& o);
   Joints curl(const Observation& o);
   Joints pass(const Observation& o);
+  Joints pass_goals() const;
   void plan_next_dig(const Observation& o);
   void tell_region(const Observation& o, const RegionDig& next) const;
   DigNeeds needs_for(double kg) const;

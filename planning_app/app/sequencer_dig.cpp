@@ -125,7 +125,7 @@ void Sequencer::learn_yield(double weighed_kg, double brought_along_kg) {
 void Sequencer::feel(const Observation& o) {
   constexpr double gravity = 9.81;
   const Moments held = holding_moments(machine_, o.pressure);
-  if (stage_ == Stage::pass && emptied_) holds_nothing_ = true;
+  if (stage_ == Stage::pass && emptied_ && !load_check_.keeps_rest()) holds_nothing_ = true;
   if (holds_nothing_ && o.running()) weight_.learn(o.angle, held, machine_.cycle);
   if ((stage_ != Stage::dig && stage_ != Stage::curl) || !weight_.known(o.angle)) return;
   PlaneForce soil = force_on_bucket(machine_, o.angle, held, weight_.of(o.angle));
@@ -274,6 +274,7 @@ Joints Sequencer::curl(const Observation& o) {
     open_since_s_ = -1.0;
     before_.reset();
     after_.reset();
+    recent_ = {};  // of the empty bucket; the weighing is blind for a while yet
     load_check_.begin(o.time_s, fill_.must_weigh(heaped_kg_));
     log_.event("script", {{"swing_start_boom_deg", degrees(search_->thresholds().swing_start_boom)}, {"hover_offset_deg", degrees(search_->thresholds().hover_offset)}, {"hover_deg", degrees(poses_.hover[boom])}, {"brake_rad_s2", brakes_.known()}, {"lower_offset_deg", degrees(search_->thresholds().lower_offset)},
                           {"extend_offset_deg", degrees(search_->thresholds().extend_offset)}, {"open_offset_deg", degrees(search_->thresholds().open_offset)},

@@ -18,6 +18,7 @@ constexpr double most_short = 0.4;                // m, that a load is spilled s
 constexpr double carry_radius = 6.4;              // of the bucket pin, m; by the scale of the arm
 constexpr double back_radius = 6.3;               // the same
 constexpr double attitude_carry = radians(-178.0), attitude_spill = radians(-170.0);  // nothing slides yet
+constexpr double attitude_rests = radians(-157.0);  // at most, for little to slide
 constexpr double attitude_pour = radians(-145.0); // the load begins to slide
 constexpr double attitude_open = radians(-48.0);
 constexpr double attitude_back = radians(-122.0);
@@ -94,6 +95,10 @@ double farthest_dump(const MachineModel& machine, double wall_top) {
   return radius + most_short;
 }
 
+double level_bucket(const MachineModel& machine, double stick_attitude) {
+  return std::max(attitude_carry - stick_attitude, machine.joint[bucket].low + range_guard);
+}
+
 std::vector<ScriptAngle> pass_angles(const MachineModel& machine, const PassTask& task, const PassPoses& p, const PassThresholds& t) {
   const double bucket_low = machine.joint[bucket].low + range_guard;
   // A little beyond level, for the raising boom tilts the bucket back.
@@ -137,7 +142,9 @@ PassSearch::PassSearch(const ScriptSet& scripts, const MachineModel& machine, co
     : scripts_(&scripts), machine_(machine), skyline_(skyline), task_(task), poses_(poses) {
   lead_ = soonest_lead;
   reach_over_bed();
-  thresholds_.open_stick = poses.spill[stick] - radians(6.0);  // it is there when the load slides
+  // It is there when the load slides. Far out, where the bucket cannot be held level, soil slides as soon as it opens.
+  const bool level = forward(machine, poses.spill).bucket_attitude < attitude_rests;
+  thresholds_.open_stick = poses.spill[stick] - (level ? radians(14.0) : radians(6.0));
   thresholds_.pour_bucket = poses.spill[bucket] + (attitude_pour - attitude_spill);
   const double rise = poses.carry[boom] - task.lifted_from[boom];
   thresholds_.fold_boom = task.lifted_from[boom] + 0.45 * std::max(0.0, rise);

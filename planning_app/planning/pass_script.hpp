@@ -46,6 +46,9 @@ std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask&
 // The farthest dump point from the swing axis, m: from there the stretched arm spills the load 0.4 m short of where it is meant to be.
 double farthest_dump(const MachineModel& machine, double wall_top);
 
+// Bucket angle that holds a load, mouth up, with the stick at an attitude (boom and stick together); as near to it as the bucket's range allows.
+double level_bucket(const MachineModel& machine, double stick_attitude);
+
 // Parameters of the script "pass" by name.
 std::vector<ScriptAngle> pass_angles(const MachineModel& machine, const PassTask& task, const PassPoses& poses, const PassThresholds& thresholds);
 Script pass_script(const ScriptSet& scripts, const MachineModel& machine, const PassTask& task, const PassPoses& poses, const PassThresholds& thresholds);

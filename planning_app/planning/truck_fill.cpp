@@ -23,12 +23,9 @@ double TruckFill::next_goal_kg() const {
 double TruckFill::allowed_kg(double kg, double stays_kg) const {
   if (stays_kg > 0.0) return kg > stays_kg ? stays_kg + allowed_kg(kg - stays_kg) : kg;
   if (loaded_ + kg > most_share * target_) return std::max(0.0, rest_kg());
-  if (full_with(kg)) return kg;
-  // Two passes at least are left: this one leaves the last enough, unless there is too little for two.
-  const double handful = handful_kg(), rest = rest_kg();
-  return rest - kg < handful && rest >= 2.0 * handful ? rest - handful : kg;
+  return kg;
 }
 
-bool TruckFill::must_weigh(double heaped_kg) const { return rest_kg() < heaped_kg + handful_kg(); }
+bool TruckFill::must_weigh(double heaped_kg) const { return loaded_ + heaped_kg > most_share * target_; }
 
 }  // namespace berm::app

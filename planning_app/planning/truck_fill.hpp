@@ -19,21 +19,16 @@ public:
   int passes_left() const;
   // What the next pass should bring: the rest in equal parts, so that the last is no handful.
   double next_goal_kg() const;
-  // What a bucket of this much may hold when it leaves the dig, of which stays_kg stick in it and do not reach the truck: less when it would overload it, or leave a handful for the pass after it.
+  // What a bucket of this much may pour and keep stuck, of which stays_kg stick in it and do not reach the truck: less when it would overload it.
   double allowed_kg(double kg, double stays_kg = 0.0) const;
-  // How far above its goal a trimmed bucket may stay.
-  double tolerance_kg() const { return (most_share - aim_share) * target_; }
-  // Whether a bucket that holds at most so much may hold more than is allowed: it has to be weighed before it leaves the dig.
+  // Whether a bucket that holds at most so much may hold more than is allowed: it has to be weighed before it pours.
   bool must_weigh(double heaped_kg) const;
 
-  // Shares of the target: what is filled up to, when it is full, and what is let go of rather than loaded, a weighing's error below the target.
+  // Shares of the target: what is filled up to, when it is full, and what is kept back rather than loaded, a weighing's error below the target.
   static constexpr double aim_share = 0.988, full_share = 0.98, most_share = 0.995;
-  static constexpr double handful_share = 0.25;  // of a full bucket; a pass planned for less would be inexact ...
-  static constexpr double worth_share = 0.06;    // ... and for less than this not worth its time
+  static constexpr double worth_share = 0.06;    // of a full bucket; a pass for less is not worth its time
 
 private:
-  double handful_kg() const { return handful_share * full_bucket_; }
-
   double target_, full_bucket_;
   double loaded_ = 0.0;
   int passes_ = 0;

@@ -1,4 +1,4 @@
-// Passes of any yield: the goals sum to the target, no planned pass is a handful, and no truck is loaded beyond its limit.
+// Passes of any yield: the goals sum to the target, no pass is planned for less than half a bucket of them, and no truck is loaded beyond its limit.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -33,7 +33,7 @@ RC_GTEST_PROP(TruckFill, GoalsThatAreMetSumToTheTarget, ()) {
   RC_ASSERT(std::abs(fill.loaded_kg() - TruckFill::aim_share * target) < 1e-6);
 }
 
-// Buckets come with anything from a fifth of the goal to all that they hold; what is not weighed at the dig goes as it is.
+// Buckets come with anything from a fifth of the goal to all that they hold; what is not weighed goes as it is.
 RC_GTEST_PROP(TruckFill, WhateverTheBucketsBringEveryTruckEndsWithinItsLimits, ()) {
   const double target = drawn_target();
   TruckFill fill(target, full_bucket);
@@ -47,17 +47,6 @@ RC_GTEST_PROP(TruckFill, WhateverTheBucketsBringEveryTruckEndsWithinItsLimits, (
   RC_ASSERT(fill.full());
   RC_ASSERT(fill.loaded_kg() <= TruckFill::most_share * target + 1e-6);
   RC_ASSERT(fill.loaded_kg() >= std::min(TruckFill::full_share * target, TruckFill::aim_share * target - TruckFill::worth_share * full_bucket));
-}
-
-// Buckets that bring what they are to, or more: then what is left for another pass is never a handful.
-RC_GTEST_PROP(TruckFill, NoPassIsLeftAHandful, ()) {
-  TruckFill fill(drawn_target(), full_bucket);
-  while (!fill.full()) {
-    const double goal = fill.next_goal_kg();
-    RC_ASSERT(goal >= TruckFill::handful_share * full_bucket - 1e-6);
-    const double brought = drawn(std::min(goal, heaped), heaped);
-    fill.add_pass(fill.must_weigh(heaped) ? fill.allowed_kg(brought) : brought, 0.0);
-  }
 }
 
 }  // namespace

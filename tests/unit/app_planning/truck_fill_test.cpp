@@ -8,13 +8,14 @@ using berm::app::TruckFill;
 
 constexpr double full_bucket = 1560.0;
 
-TEST(TruckFill, FullFromNinetyEightPercentOn) {
+TEST(TruckFill, FullFromItsShareOn) {
   TruckFill fill(18000.0, full_bucket);
   for (int i = 0; i < 11; ++i) fill.add_pass(1600.0, 0.0);
   EXPECT_FALSE(fill.full());  // 17 600
-  EXPECT_FALSE(fill.full_with(39.0));
-  EXPECT_TRUE(fill.full_with(41.0));
-  fill.add_pass(41.0, 0.0);
+  const double left = TruckFill::full_share * 18000.0 - 17600.0;
+  EXPECT_FALSE(fill.full_with(left - 1.0));
+  EXPECT_TRUE(fill.full_with(left + 1.0));
+  fill.add_pass(left + 1.0, 0.0);
   EXPECT_TRUE(fill.full());
   EXPECT_EQ(fill.passes(), 12);
   EXPECT_EQ(fill.passes_left(), 0);
@@ -47,14 +48,13 @@ TEST(TruckFill, TheRestIsPlannedInTheFewestEqualPasses) {
   EXPECT_NEAR(fill.next_goal_kg(), 0.5 * (full_bucket + 40.0), 1e-9);
 }
 
-TEST(TruckFill, ABucketIsTrimmedThatWouldOverloadTheTruckOrLeaveAHandful) {
+TEST(TruckFill, OfABucketThatWouldOverloadTheTruckAPartIsAllowed) {
   TruckFill fill(4500.0, full_bucket);
   fill.add_pass(3000.0, 0.0);
   const double rest = 4500.0 * TruckFill::aim_share - 3000.0;
   EXPECT_EQ(fill.allowed_kg(1600.0), rest) << "overload";
   EXPECT_EQ(fill.allowed_kg(1450.0), 1450.0) << "within the limits";
-  const double handful = TruckFill::handful_share * full_bucket;
-  EXPECT_NEAR(fill.allowed_kg(1300.0), rest - handful, 1e-9) << "a handful would be left";
+  EXPECT_EQ(fill.allowed_kg(1300.0), 1300.0) << "the rest is another pass's";
   EXPECT_EQ(fill.allowed_kg(900.0), 900.0) << "enough is left";
 }
 
@@ -62,8 +62,8 @@ TEST(TruckFill, OnlyABucketThatMayHoldTooMuchHasToBeWeighed) {
   TruckFill fill(18000.0, full_bucket);
   EXPECT_FALSE(fill.must_weigh(1600.0));
   for (int i = 0; i < 10; ++i) fill.add_pass(1480.0, 0.0);
-  EXPECT_FALSE(fill.must_weigh(1600.0));  // 2984 kg left: no bucket leaves less than two thirds of one
-  fill.add_pass(1480.0, 0.0);
+  EXPECT_FALSE(fill.must_weigh(1600.0));  // 2984 kg left: no bucket is too much
+  fill.add_pass(1600.0, 0.0);
   EXPECT_TRUE(fill.must_weigh(1600.0));
 }
 
