@@ -304,15 +304,15 @@ class Weighing {
 
 struct Pair {
   int rear = 0, front = 0, open_end = 0, cab_end = 0;
-  double score = 0.0, bed = 0.0, cab = 0.0;
+  float score = 0.0F, bed = 0.0F, cab = 0.0F;
 };
 
-Pair pair(int rear, int front, int open_end, int cab_end, double bed, double cab) {
-  return {rear, front, open_end, cab_end, with_cab(bed, cab), bed, cab};
+Pair pair(int rear, int front, int open_end, int cab_end, float bed, float cab) {
+  return {rear, front, open_end, cab_end, static_cast<float>(with_cab(static_cast<double>(bed), static_cast<double>(cab))), bed, cab};
 }
 
 // Near to each other at both ends, or at one and as good: what lies at the other is not seen.
-bool same(const Pair& a, const Pair& b, double as_good) {
+bool same(const Pair& a, const Pair& b, float as_good) {
   const bool rear = std::abs(a.rear - b.rear) < kEndsApart, front = std::abs(a.front - b.front) < kEndsApart;
   return (rear && front) || ((rear || front) && std::abs(a.score - b.score) <= as_good);
 }
@@ -338,32 +338,32 @@ std::vector<BedEnds> best_ends(const BedStrip& strip, const std::vector<Ray>& ra
     cab_rear[static_cast<std::size_t>(k)] = static_cast<float>(w.cab.beyond(place_of(k) - strip.thickness, -1, share));
   }
   std::vector<Pair> pairs;
-  for (int i = 0; i + shortest < kEnds; ++i)
+  for (int i = 0; i + shortest < kEnds; ++i) {
+    const float cab_at_rear = cab_rear[static_cast<std::size_t>(i)], rear = w.rear_face.at(i);
     for (int j = i + shortest; j <= std::min(i + longest, kEnds - 1); ++j) {
       const Ways& sums = w.sums.at(i, j);
-      const float sides = w.sides(i, j, share), rear = sides + w.rear_face.at(i), front = sides + w.front_face.at(j);
-      const float cab_at_front = cab_front[static_cast<std::size_t>(j)], cab_at_rear = cab_rear[static_cast<std::size_t>(i)];
-      Pair p = pair(i, j, 0, cab_at_front >= cab_at_rear ? 1 : -1, sums[0] + rear + front - sides, std::max(cab_at_front, cab_at_rear));
-      for (const Pair& open : {pair(i, j, -1, 1, sums[1] + front - open_weight, cab_at_front), pair(i, j, 1, -1, sums[2] + rear - open_weight, cab_at_rear)})
+      const float front = w.front_face.at(j), sides = w.sides(i, j, share);
+      const float closed = sums[0] + sides + rear + front, open_rear = sums[1] + sides + front - open_weight, open_front = sums[2] + sides + rear - open_weight;
+      if (std::max({closed, open_rear, open_front}) <= 0.0F) continue;  // nor with any cab
+      const float cab_at_front = cab_front[static_cast<std::size_t>(j)];
+      Pair p = pair(i, j, 0, cab_at_front >= cab_at_rear ? 1 : -1, closed, std::max(cab_at_front, cab_at_rear));
+      for (const Pair& open : {pair(i, j, -1, 1, open_rear, cab_at_front), pair(i, j, 1, -1, open_front, cab_at_rear)})
         if (open.score > p.score) p = open;
-      if (p.score > 0.0 && w.clear_of_sensor(place_of(i), place_of(j))) pairs.push_back(p);
+      if (p.score > 0.0F && w.clear_of_sensor(place_of(i), place_of(j))) pairs.push_back(p);
     }
-  const double as_good = kAsGood / share, usual = 0.5 * (shortest + longest);
+  }
+  const auto as_good = static_cast<float>(kAsGood / share);
+  const double usual = 0.5 * (shortest + longest);
   const auto unusual = [usual](const Pair& p) { return std::abs(p.front - p.rear - usual); };
   std::vector<BedEnds> out;
-  std::vector<Pair> chosen;
-  while (chosen.size() < most) {
-    const auto is_new = [&](const Pair& p) { return std::none_of(chosen.begin(), chosen.end(), [&](const Pair& c) { return same(c, p, as_good); }); };
-    const Pair* best = nullptr;
-    for (const Pair& p : pairs)
-      if ((best == nullptr || p.score > best->score) && is_new(p)) best = &p;
-    if (best == nullptr) break;
+  while (out.size() < most && !pairs.empty()) {
+    const Pair best = *std::max_element(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.score < b.score; });
     // Of an end that no ray shows: where it makes a bed of a usual length.
-    const Pair most_likely = *best;
+    Pair chosen = best;
     for (const Pair& p : pairs)
-      if ((p.rear == most_likely.rear || p.front == most_likely.front) && p.score >= most_likely.score - as_good && unusual(p) < unusual(*best) && is_new(p)) best = &p;
-    chosen.push_back(*best);
-    out.push_back({pose_of(strip, *best), best->cab_end, share * best->bed, share * best->cab});
+      if ((p.rear == best.rear || p.front == best.front) && p.score >= best.score - as_good && unusual(p) < unusual(chosen)) chosen = p;
+    out.push_back({pose_of(strip, chosen), chosen.cab_end, share * static_cast<double>(chosen.bed), share * static_cast<double>(chosen.cab)});
+    if (out.size() < most) std::erase_if(pairs, [&](const Pair& p) { return same(chosen, p, as_good); });
   }
   return out;
 }

@@ -74,76 +74,79 @@ template <bool counted>
     const Four one_by_u = one_by(d.u), one_by_v = one_by(d.v);
     const Crossings outer(a, one_by_u, one_by_v, rear, front, side);
     const Four in = outer.in(), out = outer.out(), entry_w = a.w + in * d.w, entry_v = a.v + in * d.v;
-    const FourInt comes = (in < out) & (in > 0.0F) & (entry_w >= four(-kWallSeen)), by_side = outer.in_v > outer.in_u;
-    const FourInt to_open = open * d.u > 0.0F, enters_open = any_open & ~to_open & ~by_side;
+    const FourInt comes = (in < out) & (in > 0.0F) & (entry_w >= four(-kWallSeen));
+    if (!any4(comes)) continue;
+    const FourInt by_side = outer.in_v > outer.in_u, to_open = open * d.u > 0.0F, low = comes & (entry_w < 0.0F), high = comes & ~low;
     const Four off_entry = (1.0F - in) * r.range;
-
-    // From within: stopped by load or floor, by the face that it comes to, or not at all.
-    const Crossings inner(a, one_by_u, one_by_v, -half_length, half_length, half_width);
-    const Four off_inner = (1.0F - inner.out()) * r.range;
-    const FourInt leaves_open = to_open & ~(inner.out_v < inner.out_u), far_enough = off_inner <= gate, short_of = off_inner < -gate;
-    const FourInt stopped = short_of | (leaves_open & far_enough), on_inner = ~stopped & ~leaves_open & far_enough, passes_inner = ~stopped & ~leaves_open & ~far_enough;
-    const FourInt too_deep = stopped & (end.w < four(-kDeepest));
+    FourInt within{}, judged = comes, passed{};  // passed: through a face from outside, or through a top
+    Four score{};
 
     // Comes to a face below the tops.
-    const FourInt low = comes & (entry_w < 0.0F), hidden_low = low & (off_entry < -gate), open_in = low & ~hidden_low & enters_open & (magnitude4(entry_v) < half_v);
-    const FourInt at_face = low & ~hidden_low & ~open_in, on_outer = at_face & (off_entry <= gate);
-    FourInt below_side{}, through_face = at_face & ~on_outer;
-    if (const FourInt side_passed = through_face & by_side; sum4(side_passed) != 0) {
-      below_side = side_passed & below_pipe4(a, d, side, gate / r.range);
-      through_face &= ~below_side;
+    if (any4(low)) {
+      const FourInt hidden = low & (off_entry < -gate), open_in = low & ~hidden & any_open & ~to_open & ~by_side & (magnitude4(entry_v) < half_v);
+      const FourInt at_face = low & ~hidden & ~open_in, on_outer = at_face & (off_entry <= gate);
+      FourInt below_side{}, through_face = at_face & ~on_outer;
+      if (const FourInt side_passed = through_face & by_side; any4(side_passed)) {
+        below_side = side_passed & below_pipe4(a, d, side, gate / r.range);
+        through_face &= ~below_side;
+      }
+      const Four fits = fit4(off_entry, kRangeGate);
+      sums.end_face += where4(on_outer & ~by_side, fits);
+      sums.side_face += where4(on_outer & by_side, fits);
+      score -= where4(through_face, four(kThrough));
+      within = open_in, judged &= ~on_outer & ~below_side, passed = through_face;
+      if constexpr (counted) sums.before -= hidden, sums.outer_face -= on_outer, sums.through -= through_face;
     }
 
     // Or above them, and down through their plane.
-    const FourInt high = comes & ~low, above = high & (entry_w > 0.1F) & (magnitude4(off_entry) < gate);
-    const Four to_rim = -a.w / choose4(d.w < 0.0F, d.w, four(-1.0)), rim_u = a.u + to_rim * d.u, rim_v = a.v + to_rim * d.v;
-    const FourInt reaches = high & ~above & (off_entry >= -gate), down = reaches & (d.w < 0.0F) & (to_rim < out);
-    const FourInt over_opening = (magnitude4(rim_u) < half_u) & (magnitude4(rim_v) < half_v);
-    const Four off_rim = (1.0F - to_rim) * r.range;
-    const FourInt rim_in = down & over_opening & (off_rim >= -0.1F);
-    const FourInt at_top = down & ~over_opening & (off_rim >= four(-kTopGate)), on_top = at_top & (off_rim <= four(kTopGate)), through_top = at_top & ~on_top;
-
-    const FourInt within = open_in | rim_in;
-    const Four fits_entry = fit4(off_entry, kRangeGate);
-    sums.end_face += where4(on_outer & ~by_side, fits_entry);
-    sums.side_face += where4(on_outer & by_side, fits_entry);
-    Four score = where4(within & stopped, choose4(too_deep, four(-kThrough), four(kInside)));
-    score += where4(within & on_inner, four(kInside) + four(1.0 - kInside) * fit4(off_inner, kRangeGate));
-    score -= where4((within & passes_inner) | through_face, four(kThrough));
-    score -= where4(above, four(kAbove));
-    score += where4(on_top, four(kTop) * fit4(off_rim, kTopGate));
-    score -= where4(through_top, four(0.5 * kThrough));
-
-    // The return's own place. In the plane of a far wall's inner face, but above its top: no heap comes so high beside a wall.
-    const FourInt judged = comes & ~on_outer & ~below_side;
-    const Four from_end = magnitude4(end.u), from_side = magnitude4(end.v), on_near = four(kInnerGate);
-    const FourInt at_ends = (from_side < half_v) & ((wall_at_front & (a.u < half_u) & (magnitude4(end.u - half_u) < on_near)) |
-                                                    (wall_at_rear & (a.u > -half_u) & (magnitude4(end.u + half_u) < on_near)));
-    const FourInt at_sides = (from_end < half_u) & (((a.v < half_v) & (magnitude4(end.v - half_v) < on_near)) | ((a.v > -half_v) & (magnitude4(end.v + half_v) < on_near)));
-    const FourInt above_inner = judged & (end.w >= four(kAboveInner)) & (end.w <= four(kAboveInnerMost)) & (at_ends | at_sides);
-    score -= where4(above_inner, four(kAbove));
-    const Four to_wall = least4(half_u - from_end, half_v - from_side);
-    const FourInt steep = (r.upright & (to_wall > four(kUprightMargin))) | (to_wall < (end.w - four(kHeapOver)) * four(1.0 / kHeapSlope));
-    const FourInt not_soil = judged & (to_wall >= 0.0F) & steep & (end.w > four(-kDeepest)) & (end.w < four(kUprightAbove)) & ~through_face & ~through_top;
-    score -= where4(not_soil, four(kUpright));
-    const FourInt amid = judged & (to_wall >= four(kLevelMargin)), level = amid & (magnitude4(end.w) < four(kLevelWithin));
-    score -= where4(level, four(kLevel));
-    sums.score += score;
-    if constexpr (counted) {
-      sums.outer_face -= on_outer;
-      sums.inner_face -= within & on_inner;
-      sums.wall_top -= on_top;
-      sums.inside -= within & stopped & ~too_deep;
-      sums.through -= (within & ((stopped & too_deep) | passes_inner)) | through_face | through_top;
-      sums.over -= (within & leaves_open & ~far_enough) | (reaches & ~down & ((d.w >= 0.0F) | (out <= 1.0F)));
-      sums.before -= hidden_low | (high & ~above & ~reaches) | (reaches & ~down & (d.w < 0.0F) & (out > 1.0F)) | (down & ~rim_in & ~at_top);
-      sums.above_face -= above;
-      sums.above_inner -= above_inner;
-      sums.not_soil -= not_soil;
-      sums.level_inside -= level;
-      sums.below_inside -= amid & (end.w < four(-kLevelWithin));
-      sums.above_inside -= amid & (end.w > four(kLevelWithin));
+    if (any4(high)) {
+      const FourInt above = high & (entry_w > 0.1F) & (magnitude4(off_entry) < gate), reaches = high & ~above & (off_entry >= -gate);
+      const Four to_rim = -a.w / choose4(d.w < 0.0F, d.w, four(-1.0)), rim_u = a.u + to_rim * d.u, rim_v = a.v + to_rim * d.v;
+      const FourInt down = reaches & (d.w < 0.0F) & (to_rim < out), over_opening = (magnitude4(rim_u) < half_u) & (magnitude4(rim_v) < half_v);
+      const Four off_rim = (1.0F - to_rim) * r.range;
+      const FourInt rim_in = down & over_opening & (off_rim >= -0.1F);
+      const FourInt at_top = down & ~over_opening & (off_rim >= four(-kTopGate)), on_top = at_top & (off_rim <= four(kTopGate)), through_top = at_top & ~on_top;
+      score -= where4(above, four(kAbove));
+      score += where4(on_top, four(kTop) * fit4(off_rim, kTopGate));
+      score -= where4(through_top, four(0.5 * kThrough));
+      within |= rim_in, passed |= through_top;
+      if constexpr (counted) {
+        const FourInt not_down = reaches & ~down, before = (d.w < 0.0F) & (out > 1.0F);
+        sums.above_face -= above, sums.wall_top -= on_top, sums.through -= through_top;
+        sums.before -= (high & ~above & ~reaches) | (not_down & before) | (down & ~rim_in & ~at_top);
+        sums.over -= not_down & ~before;
+      }
     }
+
+    // From within: stopped by load or floor, by the face that it comes to, or not at all.
+    if (any4(within)) {
+      const Crossings inner(a, one_by_u, one_by_v, -half_length, half_length, half_width);
+      const Four off = (1.0F - inner.out()) * r.range;
+      const FourInt leaves_open = to_open & ~(inner.out_v < inner.out_u), far_enough = off <= gate, stopped = within & ((off < -gate) | (leaves_open & far_enough));
+      const FourInt on_inner = within & ~stopped & ~leaves_open & far_enough, passes = within & ~leaves_open & ~far_enough, too_deep = stopped & (end.w < four(-kDeepest));
+      score += where4(stopped, choose4(too_deep, four(-kThrough), four(kInside)));
+      score += where4(on_inner, four(kInside) + four(1.0 - kInside) * fit4(off, kRangeGate));
+      score -= where4(passes, four(kThrough));
+      if constexpr (counted) sums.inside -= stopped & ~too_deep, sums.inner_face -= on_inner, sums.through -= too_deep | passes, sums.over -= within & leaves_open & ~far_enough;
+    }
+
+    // The return's own place: in the plane of a far wall's inner face, but above its top, where no heap comes so high; too steep for soil; level with the tops.
+    const Four from_end = magnitude4(end.u), from_side = magnitude4(end.v), to_wall = least4(half_u - from_end, half_v - from_side);
+    const FourInt amid = judged & (to_wall >= four(kLevelMargin));
+    if (any4(judged & (r.upright | (end.w > four(-kLevelWithin))))) {
+      const Four on_near = four(kInnerGate);
+      const FourInt at_ends = (from_side < half_v) & ((wall_at_front & (a.u < half_u) & (magnitude4(end.u - half_u) < on_near)) |
+                                                      (wall_at_rear & (a.u > -half_u) & (magnitude4(end.u + half_u) < on_near)));
+      const FourInt at_sides = (from_end < half_u) & (((a.v < half_v) & (magnitude4(end.v - half_v) < on_near)) | ((a.v > -half_v) & (magnitude4(end.v + half_v) < on_near)));
+      const FourInt above_inner = judged & (end.w >= four(kAboveInner)) & (end.w <= four(kAboveInnerMost)) & (at_ends | at_sides);
+      const FourInt steep = (r.upright & (to_wall > four(kUprightMargin))) | (to_wall < (end.w - four(kHeapOver)) * four(1.0 / kHeapSlope));
+      const FourInt not_soil = judged & ~passed & steep & (to_wall >= 0.0F) & (end.w > four(-kDeepest)) & (end.w < four(kUprightAbove));
+      const FourInt level = amid & (magnitude4(end.w) < four(kLevelWithin));
+      score -= where4(above_inner, four(kAbove)) + where4(not_soil, four(kUpright)) + where4(level, four(kLevel));
+      if constexpr (counted) sums.above_inner -= above_inner, sums.not_soil -= not_soil, sums.level_inside -= level;
+    }
+    if constexpr (counted) sums.below_inside -= amid & (end.w < four(-kLevelWithin)), sums.above_inside -= amid & (end.w > four(kLevelWithin));
+    sums.score += score;
   }
   BedEvidence e;
   const auto sum = [](Four lanes) { return static_cast<double>(sum4(lanes)); };
