@@ -109,15 +109,30 @@ struct StripRay {
   [[nodiscard]] double u(double t) const { return a.x() + t * d.x(); }
 };
 
+BedPose pose_of(const BedStrip& strip) {
+  BedPose pose;
+  pose.middle = strip.middle;
+  pose.yaw = strip.yaw, pose.pitch = strip.pitch, pose.roll = strip.roll;
+  return pose;
+}
+
+CabProfile cab_of(const BedStrip& strip, const std::vector<Ray>& rays) {
+  CabProfile cab(strip.width / 2, strip.width / 2 + strip.thickness);
+  const Placing place(pose_of(strip));
+  Vector3d head(0.0, 0.0, 0.0), a = place.of(head);
+  for (const Ray& ray : rays) {
+    if (ray.head != head) head = ray.head, a = place.of(head);  // that of a whole fan
+    cab.take(a, place.of(ray.at) - a, ray.upright);
+  }
+  cab.finish();
+  return cab;
+}
+
 class Weighing {
  public:
   Weighing(const BedStrip& strip, const std::vector<Ray>& rays, const Steps& steps)
-      : sums(steps), cab(strip.width / 2, strip.width / 2 + strip.thickness),
-        inner_(strip.width / 2), outer_(inner_ + strip.thickness), thickness_(strip.thickness), slack_(strip.slack) {
-    BedPose pose;
-    pose.yaw = strip.yaw, pose.pitch = strip.pitch, pose.roll = strip.roll;
-    pose.middle = strip.middle;
-    const Placing place(pose);
+      : sums(steps), inner_(strip.width / 2), outer_(inner_ + strip.thickness), thickness_(strip.thickness), slack_(strip.slack) {
+    const Placing place(pose_of(strip));
     Vector3d head(0.0, 0.0, 0.0), a = place.of(head);
     for (const Ray& ray : rays) {
       if (ray.head != head) head = ray.head, a = place.of(head);  // that of a whole fan
@@ -125,7 +140,6 @@ class Weighing {
       r.a = a;
       r.d = place.of(ray.at) - a;
       if (std::abs(r.a.y()) < outer_ + kSensorClear) sensor_first_ = std::min(sensor_first_, r.a.x()), sensor_last_ = std::max(sensor_last_, r.a.x());
-      cab.take(r.a, r.d, ray.upright);
       if (!enter(r)) continue;
       take(r, ray.upright);
       if (r.a.z() + r.d.z() > 0.0) over_opening(r, ray.upright);
@@ -133,7 +147,6 @@ class Weighing {
     }
     sums.finish();
     for (EndSums* s : {&rear_face, &front_face, &side_faces}) s->finish();
-    cab.finish();
   }
 
   // The sensors' places along the strip, where they are not well beside it.
@@ -147,7 +160,6 @@ class Weighing {
   [[nodiscard]] float sides(int rear, int front, double share) const {
     return static_cast<float>(saturated(share * static_cast<double>(side_faces.at(front) - side_faces.at(rear))) / share);
   }
-  CabProfile cab;
 
  private:
   EndSums side_faces;               // running along the strip
@@ -302,27 +314,33 @@ class Weighing {
   double sensor_first_ = kNever, sensor_last_ = -kNever;
 };
 
-struct Pair {
-  int rear = 0, front = 0, open_end = 0, cab_end = 0;
-  double score = 0.0, bed = 0.0, cab = 0.0;
+// What a pair of ends is worth as a bed with both walls, and without one of them.
+struct Beds {
+  int rear, front;
+  float closed, open_rear, open_front;
 };
 
-Pair pair(int rear, int front, int open_end, int cab_end, double bed, double cab) {
-  return {rear, front, open_end, cab_end, with_cab(bed, cab), bed, cab};
+struct Pair {
+  int rear = 0, front = 0, open_end = 0, cab_end = 0;
+  float score = 0.0F, bed = 0.0F, cab = 0.0F;
+};
+
+Pair pair(const Beds& b, int open_end, int cab_end, float bed, float cab) {
+  return {b.rear, b.front, open_end, cab_end, static_cast<float>(with_cab(static_cast<double>(bed), static_cast<double>(cab))), bed, cab};
 }
 
 // Near to each other at both ends, or at one and as good: what lies at the other is not seen.
-bool same(const Pair& a, const Pair& b, double as_good) {
+bool same(const Pair& a, const Pair& b, float as_good) {
   const bool rear = std::abs(a.rear - b.rear) < kEndsApart, front = std::abs(a.front - b.front) < kEndsApart;
   return (rear && front) || ((rear || front) && std::abs(a.score - b.score) <= as_good);
 }
 
 BedPose pose_of(const BedStrip& strip, const Pair& pair) {
-  BedPose p;
-  p.yaw = strip.yaw, p.pitch = strip.pitch, p.roll = strip.roll, p.width = strip.width, p.thickness = strip.thickness, p.open_end = pair.open_end;
+  BedPose p = pose_of(strip);
+  p.width = strip.width, p.thickness = strip.thickness, p.open_end = pair.open_end;
   const double rear = place_of(pair.rear), front = place_of(pair.front);
   p.length = front - rear;
-  p.middle = strip.middle + p.rotation() * Vector3d(0.5 * (rear + front), 0.0, 0.0);
+  p.middle += p.rotation() * Vector3d(0.5 * (rear + front), 0.0, 0.0);
   return p;
 }
 
@@ -332,38 +350,43 @@ std::vector<BedEnds> best_ends(const BedStrip& strip, const std::vector<Ray>& ra
   const int shortest = static_cast<int>(lengths[0] / kEndStep), longest = std::min(static_cast<int>(std::ceil(lengths[1] / kEndStep)), kEnds - 1);
   const Weighing w(strip, rays, {shortest, longest});
   const auto open_weight = static_cast<float>(kOpenEnd / share);
-  std::array<float, kEnds> cab_front{}, cab_rear{};
-  for (int k = 0; k < kEnds; ++k) {
-    cab_front[static_cast<std::size_t>(k)] = static_cast<float>(w.cab.beyond(place_of(k) + strip.thickness, 1, share));
-    cab_rear[static_cast<std::size_t>(k)] = static_cast<float>(w.cab.beyond(place_of(k) - strip.thickness, -1, share));
-  }
-  std::vector<Pair> pairs;
-  for (int i = 0; i + shortest < kEnds; ++i)
+  std::vector<Beds> beds;
+  for (int i = 0; i + shortest < kEnds; ++i) {
+    const float rear = w.rear_face.at(i);
     for (int j = i + shortest; j <= std::min(i + longest, kEnds - 1); ++j) {
       const Ways& sums = w.sums.at(i, j);
-      const float sides = w.sides(i, j, share), rear = sides + w.rear_face.at(i), front = sides + w.front_face.at(j);
-      const float cab_at_front = cab_front[static_cast<std::size_t>(j)], cab_at_rear = cab_rear[static_cast<std::size_t>(i)];
-      Pair p = pair(i, j, 0, cab_at_front >= cab_at_rear ? 1 : -1, sums[0] + rear + front - sides, std::max(cab_at_front, cab_at_rear));
-      for (const Pair& open : {pair(i, j, -1, 1, sums[1] + front - open_weight, cab_at_front), pair(i, j, 1, -1, sums[2] + rear - open_weight, cab_at_rear)})
-        if (open.score > p.score) p = open;
-      if (p.score > 0.0 && w.clear_of_sensor(place_of(i), place_of(j))) pairs.push_back(p);
+      const float front = w.front_face.at(j), sides = w.sides(i, j, share);
+      const Beds b{i, j, sums[0] + sides + rear + front, sums[1] + sides + front - open_weight, sums[2] + sides + rear - open_weight};
+      if (std::max({b.closed, b.open_rear, b.open_front}) > 0.0F && w.clear_of_sensor(place_of(i), place_of(j))) beds.push_back(b);
     }
-  const double as_good = kAsGood / share, usual = 0.5 * (shortest + longest);
+  }
+  if (beds.empty()) return {};  // nor with any cab
+  const CabProfile cab = cab_of(strip, rays);
+  std::array<float, kEnds> cab_front{}, cab_rear{};
+  for (int k = 0; k < kEnds; ++k) {
+    cab_front[static_cast<std::size_t>(k)] = static_cast<float>(cab.beyond(place_of(k) + strip.thickness, 1, share));
+    cab_rear[static_cast<std::size_t>(k)] = static_cast<float>(cab.beyond(place_of(k) - strip.thickness, -1, share));
+  }
+  std::vector<Pair> pairs;
+  for (const Beds& b : beds) {
+    const float at_front = cab_front[static_cast<std::size_t>(b.front)], at_rear = cab_rear[static_cast<std::size_t>(b.rear)];
+    Pair p = pair(b, 0, at_front >= at_rear ? 1 : -1, b.closed, std::max(at_front, at_rear));
+    for (const Pair& open : {pair(b, -1, 1, b.open_rear, at_front), pair(b, 1, -1, b.open_front, at_rear)})
+      if (open.score > p.score) p = open;
+    if (p.score > 0.0F) pairs.push_back(p);
+  }
+  const auto as_good = static_cast<float>(kAsGood / share);
+  const double usual = 0.5 * (shortest + longest);
   const auto unusual = [usual](const Pair& p) { return std::abs(p.front - p.rear - usual); };
   std::vector<BedEnds> out;
-  std::vector<Pair> chosen;
-  while (chosen.size() < most) {
-    const auto is_new = [&](const Pair& p) { return std::none_of(chosen.begin(), chosen.end(), [&](const Pair& c) { return same(c, p, as_good); }); };
-    const Pair* best = nullptr;
-    for (const Pair& p : pairs)
-      if ((best == nullptr || p.score > best->score) && is_new(p)) best = &p;
-    if (best == nullptr) break;
+  while (out.size() < most && !pairs.empty()) {
+    const Pair best = *std::max_element(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.score < b.score; });
     // Of an end that no ray shows: where it makes a bed of a usual length.
-    const Pair most_likely = *best;
+    Pair chosen = best;
     for (const Pair& p : pairs)
-      if ((p.rear == most_likely.rear || p.front == most_likely.front) && p.score >= most_likely.score - as_good && unusual(p) < unusual(*best) && is_new(p)) best = &p;
-    chosen.push_back(*best);
-    out.push_back({pose_of(strip, *best), best->cab_end, share * best->bed, share * best->cab});
+      if ((p.rear == best.rear || p.front == best.front) && p.score >= best.score - as_good && unusual(p) < unusual(chosen)) chosen = p;
+    out.push_back({pose_of(strip, chosen), chosen.cab_end, share * static_cast<double>(chosen.bed), share * static_cast<double>(chosen.cab)});
+    if (out.size() < most) std::erase_if(pairs, [&](const Pair& p) { return same(chosen, p, as_good); });
   }
   return out;
 }

@@ -13,6 +13,7 @@
 namespace berm::app {
 namespace {
 
+constexpr double kSpeaking = 0.55, kSpeakingBelow = 0.2;  // m from the walls, and below what is seen of them: rays beyond make no statement
 constexpr double kBlur = 3.0;                 // of edges, from round to round
 constexpr int kIterations = 12;
 constexpr double kCostStep = 1e-2;            // in squared standard deviations: the fit ends
@@ -62,10 +63,11 @@ class Statements {
   const Known& known_;
 };
 
-}  // namespace
+enum class Wanted { pose, covariance };
 
-FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds, const BedSizes& sizes, BedSolver solver) {
+FittedBed fit(const BedPose& start, const std::vector<Ray>& all_rays, int rounds, const BedSizes& sizes, BedSolver solver, Wanted wanted) {
   const Known known = known_of(sizes);
+  const std::vector<Ray> rays = rays_meeting(start, all_rays, kSpeaking, kSpeakingBelow);
   FittedBed fit;
   fit.pose = start;
   for (int round = 0; round < rounds; ++round) {
@@ -84,11 +86,21 @@ FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds
     fit.pose.thickness = std::clamp(fit.pose.thickness, std::max(kThinnest, sizes.thickness[0] - kThicknessSlack), sizes.thickness[1] + kThicknessSlack);
     if (round + 1 < rounds) continue;
     fit.converged = true;
+    if (wanted == Wanted::pose) continue;
     const Normal inverse = Eigen::LDLT<Normal>(Statements(statements, start.open_end, known).information(values)).solve(Normal::Identity());
     fit.covariance = inverse.topLeftCorner<8, 8>();
     for (int i = 0; i < 8; ++i) fit.covariance(i, i) += kBodyDeviation[static_cast<std::size_t>(i)] * kBodyDeviation[static_cast<std::size_t>(i)];
   }
   return fit;
+}
+
+}  // namespace
+
+FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds, const BedSizes& sizes, BedSolver solver) {
+  return fit(start, rays, rounds, sizes, solver, Wanted::covariance);
+}
+FittedBed fit_pose(const BedPose& start, const std::vector<Ray>& rays, int rounds, const BedSizes& sizes) {
+  return fit(start, rays, rounds, sizes, BedSolver::sums, Wanted::pose);
 }
 
 std::array<Eigen::Vector3d, 4> opening_corners(const BedPose& pose) {

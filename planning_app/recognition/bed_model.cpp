@@ -6,7 +6,6 @@
 namespace berm::app {
 namespace {
 
-constexpr double kTiltedAside = 0.15;  // m, by which faces move aside where a ray passes high over a bed that is tilted
 constexpr double kAlongFace = 1e-12;  // m: a ray whose ends differ by less goes along the faces of an axis
 
 // A ray's way through a rectangle of faces in plan, in shares of the ray: by each axis it is between the faces from in to out. No branches: what a ray
@@ -128,78 +127,21 @@ RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray&
   return meet_in_bed(pose, rotation.transpose() * (ray.head - pose.middle), rotation.transpose() * (ray.at - pose.middle));
 }
 
-std::vector<Ray> rays_meeting(const BedPose& pose, const std::vector<Ray>& rays, double moved) {
-  const double wider = moved + kTiltedAside, u = pose.length / 2 + pose.thickness + wider, v = pose.width / 2 + pose.thickness + wider;
+std::vector<Ray> rays_meeting(const BedPose& pose, const std::vector<Ray>& rays, double within, double below) {
+  const double u = pose.length / 2 + pose.thickness + within, v = pose.width / 2 + pose.thickness + within;
   const BedRectangle around{-u, u, v};
   const Placing place(pose);
   std::vector<Ray> out;
   out.reserve(rays.size());
-  for (const Ray& ray : rays) {
-    const Eigen::Vector3d a = place.of(ray.head), d = place.of(ray.at) - a;
-    const Crossing crossing(a.x(), a.y(), one_by(d.x()), one_by(d.y()), around);
-    const double from = std::max(crossing.in(), 0.0), to = crossing.out(), highest = a.z() + (d.z() < 0.0 ? from : to) * d.z();
-    if (from < to && highest >= -kWallSeen - moved) out.push_back(ray);
-  }
-  return out;
-}
-
-namespace {
-
-// Whether the return lies in the plane of a far wall's inner face, but above its top. No heap comes so high beside a wall.
-bool above_inner(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& p) {
-  if (p.z() < kAboveInner || p.z() > kAboveInnerMost) return false;
-  for (int axis = 0; axis < 2; ++axis)
-    for (const int side : {-1, 1}) {
-      const double face = pose.face(axis, side, false);
-      if (axis == 0 && side == pose.open_end) continue;
-      if (side * a[axis] < face && std::abs(side * p[axis] - face) < kInnerGate && std::abs(p[1 - axis]) < pose.face(1 - axis, 1, false)) return true;
-    }
-  return false;
-}
-
-}  // namespace
-
-BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays) {
-  BedEvidence e;
-  double face[2] = {0.0, 0.0};  // on outer faces of ends and of sides
-  const BedFaces faces(pose);
-  const Placing place(pose);
   Eigen::Vector3d head(0.0, 0.0, 0.0), a = place.of(head);
   for (const Ray& ray : rays) {
     if (ray.head != head) head = ray.head, a = place.of(head);  // that of a whole fan
-    const RayMeeting m = faces.meet(a, place.of(ray.at));
-    switch (m.what) {
-      case Meeting::none:
-      case Meeting::below_side: break;
-      case Meeting::before: ++e.before; break;
-      case Meeting::outer_face: ++e.outer_face, face[m.axis] += fit(m.off, kRangeGate); break;
-      case Meeting::above_face: ++e.above_face, e.score -= kAbove; break;
-      case Meeting::wall_top: ++e.wall_top, e.score += kTop * fit(m.off, kTopGate); break;
-      case Meeting::inside:
-        if (m.end.z() < -kDeepest) ++e.through, e.score -= kThrough;
-        else ++e.inside, e.score += kInside;
-        break;
-      case Meeting::inner_face: ++e.inner_face, e.score += kInside + (1.0 - kInside) * fit(m.off, kRangeGate); break;
-      case Meeting::over: ++e.over; break;
-      case Meeting::through_face:
-      case Meeting::through_inner: ++e.through, e.score -= kThrough; break;
-      case Meeting::through_top: ++e.through, e.score -= 0.5 * kThrough; break;
-    }
-    if (m.what == Meeting::none || m.what == Meeting::outer_face || m.what == Meeting::below_side) continue;
-    const Eigen::Vector3d& p = m.end;
-    if (above_inner(pose, a, p)) ++e.above_inner, e.score -= kAbove;
-    const double to_wall = std::min(pose.length / 2 - std::abs(p.x()), pose.width / 2 - std::abs(p.y()));
-    if (to_wall < 0.0) continue;
-    const bool steep = (ray.upright && to_wall > kUprightMargin) || to_wall < heap_margin(p.z());
-    if (steep && p.z() > -kDeepest && p.z() < kUprightAbove && m.what != Meeting::through_face && m.what != Meeting::through_top) ++e.not_soil, e.score -= kUpright;
-    if (to_wall < kLevelMargin) continue;
-    if (std::abs(p.z()) < kLevelWithin) ++e.level_inside, e.score -= kLevel;
-    e.below_inside += p.z() < -kLevelWithin ? 1 : 0;
-    e.above_inside += p.z() > kLevelWithin ? 1 : 0;
+    const Eigen::Vector3d d = place.of(ray.at) - a;
+    const Crossing crossing(a.x(), a.y(), one_by(d.x()), one_by(d.y()), around);
+    const double from = std::max(crossing.in(), 0.0), to = crossing.out(), highest = a.z() + (d.z() < 0.0 ? from : to) * d.z();
+    if (from < to && highest >= -kWallSeen - below) out.push_back(ray);
   }
-  e.score += saturated(face[0]) + saturated(face[1]);
-  if (pose.open_end != 0) e.score -= kOpenEnd;
-  return e;
+  return out;
 }
 
 }  // namespace berm::app

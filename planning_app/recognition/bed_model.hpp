@@ -84,21 +84,10 @@ class BedFaces {
   BedRectangle outer_, inner_;
 };
 
+// Those of the rays that come within so many metres of the walls, in plan, and there no lower than so many below what is seen of them.
+std::vector<Ray> rays_meeting(const BedPose& pose, const std::vector<Ray>& rays, double within, double below);
+
 RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& end);
 RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray& ray);
-
-// Those of the rays that may meet the bed when no corner of it is moved by more than so many metres; the others are no evidence of it.
-std::vector<Ray> rays_meeting(const BedPose& pose, const std::vector<Ray>& rays, double moved);
-
-struct BedEvidence {
-  double score = 0.0;
-  int outer_face = 0, inner_face = 0, wall_top = 0, inside = 0, through = 0, before = 0, over = 0, above_face = 0, above_inner = 0;
-  int level_inside = 0;  // of the returns over the opening, within 5 cm of the plane of the tops, more than 0.3 m from the walls
-  int below_inside = 0;  // more than 5 cm below that plane
-  int above_inside = 0;
-  int not_soil = 0;      // within or over the opening, too steep for soil
-};
-
-BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays);
 
 }  // namespace berm::app

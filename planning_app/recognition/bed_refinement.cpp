@@ -18,6 +18,7 @@ constexpr int kLevelSteps = 3;
 constexpr double kWidthSlack = 0.08;  // m
 constexpr int kRounds = 4;          // with one step
 constexpr int kMoves = 13;
+constexpr double kLeastGain = 1e-3;  // rays: less is rounding
 constexpr double kNear = 0.25;      // m: more than any corner goes by one move
 constexpr double kSightMost = 6.0;   // of the sight of a sensor that stands low
 constexpr double kHalfLength = 2.5, kHalfWidth = 1.2;  // m: a turn that moves an end, a side, by a step
@@ -49,9 +50,10 @@ BedPose moved(const BedPose& from, int which, double by, const Vector2d& sight) 
   return p;
 }
 
-Vector2d sight_of(const BedPose& pose, const std::vector<Ray>& rays) {
-  if (rays.empty()) return Vector2d::Zero();
-  const Eigen::Vector3d sensor = pose.rotation().transpose() * (rays[rays.size() / 2].head - pose.middle);
+Vector2d sight_of(const BedPose& pose, const PackedRays& rays) {
+  if (rays.fours().empty()) return Vector2d::Zero();
+  const std::array<Four, 3>& head = rays.fours()[rays.fours().size() / 2].head;
+  const Eigen::Vector3d sensor = pose.rotation().transpose() * (Eigen::Vector3f(head[0][0], head[1][0], head[2][0]).cast<double>() - pose.middle);
   const Vector2d level = sensor.head<2>() / std::max(sensor.z(), 0.1);
   return level * std::min(1.0, kSightMost / std::max(level.norm(), 1e-9));
 }
@@ -71,13 +73,13 @@ double most_apart(const BedPose& a, const BedPose& b) {
 
 }  // namespace
 
-BedPose refined(const BedPose& start, const std::vector<Ray>& rays, const SizeRange& widths, double first_step, int halvings) {
+BedPose refined(const BedPose& start, const PackedRays& rays, const SizeRange& widths, double first_step, int halvings) {
   const Vector2d origin = start.middle.head<2>();
   const std::array<double, 2> ends = ends_along(start, origin);
   BedPose best = start;
-  std::vector<Ray> near = rays_meeting(best, rays, kNear);
+  PackedRays near = rays.meeting(best, kNear);
   BedPose near_of = best;
-  double score = weigh(best, near).score, step = first_step;
+  double score = score_of(best, near), step = first_step;
   const Vector2d sight = sight_of(start, rays);
   for (int halving = 0; halving < halvings; ++halving, step /= 2) {
     int idle = 0;  // moves since one was kept: after all of them none is left to try
@@ -88,9 +90,9 @@ BedPose refined(const BedPose& start, const std::vector<Ray>& rays, const SizeRa
         if (std::max(std::abs(now[0] - ends[0]), std::abs(now[1] - ends[1])) > kEndsMost) continue;
         if (std::max(std::abs(p.pitch), std::abs(p.roll)) > kRefinedTiltMost) continue;
         if (p.width < widths[0] - kWidthSlack || p.width > widths[1] + kWidthSlack) continue;
-        if (most_apart(p, near_of) > kNear) near = rays_meeting(best, rays, kNear), near_of = best;
-        const double here = weigh(p, near).score;
-        if (here <= score + 1e-9) continue;
+        if (most_apart(p, near_of) > kNear) near = rays.meeting(best, kNear), near_of = best;
+        const double here = score_of(p, near);
+        if (here <= score + kLeastGain) continue;
         best = p, score = here;
         idle = -1;
         break;
@@ -99,13 +101,13 @@ BedPose refined(const BedPose& start, const std::vector<Ray>& rays, const SizeRa
   return best;
 }
 
-BedPose levelled(const BedPose& start, const std::vector<Ray>& rays) {
+BedPose levelled(const BedPose& start, const PackedRays& rays) {
   BedPose best = start;
-  double score = weigh(best, rays).score;
+  double score = score_of(best, rays);
   const auto offer = [&](double pitch, double roll, int step) {
     BedPose p = start;
     p.pitch += pitch, p.roll += roll, p.middle.z() += kLevelStep * step;
-    const double here = weigh(p, rays).score;
+    const double here = score_of(p, rays);
     if (here <= score) return false;
     best = p, score = here;
     return true;

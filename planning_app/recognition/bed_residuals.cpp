@@ -8,8 +8,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kCertain = 12.0;  // of a logistic function's argument: a residual of 0.004 standard deviations
-
 double in_bed(const BedAxes& a, int axis, const Vector3d& at) { return a.axis[static_cast<std::size_t>(axis)].dot(at - a.middle); }
 
 // Adds factor times the derivative of in_bed at a place that stays where it is.

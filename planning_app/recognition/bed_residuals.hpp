@@ -24,6 +24,8 @@ struct BedAxes {
   std::array<std::array<Eigen::Vector3d, 3>, 3> turn;  // [angle: yaw, pitch, roll][axis]: its derivative
 };
 
+constexpr double kCertain = 12.0;  // of a logistic function's argument: a residual of 0.004 standard deviations, and none any more
+
 // The residual in standard deviations: of a return its distance from the plane; of a ray past an edge sqrt(2 log(1 + e^y)), y the distance beyond the
 // bound, so that half its square is the negative logarithm of a logistic function. slope: null when it is not asked for.
 double residual(const BedConstraint& c, const BedAxes& axes, const BedVector& values, int open_end, BedVector* slope);

@@ -102,8 +102,9 @@ struct Weighed {
 // The pose after a fit, where that agrees better with the rays.
 Weighed fitted(const FanSweep& sweep, const BedPose& start, const BedSizes& sizes) {
   const std::vector<Ray> rays = every(rays_near(sweep, start), kFitStride);
-  const FittedBed fit = fit_bed(start, rays, kFitRounds, sizes);
-  const double before = weigh(start, rays).score, after = fit.converged ? weigh(fit.pose, rays).score : before;
+  const FittedBed fit = fit_pose(start, rays, kFitRounds, sizes);
+  const PackedRays packed(rays);
+  const double before = score_of(start, packed), after = fit.converged ? score_of(fit.pose, packed) : before;
   return after > before ? Weighed{fit.pose, after} : Weighed{start, before};
 }
 
@@ -189,7 +190,7 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
   const BedSizes sizes = ranges.bed_sizes();
   std::vector<BedEnds> ends;
   for (const BedEnds& rough : distinct(rough_ones, kFitted, kRoughWorth, refused)) {
-    const std::vector<Ray> near = about(rays_near(sweep, rough.pose), kLiftRays).rays;
+    const PackedRays near(about(rays_near(sweep, rough.pose), kLiftRays).rays);
     const BedPose lifted = refined(levelled(rough.pose, near), near, sizes.width, kRefineStep, kLiftHalvings);
     const auto [p, score] = fitted(sweep, lifted, sizes);
     ends.push_back({p, rough.cab_end, score, rough.cab});
@@ -211,7 +212,7 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
 
 void move_walls(const FanSweep& sweep, BedInterpretation& i, const TruckRangeSet& ranges) {
   if (bed(i) < kHopeful) return;
-  i.pose = refined(i.pose, every(i.rays, kRefineStride), ranges.bed_sizes().width, kRefineStep, kRefineHalvings);
+  i.pose = refined(i.pose, PackedRays(every(i.rays, kRefineStride)), ranges.bed_sizes().width, kRefineStep, kRefineHalvings);
   weigh_whole(sweep, i);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "recognition/bed_ends.hpp"
+#include "recognition/bed_evidence.hpp"
 #include "recognition/rays_of_sweep.hpp"
 #include "recognition/truck_ranges.hpp"
 #include "recognition/upright_regions.hpp"

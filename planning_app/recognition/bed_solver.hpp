@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "recognition/bed_residuals.hpp"
+#include "recognition/bed_sums.hpp"
 
 namespace berm::app {
 
@@ -14,9 +14,6 @@ struct KnownValue {
   BedValue which;
   double mean, deviation;
 };
-
-// Of the Cauchy loss, in standard deviations. The loss of a residual r is kRobust^2 log(1 + r^2 / kRobust^2).
-constexpr double kRobust = 2.0;
 
 // Moves the values to where all losses and what is known come to least, in at most so many steps; it ends where a step changes their sum by less than
 // cost_step, in squared standard deviations.

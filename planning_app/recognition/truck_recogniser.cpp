@@ -139,8 +139,10 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
 
 // The fit, or another that begins where moves of its walls agree better with the rays, for a fit may have ended in a hollow: the better of both.
 FittedBed polished(const FittedBed& first, const std::vector<Ray>& rays, const BedSizes& sizes) {
-  const FittedBed second = fit_bed(refined(first.pose, every(rays, kPolishStride), sizes.width, kPolishStep, kPolishHalvings), rays, kPolishRounds, sizes);
-  return second.converged && (!first.converged || weigh(second.pose, rays).score > weigh(first.pose, rays).score) ? second : first;
+  const BedPose moved = refined(first.pose, PackedRays(every(rays, kPolishStride)), sizes.width, kPolishStep, kPolishHalvings);
+  const FittedBed second = fit_bed(moved, rays, kPolishRounds, sizes);
+  const PackedRays packed(rays);
+  return second.converged && (!first.converged || score_of(second.pose, packed) > score_of(first.pose, packed)) ? second : first;
 }
 
 struct Verified {

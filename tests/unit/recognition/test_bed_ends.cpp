@@ -6,6 +6,7 @@
 
 #include "drawn_bed.hpp"
 #include "recognition/bed_ends.hpp"
+#include "recognition/bed_evidence.hpp"
 #include "recognition/evidence_weights.hpp"
 #include "recognition/bed_search.hpp"
 #include "recognition/rays_of_sweep.hpp"

@@ -71,16 +71,5 @@ TEST(BedModel, BelowAPipesSideARayMayPass) {
   EXPECT_FALSE(below({0.0, 5.0, 3.0}, {0.0, 0.2, -1.0})) << "well within the pipe";
 }
 
-TEST(BedModel, ReturnsAboveAnInnerFaceCountAgainstTheBed) {
-  const BedPose p = bed();
-  const Eigen::Vector3d head(0.0, 6.0, 3.0);
-  const double face = p.width / 2;
-  const auto at = [&](double v, double w) { return std::vector<Ray>{{head, p.rotation() * Eigen::Vector3d(0.3, v, w) + p.middle, false}}; };
-  EXPECT_EQ(weigh(p, at(-face, 0.2)).above_inner, 1);
-  EXPECT_EQ(weigh(p, at(-face, 0.5)).above_inner, 0) << "of something higher";
-  EXPECT_EQ(weigh(p, at(-face - 0.2, 0.2)).above_inner, 0) << "behind the wall";
-  EXPECT_EQ(weigh(p, at(-face, -0.2)).above_inner, 0);
-}
-
 }  // namespace
 }  // namespace berm::app

@@ -23,7 +23,7 @@ TEST(BedRefinement, FollowsTheRaysThatPassTheNearWallUnderALevelLoad) {
     const double in = low * sensor.y() / sensor.z();
     start.middle += Eigen::Vector3d(std::sin(bed.yaw) * in / 2, -std::cos(bed.yaw) * in / 2, -low);
     start.width -= std::abs(in);
-    const BedPose found = refined(start, rays_near(sweep, start), {2.2, 2.6}, 0.06, 3);
+    const BedPose found = refined(start, PackedRays(rays_near(sweep, start)), {2.2, 2.6}, 0.06, 3);
     EXPECT_NEAR(found.width, bed.width, 0.05) << low;
     EXPECT_NEAR(found.middle.z(), bed.middle.z(), 0.025) << low;
   }

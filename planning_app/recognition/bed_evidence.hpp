@@ -1,0 +1,45 @@
+// The evidence that a sweep's rays are for a bed: each is followed through the model, and what it meets counts for it or against it (bed_model.hpp says what
+// a ray can meet, evidence_weights.hpp what that weighs). A search weighs tens of thousands of poses, so rays are packed and followed four at a time.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "recognition/bed_model.hpp"
+#include "recognition/lanes.hpp"
+
+namespace berm::app {
+
+// Rays in single precision, four side by side; the last four are filled up with rays that meet nothing.
+class PackedRays {
+ public:
+  struct FourRays {
+    std::array<Four, 3> head, at;
+    Four range;       // m
+    FourInt upright;  // a mask
+  };
+  PackedRays() = default;
+  explicit PackedRays(const std::vector<Ray>& rays);
+  [[nodiscard]] const std::vector<FourRays>& fours() const { return fours_; }
+  // Those of the rays that may meet the bed when no corner of it is moved by more than so many metres; the others are no evidence of it.
+  [[nodiscard]] PackedRays meeting(const BedPose& pose, double moved) const;
+
+ private:
+  std::vector<FourRays> fours_;
+};
+
+struct BedEvidence {
+  double score = 0.0;
+  int outer_face = 0, inner_face = 0, wall_top = 0, inside = 0, through = 0, before = 0, over = 0, above_face = 0, above_inner = 0;
+  int level_inside = 0;  // of the returns over the opening, within 5 cm of the plane of the tops, more than 0.3 m from the walls
+  int below_inside = 0;  // more than 5 cm below that plane
+  int above_inside = 0;
+  int not_soil = 0;      // within or over the opening, too steep for soil
+};
+
+BedEvidence weigh(const BedPose& pose, const PackedRays& rays);
+BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays);
+// The score alone.
+double score_of(const BedPose& pose, const PackedRays& rays);
+
+}  // namespace berm::app
