@@ -64,7 +64,9 @@ void JointController::heard(double commanded, double low, double high, int steps
   low_ = low;
   high_ = high;
   const double let_out = std::clamp(last_, low, high);
-  cut_ = let_out != 0.0 && std::fabs(last_ - let_out) > bus_step;
+  // As the request holds it, in whole millionths: a difference of just a step is none in the kernel's record either.
+  constexpr double micro = 1e6;
+  cut_ = let_out != 0.0 && std::fabs(std::trunc(last_ * micro) - std::round(let_out * micro)) > std::round(bus_step * micro);
   // Else a speed that was cut would jump when the room is there again.
   last_ = let_out;
   proposal_.reset();

@@ -104,6 +104,18 @@ TEST(CutJoint, KnowsItsShareAsSoonAsItHears) {
   EXPECT_NEAR(joint.controller.share(), 0.25, 1e-9);
 }
 
+// The bus has whole steps, the request whole millionths.
+TEST(CutJoint, MoreThanAStepOfTheBusIsACutAndJustAStepIsNot) {
+  for (int below = 0; below <= 1200; below += 100) {
+    CutJoint joint;
+    for (int k = 0; k < 100; ++k) joint.step(radians(170.0), nothing_cut);
+    const double permitted = 0.4;
+    joint.controller.asked(permitted + 1e-6 * below + 3e-7);  // a fraction of a millionth, which the request drops
+    joint.controller.heard(permitted, 0.0, permitted);
+    EXPECT_EQ(joint.controller.cut(), below > 500) << below;
+  }
+}
+
 TEST(CutJoint, WhatTheAppsOwnGuardTakesIsNoCut) {
   CutJoint joint;
   for (int k = 0; k < 200; ++k) {
