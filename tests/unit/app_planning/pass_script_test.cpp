@@ -3,15 +3,17 @@
 
 #include "app_bench/bench_machine.hpp"
 #include "app_bench/bench_site.hpp"
+#include "motion/arm_kinematics.hpp"
 #include "planning/pass_script.hpp"
+#include "planning/skyline.hpp"
 
 namespace {
 
 using namespace berm::app;
 
-// A bucket that let go of what it held too much stands open when the swing begins. It has to be closed and opened again over the bed before the arm
-// goes where an opened bucket empties, or the arm never comes to where the bucket may open.
-TEST(PassScript, ATrimmedBucketOpensOverTheBed) {
+// A bucket may stand open when the swing begins. It has to be closed and opened again over the bed before the arm goes where an opened bucket empties, or the
+// arm never comes to where the bucket may open.
+TEST(PassScript, ABucketThatStandsOpenWhenTheSwingBeginsOpensOverTheBed) {
   const MachineModel m = berm::app_bench::zx200();
   const ScriptSet scripts = berm::app_bench::shipped_scripts();
   PassTask task;
@@ -41,6 +43,46 @@ TEST(PassScript, ATrimmedBucketOpensOverTheBed) {
       for (std::size_t j = 0; j < joints; ++j) angle[j] += std::clamp(goals[j] - angle[j], -radians(1.0), radians(1.0));
     }
     EXPECT_TRUE(script.of(bucket).reached(RuleMark::opens)) << "bucket at " << degrees(at_start) << " degrees when the swing begins";
+  }
+}
+
+// Where it can be held level it opens while the stick still reaches out, for what lies level slides late; not where soil slides as soon as it opens.
+TEST(PassScript, TheBucketOpensEarlierWhereItIsHeldLevel) {
+  const MachineModel m = berm::app_bench::zx200();
+  const ScriptSet scripts = berm::app_bench::shipped_scripts();
+  const SiteModel site = berm::app_bench::bench_with_truck();
+  const Skyline sky(m, site, ground_of(TerrainMap()));
+  PassTask task;
+  task.truck_bearing = radians(96.0);
+  task.next_entry = {7.4, -1.6};
+  task.truck_top = task.wall_top = berm::app_bench::bench_bed().wall_top;
+  const auto before_spill = [&](double dump_radius) {
+    task.dump_radius = dump_radius;
+    const auto poses = pass_poses(m, task);
+    EXPECT_TRUE(poses) << dump_radius;
+    if (!poses) return std::pair(0.0, 0.0);
+    task.lifted_from = poses->carry;
+    return std::pair(degrees(forward(m, poses->spill).bucket_attitude), degrees(poses->spill[stick] - PassSearch(scripts, m, sky, task, *poses).thresholds().open_stick));
+  };
+  const auto [level, early] = before_spill(6.4);
+  const auto [tilted, late] = before_spill(farthest_dump(m, task.wall_top));
+  EXPECT_LT(level, -160.0);
+  EXPECT_GT(tilted, -157.0);
+  EXPECT_NEAR(early, 14.0, 1e-9);
+  EXPECT_NEAR(late, 6.0, 1e-9);
+}
+
+// Mouth up at any attitude of the stick, as far as the bucket's range goes.
+TEST(PassScript, ALevelBucketIsAsLevelAsItsRangeAllows) {
+  const MachineModel m = berm::app_bench::zx200();
+  for (double stick_attitude = -100.0; stick_attitude <= 60.0; stick_attitude += 5.0) {
+    const double angle = level_bucket(m, radians(stick_attitude)), attitude = stick_attitude + degrees(angle);
+    EXPECT_GE(angle, m.joint[bucket].low);
+    if (angle > m.joint[bucket].low + radians(10.0)) {
+      EXPECT_NEAR(attitude, -178.0, 1e-9) << stick_attitude;
+    } else {
+      EXPECT_GE(attitude, -178.0 - 1e-9) << stick_attitude;
+    }
   }
 }
 

@@ -1,9 +1,7 @@
 // The closed derivatives of a fit's residuals, against differences of the residuals themselves, for drawn statements.
 #include <gtest/gtest.h>
 
-#include <random>
-
-#include "recognition/bed_residuals.hpp"
+#include "drawn_beds.hpp"
 
 namespace berm::app {
 namespace {
@@ -11,16 +9,9 @@ namespace {
 constexpr unsigned kSeed = 20261123;
 constexpr double kStep = 1e-6;
 
-class DrawnStatements {
+class DrawnStatements : public DrawnBeds {
  public:
-  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  int side() { return between(0.0, 1.0) < 0.5 ? -1 : 1; }
-
-  BedVector values() {
-    BedVector v;
-    v << between(-2, 2), between(5, 8), between(0, 2), between(-3, 3), between(-0.1, 0.1), between(-0.1, 0.1), between(4, 6), between(2, 3), between(0.05, 0.15);
-    return v;
-  }
+  DrawnStatements() : DrawnBeds(kSeed) {}
   BedPlane plane(int axis) { return {axis, side(), axis < 2 && side() > 0}; }
   BedConstraint statement(const BedVector& values) {
     BedConstraint c;
@@ -35,9 +26,6 @@ class DrawnStatements {
     c.deviation = c.edge ? between(0.3, 1.0) : between(0.01, 0.05);  // so wide that drawn rays are near an edge
     return c;
   }
-
- private:
-  std::mt19937 random_{kSeed};
 };
 
 TEST(BedResiduals, SlopesAreThoseOfTheResiduals) {

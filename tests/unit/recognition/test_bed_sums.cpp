@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
+
+#include "drawn_beds.hpp"
 
 namespace berm::app {
 namespace {
@@ -12,16 +13,9 @@ namespace {
 constexpr unsigned kDrawnSumsSeed = 20262;
 
 // Near the faces and edges of the bed at the values, as a fit has them.
-class NearStatements {
+class NearStatements : public DrawnBeds {
  public:
-  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  int side() { return between(0.0, 1.0) < 0.5 ? -1 : 1; }
-
-  BedVector values() {
-    BedVector v;
-    v << between(-2, 2), between(5, 8), between(0, 2), between(-3, 3), between(-0.1, 0.1), between(-0.1, 0.1), between(4, 6), between(2, 3), between(0.05, 0.15);
-    return v;
-  }
+  NearStatements() : DrawnBeds(kDrawnSumsSeed) {}
   BedConstraint draw(const BedVector& values) {
     BedPose pose;
     set_values(pose, values);
@@ -45,9 +39,6 @@ class NearStatements {
     c.at = pose.middle + pose.rotation() * (c.edge ? Eigen::Vector3d(on + 0.3 * (on - from)) : on);
     return c;
   }
-
- private:
-  std::mt19937 random_{kDrawnSumsSeed};
 };
 
 TEST(BedSums, AreThoseOfTheResiduals) {
