@@ -351,6 +351,7 @@ class LoadRun {
         ++bench_moves_;
         say(fmt::format("{:7.1f} s  the operator trammed the machine back by {:.1f} m", event.value("t", 0.0), event.value("distance_m", 0.0)));
       }
+      if (name == "hand_lift") say(fmt::format("{:7.1f} s  the operator lifts the implements by hand", event.value("t", 0.0)));
       if (name == "press") say(fmt::format("{:7.1f} s  the operator presses {}", event.value("t", 0.0), event.value("keys", "?")));
       if (name == "truck_left") ++trucks_away_;
       if (name == "truck_left") say(fmt::format("{:7.1f} s  the truck has left", event.value("t", 0.0)));

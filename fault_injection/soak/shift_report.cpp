@@ -65,6 +65,7 @@ json shift_json(const run::RunResult& r, double hours) {
   out["last_operator_message"] = last_word(r);
   out["closest_approach_what"] = r.truth.value("closest_approach_what", "");
   out["operator_presses"] = r.truth.contains("operator_presses") ? r.truth["operator_presses"].size() : 0;
+  out["hand_lifts"] = r.truth.contains("hand_lifts") ? r.truth["hand_lifts"].size() : 0;
   out["load_height_stddev_m_worst"] = nullptr;
   out["load_centre_offset_m_worst"] = nullptr;
   for (const json& truck : left)
@@ -85,7 +86,7 @@ std::string shift_text(const json& j) {
   row("passes", fmt::format("{}, seconds median {}, p95 {}", j["passes"].dump(), number("pass_seconds_median", 1), number("pass_seconds_p95", 1)));
   row("kernel stops", j["kernel_stops"].dump());
   row("needless stops", fmt::format("{} {}", j["needless_stops"].dump(), j["own_motion_stops"].dump()));
-  row("operator's presses", j["operator_presses"].dump());
+  row("operator's presses", fmt::format("{}; lifted the implements by hand: {}", j["operator_presses"].dump(), j["hand_lifts"].dump()));
   row("contacts (oracle)", j["contacts"].dump());
   row("closest approach", fmt::format("{} m {}", number("closest_approach_m", 2), j["closest_approach_what"].get<std::string>()));
   row("spill", fmt::format("{:.2f} % of what was dug", 100 * j["spill_fraction"].get<double>()));

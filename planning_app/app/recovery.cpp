@@ -21,6 +21,7 @@ constexpr double back_looks = 9.5;      // s: two sweeps, for the kernel's map f
 constexpr double shortest_pause = 0.5, longest_pause = 4.0;  // s between attempts
 constexpr double retreat_for = 1.0;     // s
 constexpr double creep_share = 0.9;
+constexpr double farther = radians(5.0);     // than a joint sags or creeps while it should stand
 constexpr double range_room = radians(8.0);
 
 // Of what the implements' own motion led to.
@@ -68,6 +69,12 @@ Joints Recovery::retreat(const Observation& o, double blocked_s) const {
   return v;
 }
 
+bool Recovery::moved_by_hand(const Observation& o) const {
+  for (std::size_t j = 0; j < joints; ++j)
+    if (std::fabs(wrapped(o.angle[j] - stopped_at_[j])) > farther) return true;
+  return false;
+}
+
 // What a person must do, once a trouble. True when the call was made just now.
 bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
   if (called_ || !(o.latched || (by_place(o.stop_reason) && o.time_s - since_s_ > call_after))) return false;
@@ -85,12 +92,13 @@ void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
   const bool again = since_s_ >= 0.0 && (!handed_back_ || o.time_s - handed_back_s_ < (here ? same_within : again_within));
   stopped_ = true;
   stop_s_ = o.time_s;
+  stopped_at_ = o.angle;
   pause_s_ = again ? std::clamp(2.0 * pause_s_, shortest_pause, longest_pause) : 0.0;
   if (!again) {
     since_s_ = o.time_s;
     next_rescan_s_ = since_s_ + rescan_after;
     next_back_s_ = since_s_ + back_after;
-    called_ = moved_ = false;
+    called_ = moved_ = by_hand_ = false;
     back_way_ = 0.0;
   }
   if (o.has_place() && by_ground(o.stop_reason)) {
@@ -133,6 +141,7 @@ Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log)
   if (stopped_) {
     stopped_ = false;
     running_s_ = o.time_s;
+    by_hand_ = by_hand_ || moved_by_hand(o);
   }
   if (handed_back_) return advice;
   advice.in_charge = true;
@@ -143,8 +152,8 @@ Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log)
     log.event("resumed", {{"time_s", o.time_s}, {"stopped_s", o.time_s - since_s_}});
     handed_back_ = true;
     handed_back_s_ = o.time_s;
-    advice = {false, {}, false, true, moved_, false};
-    moved_ = false;
+    advice = {false, {}, false, true, moved_ || by_hand_, false};
+    moved_ = by_hand_ = false;
     back_ = Back::none;
   }
   return advice;
@@ -155,6 +164,7 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
   Advice advice;
   advice.in_charge = true;
   if (!stopped_) begin_stop(o, log);
+  if (o.kernel_state == BERM_STATE_STOPPING) stopped_at_ = o.angle;
   advice.operator_called = call_operator(o, log);
   if (!by_place(o.stop_reason)) return advice;
   const double blocked = o.time_s - stop_s_;  // without a moment in which standing was permitted

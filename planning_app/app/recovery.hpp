@@ -18,7 +18,7 @@ public:
     Joints velocity{};
     bool rescan = false;      // just now: begin a full sweep
     bool resumed = false;     // just now: the plan is in charge again
-    bool moved = false;       // with resumed: the implements were moved meanwhile
+    bool moved = false;       // with resumed: the implements were moved meanwhile, by the app or by hand
     bool operator_called = false;  // just now
   };
   Advice step(const Observation& o, const ProgressLog& log);
@@ -28,12 +28,15 @@ private:
   bool call_operator(const Observation& o, const ProgressLog& log);
   void begin_stop(const Observation& o, const ProgressLog& log);
   Advice running(const Observation& o, const ProgressLog& log);
+  bool moved_by_hand(const Observation& o) const;
   bool swing_back(const Observation& o, Advice& advice);
 
   MachineModel machine_;
   bool stopped_ = false;
   bool handed_back_ = true;      // the plan is in charge
   bool moved_ = false, called_ = false;
+  bool by_hand_ = false;         // the implements stand elsewhere than where the stop left them
+  Joints stopped_at_{};          // rad
   double since_s_ = -1.0;        // begin of the trouble: a stop and those soon after it; negative: none yet
   double stop_s_ = 0.0, running_s_ = 0.0, handed_back_s_ = 0.0;
   double pause_s_ = 0.0;         // of standing permitted, before the plan is in charge again

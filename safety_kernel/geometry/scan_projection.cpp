@@ -18,7 +18,18 @@ struct Neighbour {
   bool supports(uint32_t range, uint32_t threshold) const noexcept {
     return range_mm != 0 && !own && (range > range_mm ? range - range_mm : range_mm - range) <= threshold;
   }
+  bool seen() const noexcept { return range_mm != 0 && !own; }
+  bool lies_between(const Neighbour& a, const Neighbour& b) const noexcept {
+    return a.seen() && b.seen() && range_mm >= std::min(a.range_mm, b.range_mm) && range_mm <= std::max(a.range_mm, b.range_mm);
+  }
 };
+
+// What encloses here on one side: near, or, where that stands out before or behind both here and beyond, the nearest returns to it, beyond.
+Neighbour enclosing(const Neighbour& near, const Neighbour& beyond, const Neighbour& here, uint32_t threshold) noexcept {
+  if (!near.seen() || !beyond.seen() || !here.seen()) return near;
+  const int64_t low = std::min(beyond.range_mm, here.range_mm), high = std::max(beyond.range_mm, here.range_mm), range = near.range_mm;
+  return range + threshold < low || range > high + threshold ? beyond : near;
+}
 
 } // namespace
 
@@ -38,20 +49,29 @@ void last_echoes(const berm_scan_packet& packet, uint32_t (&range_mm)[BERM_SCAN_
 }
 
 int filter_spurious(uint32_t* range_mm, const uint8_t* own, int count, uint32_t threshold_mm) noexcept {
-  Neighbour before[neighbour_samples] = {}; // the two samples before, as they came, nearest first
+  static_assert(filter_reach == 2 * neighbour_samples);
+  Neighbour before[filter_reach] = {}; // the samples before, as they came, nearest first
   int dropped = 0;
   for (int i = 0; i < count; ++i) {
-    const uint32_t here = range_mm[i];
-    const Neighbour previous = before[0].range_mm != 0 ? before[0] : before[1];
-    Neighbour next{};
-    for (int j = i + 1; j <= i + neighbour_samples && j < count && next.range_mm == 0; ++j) next = {range_mm[j], own[j] != 0};
-    before[1] = before[0];
-    before[0] = {here, own[i] != 0};
-    if (here == 0) continue;
-    // Supported by a neighbour that agrees, or by lying between two: ground that recedes, however steeply. The own machine supports nothing.
-    const bool agrees = previous.supports(here, threshold_mm) || next.supports(here, threshold_mm);
-    const bool two = previous.range_mm != 0 && next.range_mm != 0 && !previous.own && !next.own;
-    const bool between = two && here >= std::min(previous.range_mm, next.range_mm) && here <= std::max(previous.range_mm, next.range_mm);
+    const auto after = [&](int from) { // the nearest return after from, as they came
+      for (int j = from + 1; j <= from + neighbour_samples && j < count; ++j)
+        if (range_mm[j] != 0) return j;
+      return count;
+    };
+    const auto at = [&](int j) { return j < count ? Neighbour{range_mm[j], own[j] != 0} : Neighbour{}; };
+    const Neighbour here = at(i);
+    const int last = before[0].range_mm != 0 ? 0 : 1;
+    const Neighbour previous = before[last], ahead = before[before[last + 1].range_mm != 0 ? last + 1 : last + 2];
+    const int next_at = after(i);
+    const Neighbour next = at(next_at), beyond = next_at < count ? at(after(next_at)) : Neighbour{};
+    std::copy_backward(before, before + filter_reach - 1, before + filter_reach);
+    before[0] = here;
+    if (here.range_mm == 0) continue;
+    // Supported by a neighbour that agrees, or by lying between two: ground that recedes, however steeply. The own machine supports nothing, and
+    // what stands out itself encloses nothing: of two spurious returns in a row one lies between the other and the ground.
+    const bool agrees = previous.supports(here.range_mm, threshold_mm) || next.supports(here.range_mm, threshold_mm);
+    const bool between = here.lies_between(previous, next) &&
+                         here.lies_between(enclosing(previous, ahead, here, threshold_mm), enclosing(next, beyond, here, threshold_mm));
     if (agrees || between) continue;
     range_mm[i] = 0;
     ++dropped;

@@ -13,8 +13,12 @@ namespace berm::kernel {
 // Last echo and number of echoes of each of the packet's samples; range 0 where there is none.
 void last_echoes(const berm_scan_packet& packet, uint32_t (&range_mm)[BERM_SCAN_PACKET_SAMPLES], uint8_t (&echoes)[BERM_SCAN_PACKET_SAMPLES]) noexcept;
 
+// Samples on each side that say whether a return is spurious.
+constexpr int filter_reach = 4;
+
 // Sets to 0 every return that nothing supports: no neighbour (the nearest return before and after it, no farther than two samples) that agrees
-// within the threshold, nor two neighbours that it lies between. A return on the own machine (own[i] not 0) agrees with nothing, and
+// within the threshold, nor two neighbours that it lies between. Where one of these is nearer, or farther, than both its own neighbours by more than the
+// threshold, it must lie between the other and the one beyond as well. A return on the own machine (own[i] not 0) agrees with nothing, and
 // nothing lies between it and another: noise over the edge of the own bucket would stay in the map as long as the bucket hides the ground.
 // Returns how many were dropped.
 // What it can hide: an object met by one sample alone, or by two that differ among themselves by more than the threshold; beside the own

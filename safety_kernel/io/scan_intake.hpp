@@ -44,7 +44,7 @@ class ScanIntake {
   std::uint32_t points() const { return points_; }  // into the map since start, wrapping
 
  private:
-  static constexpr int kNeighbours = 2;  // samples on each side that the spurious filter looks at
+  static constexpr int kNeighbours = filter_reach;
 
   struct Line {
     bool waiting = false;                 // packet is to be worked off

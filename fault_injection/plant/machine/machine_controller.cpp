@@ -61,6 +61,10 @@ void MachineController::decide(double t, bool standstill) {
   }
   const bool fresh = !silent(velocity_time_, profile_.controller.command_silence, t);
   command_ = enabled && fresh ? newest_velocity_ : std::array<double, 4>{};
+  if (levers_) {
+    drive_ = Drive::obey;
+    command_ = *levers_;
+  }
 }
 
 PanGoal MachineController::pan(std::size_t scanner, double t, double present) const {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "can/berm_can.h"
 #include "plant/machine/guard_receiver.hpp"
@@ -20,6 +21,9 @@ class MachineController {
 
   // A frame that arrived at time t.
   void receive(const berm_can_frame& frame, double t);
+  // The selector in the cab: the joints' speeds by the levers, rad/s, in place of the bus; nullopt: automatic. The kernel has no part in it.
+  void select(const std::optional<std::array<double, 4>>& levers) { levers_ = levers; }
+  bool by_hand() const { return levers_.has_value(); }
   // Decides for the step that begins at t; standstill: all joints are at rest.
   void decide(double t, bool standstill);
 
@@ -49,6 +53,7 @@ class MachineController {
   bool horn_ = false;
   bool pilot_unlocked_ = false;
   Drive drive_ = Drive::brake;
+  std::optional<std::array<double, 4>> levers_;
   std::uint64_t out_of_range_ = 0;
 };
 

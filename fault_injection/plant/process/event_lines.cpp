@@ -40,6 +40,8 @@ void EventLines::press(double t, const char* keys, int stop_reason) const {
   line(fmt::format(R"({{"event":"press","t":{:.2f},"keys":"{}","stop_reason":{}}})", t, keys, stop_reason));
 }
 
+void EventLines::hand_lift(double t) const { line(fmt::format(R"({{"event":"hand_lift","t":{:.2f}}})", t)); }
+
 void EventLines::finished(double t, const std::string& reason) const {
   line(fmt::format(R"({{"event":"finished","t":{:.2f},"reason":{}}})", t, quoted(reason)));
 }

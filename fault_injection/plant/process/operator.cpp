@@ -14,10 +14,17 @@ constexpr std::uint8_t kHeld = 2;            // berm_contract.h, stop_category: 
 constexpr double kRock = 2.0 * std::numbers::pi / 180, kRock_s = 0.6;  // the upper body nods when tracks start and stop
 constexpr double kBeforeTram_s = 1.0, kAfterTram_s = 2.0, kKey_s = 0.5, kBetween_s = 1.0;
 constexpr double kHeldPatience_s = 45.0;     // a stop that should resume by itself and does not: the app has called after 30 s
+constexpr double kMoved = 3.0 * std::numbers::pi / 180;  // of any joint: the last press helped
 constexpr double kRounding = 1e-6;
 
 bool latched(const berm_heartbeat& panel) {
   return panel.kernel_state == BERM_STATE_FAULT || (panel.kernel_state == BERM_STATE_STOPPED && panel.stop_category != kHeld);
+}
+
+bool moved_since(const std::array<double, 4>& then, const std::array<double, 4>& now) {
+  for (std::size_t j = 0; j < now.size(); ++j)
+    if (std::abs(now[j] - then[j]) > kMoved) return true;
+  return false;
 }
 
 }  // namespace
@@ -47,7 +54,8 @@ void Operator::enter(Stage stage, double t) {
 }
 
 // A stop that latches, or one that should have ended by itself long ago.
-void Operator::attend(double t, const berm_heartbeat* panel) {
+void Operator::attend(double t, const Sees& sees) {
+  const berm_heartbeat* panel = sees.panel;
   const bool stopped = panel != nullptr && (panel->kernel_state == BERM_STATE_STOPPED || panel->kernel_state == BERM_STATE_FAULT);
   if (!config_.resets_after_s || !stopped) {
     stopped_since_s_ = -1.0;
@@ -62,7 +70,13 @@ void Operator::attend(double t, const berm_heartbeat* panel) {
   if (t - stopped_since_s_ < delay_s_) return;
   presses_.push_back({t, !held_, panel->stop_reason});
   stopped_since_s_ = -1.0;
-  enter(Stage::looks, t);
+  lifting_ = pressed_at_ && !moved_since(*pressed_at_, sees.angle) && BERM_STOP_HAS_CELL(panel->stop_reason);
+  pressed_at_ = sees.angle;
+  if (lifting_) {
+    run_ = false;
+    hand_lifts_.push_back({t, t});
+  }
+  enter(lifting_ ? Stage::takes : Stage::looks, t);
 }
 
 void Operator::roll(double t, double yaw) {
@@ -96,7 +110,7 @@ void Operator::step(double t, const HornSignal& signal, const Sees& sees) {
         enter(Stage::heard, t);
         return;
       }
-      attend(t, sees.panel);
+      attend(t, sees);
       return;
     case Stage::heard:
       if (gone_s >= delay_s_) {
@@ -132,8 +146,15 @@ void Operator::step(double t, const HornSignal& signal, const Sees& sees) {
     case Stage::run_on:
       if (gone_s < kBetween_s) return;
       run_ = true;
-      moves_.back().to_s = t;
+      (lifting_ ? hand_lifts_.back().to_s : moves_.back().to_s) = t;
+      lifting_ = false;
       enter(Stage::works, t);
+      return;
+    case Stage::takes:
+      if (sees.standing && gone_s >= kBetween_s) enter(Stage::lifts, t);
+      return;
+    case Stage::lifts:
+      if (sees.implements_up && gone_s >= kBetween_s) enter(Stage::rests, t);
       return;
     case Stage::presses:
       reset_ = gone_s >= kBetween_s;

@@ -1,5 +1,6 @@
 // The operator: hears the horn, sees the kernel's state on the panel, and does what the app's messages ask of a person: trams the machine back from a
-// face that is dug out, and after stops that latch looks, then resets. He knows nothing of the app but its horn.
+// face that is dug out, and after stops that latch looks, then resets. Where that did not help, and it is the ground that keeps the machine, he lifts
+// the implements by hand before he has the map learned anew. He knows nothing of the app but its horn.
 #pragma once
 
 #include <array>
@@ -25,6 +26,7 @@ struct OperatorConfig {
 
 std::optional<OperatorConfig> read_operator(StrictTable& file);
 
+struct HandLiftTime { double from_s, to_s; };   // run switch off and on again
 struct BenchMove { double from_s, to_s, x_m, y_m, distance_m; };  // run switch off and on again; where the base stands from then on
 
 class Operator {
@@ -36,6 +38,8 @@ class Operator {
     bool truck_about = false;      // a truck stands or drives at the machine
     const berm_heartbeat* panel = nullptr;  // the newest; none: dark
     double base_yaw = 0.0;
+    std::array<double, 4> angle{};          // of the joints, rad
+    bool implements_up = false;             // HandLift: done
   };
   // From the cycle before to t. signal: of the horn, complete just now.
   void step(double t, const HornSignal& signal, const Sees& sees);
@@ -47,7 +51,9 @@ class Operator {
   const BasePose& base() const { return base_; }
   bool wants_place() const { return stage_ == Stage::clears; }   // no truck may stand at the machine now
   const BenchMove* moved() const { return moved_ ? &moves_.back() : nullptr; }  // the tram ended in the newest step
-  bool trams() const { return stage_ >= Stage::stops && stage_ <= Stage::run_on; }
+  bool trams() const { return stage_ >= Stage::stops && stage_ <= Stage::run_on && !lifting_; }
+  bool lifts() const { return stage_ == Stage::lifts; }          // has the levers; the selector is at manual
+  const std::vector<HandLiftTime>& hand_lifts() const { return hand_lifts_; }
   bool refuses() const { return refuses_; }            // was asked to move farther back than there is room
   double asked_s() const { return asked_s_; }
   const std::vector<BenchMove>& moves() const { return moves_; }
@@ -55,9 +61,9 @@ class Operator {
   const std::vector<Press>& presses() const { return presses_; } // after stops
 
  private:
-  enum class Stage { works, heard, stops, clears, rolls, rests, relearns, waits, resets, run_on, looks, presses };
+  enum class Stage { works, heard, stops, clears, rolls, rests, relearns, waits, resets, run_on, looks, presses, takes, lifts };
   void enter(Stage stage, double t);
-  void attend(double t, const berm_heartbeat* panel);
+  void attend(double t, const Sees& sees);
   void roll(double t, double yaw);
   double drawn(const std::array<double, 2>& range) { return random_.uniform(range[0], range[1]); }
 
@@ -69,6 +75,9 @@ class Operator {
   bool run_ = true, reset_ = false, relearn_ = false, moved_ = false, refuses_ = false, held_ = false;
   BasePose from_, base_;
   double stopped_since_s_ = -1.0, off_s_ = 0.0;
+  std::optional<std::array<double, 4>> pressed_at_;     // joints at the last press, rad
+  bool lifting_ = false;               // from the run switch off on
+  std::vector<HandLiftTime> hand_lifts_;
   std::vector<BenchMove> moves_;
   std::vector<Press> presses_;
 };

@@ -22,6 +22,7 @@ constexpr double kStandstillSpeed = radians(0.5);
 constexpr int kStandstillCycles = 20;
 constexpr double kFarthestClearance = 100.0;  // m, in the trace
 constexpr double kAfterFinish = 1.0;  // s
+constexpr double kBesideReach = 2.0;  // m beyond the implements: nobody may be nearer when they are moved by hand
 constexpr const char* kJointNames[] = {"swing", "boom", "stick", "bucket"};
 constexpr double kAfterLoss = 2.0;    // s at standstill without a peer
 
@@ -61,7 +62,7 @@ void sleep_to(timespec& next) {
 PlantRun::PlantRun(const Scenario& scenario, const PlantProfile& profile, const RunOptions& options)
     : scenario_(scenario), profile_(profile), options_(options), scans_(options.scan_port),
       world_(scenario.world, profile_.shape, options.seed, options.trucks), dynamics_(profile.dynamics, profile.shape, options.seed, scenario.start),
-      controller_(profile), base_(scenario.base_motions), operator_(scenario.operator_config ? std::optional<Operator>(std::in_place, *scenario.operator_config, options.seed) : std::nullopt), frames_(profile, options.seed), servo_{PanServo(profile.shape.scanner[0]), PanServo(profile.shape.scanner[1])},
+      controller_(profile), base_(scenario.base_motions), operator_(scenario.operator_config ? std::optional<Operator>(std::in_place, *scenario.operator_config, options.seed) : std::nullopt), hand_lift_(profile), frames_(profile, options.seed), servo_{PanServo(profile.shape.scanner[0]), PanServo(profile.shape.scanner[1])},
       peers_(opened(bus_, options.can_address), options.peers, [this](const berm_can_frame& frame) { controller_.receive(frame, now_); }),
       trace_(made_folder(options.out) + "/trace.csv", world_.movers(), scenario.operator_config.has_value()), kernel_seen_(peers_.kernel()), app_seen_(peers_.app()) {
   if (options.lidar_port.size() != profile.shape.lidar.size())
@@ -131,6 +132,30 @@ BasePose PlantRun::base_pose() const {
   return pose;
 }
 
+bool PlantRun::somebody_near() const {
+  const std::vector<MoverPose> movers = world_.movers();
+  const BasePose base = base_pose();
+  const double near = reach(profile_.shape, dynamics_.state()) + kBesideReach;
+  // Trucks come first, and stand where the spotter lets them.
+  return std::any_of(movers.begin() + static_cast<std::ptrdiff_t>(std::min(movers.size(), world_.trucks())), movers.end(),
+                     [&](const MoverPose& mover) { return std::hypot(mover.x - base.x, mover.y - base.y) < near; });
+}
+
+// The selector is at manual while the operator lifts, and the levers are all that the joints obey then.
+void PlantRun::take_levers(double t) {
+  if (operator_->hand_lifts().size() > lifts_told_) {
+    ++lifts_told_;
+    hand_lift_.begin(t);
+    events_.hand_lift(t);
+  }
+  if (!operator_->lifts()) {
+    controller_.select(std::nullopt);
+    return;
+  }
+  hand_lift_.step(t, dynamics_.state(), somebody_near());
+  controller_.select(hand_lift_.levers());
+}
+
 void PlantRun::attend(double t) {
   const HornSignal signal = horn_.step(now_, controller_.horn());
   if (signal.what == HornSignal::What::truck_full && world_.truck_parked()) world_.release_truck(t);
@@ -140,7 +165,10 @@ void PlantRun::attend(double t) {
   sees.truck_about = world_.truck_about();
   sees.panel = controller_.heartbeat_heard() ? &controller_.heartbeat() : nullptr;
   sees.base_yaw = base_.pose().yaw;
+  sees.angle = dynamics_.state().angle;
+  sees.implements_up = hand_lift_.done();
   operator_->step(t, signal, sees);
+  take_levers(t);
   if (operator_->wants_place()) world_.make_way(t);
   if (const BenchMove* move = operator_->moved()) {
     const double x = -move->distance_m * std::cos(sees.base_yaw), y = -move->distance_m * std::sin(sees.base_yaw);
@@ -311,6 +339,8 @@ void PlantRun::write_end(double t, const std::string& reason) {
   if (operator_) {
     end.moves = operator_->moves();
     for (const BenchMove& move : end.moves) end.disturbances.push_back({"tram", move.from_s, move.to_s});
+    end.hand_lifts = operator_->hand_lifts();
+    for (const HandLiftTime& lift : end.hand_lifts) end.disturbances.push_back({"levers", lift.from_s, lift.to_s});
     for (const Operator::Press& press : operator_->presses()) end.presses.push_back(press);
   }
   trace_.finish();

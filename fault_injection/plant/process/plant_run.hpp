@@ -15,6 +15,7 @@
 #include "plant/machine/state_frames.hpp"
 #include "plant/process/base_motion.hpp"
 #include "plant/process/event_lines.hpp"
+#include "plant/process/hand_lift.hpp"
 #include "plant/process/horn_listener.hpp"
 #include "plant/process/operator.hpp"
 #include "plant/process/peers.hpp"
@@ -54,6 +55,8 @@ class PlantRun {
   void advance(double t);
   void break_machine();
   void attend(double t);    // the people round the machine: spotter and operator
+  void take_levers(double t);
+  bool somebody_near() const;
   BasePose base_pose() const;
   void change_weather(double t);
   void send(double t);
@@ -84,8 +87,9 @@ class PlantRun {
   BaseMotion base_;
   HornListener horn_;
   std::optional<Operator> operator_;
+  HandLift hand_lift_;
   std::size_t soil_changes_ = 0;      // that have happened
-  std::size_t presses_told_ = 0;
+  std::size_t presses_told_ = 0, lifts_told_ = 0;
   StateFrames frames_;
   std::array<PanServo, 2> servo_;
   Peers peers_;

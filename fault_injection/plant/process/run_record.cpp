@@ -98,6 +98,9 @@ void RunRecord::write(const std::string& path, const End& end) const {
   for (const BenchMove& m : end.moves)
     moves.push_back({{"from_s", rounded(m.from_s)}, {"to_s", rounded(m.to_s)}, {"distance_m", rounded(m.distance_m)}, {"x_m", rounded(m.x_m)}, {"y_m", rounded(m.y_m)}});
   truth["bench_moves"] = moves;
+  Json lifts = Json::array();
+  for (const HandLiftTime& l : end.hand_lifts) lifts.push_back({{"from_s", rounded(l.from_s)}, {"to_s", rounded(l.to_s)}});
+  truth["hand_lifts"] = lifts;
   Json presses = Json::array();
   for (const Operator::Press& p : end.presses)
     presses.push_back({{"time_s", rounded(p.time_s)}, {"keys", p.reset ? "relearn and reset" : "relearn"}, {"stop_reason", p.reason}});

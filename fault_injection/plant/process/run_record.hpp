@@ -32,6 +32,7 @@ class RunRecord {
     Truth truth;
     std::vector<Disturbance> disturbances;
     std::vector<BenchMove> moves;
+    std::vector<HandLiftTime> hand_lifts;
     std::vector<Operator::Press> presses;
   };
   void write(const std::string& path, const End& end) const;  // throws std::runtime_error

@@ -280,6 +280,8 @@ Truth World::truth() const {
   return out;
 }
 
+std::size_t World::trucks() const { return state_->truck.size(); }
+
 std::vector<MoverPose> World::movers() const {
   const State& w = *state_;
   std::vector<MoverPose> all;

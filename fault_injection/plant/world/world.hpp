@@ -83,6 +83,7 @@ class World {
   OracleVerdict judge(double t, const JointState& joints);  // independent oracle
   double payload_kg() const;
   Truth truth() const;
+  std::size_t trucks() const;
   std::vector<MoverPose> movers() const;  // the same names in the same order at every call: trucks first
   // Another takes the place of that person or vehicle: it appears at t and sets out, whatever its configuration says.
   void send_mover(std::size_t mover, const MoverConfig& config, double t);

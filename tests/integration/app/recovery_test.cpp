@@ -219,6 +219,32 @@ TEST(Recovery, GoesRoundWhatMayNotBePassedOver) {
   EXPECT_EQ(calls, 1);
 }
 
+TEST(Recovery, KnowsThatTheImplementsWereMovedByHand) {
+  const MachineModel m = berm::app_bench::zx200();
+  const ProgressLog log(-1);
+  const auto moved = [&](double boom_after) {
+    Recovery recovery(m);
+    Observation o = stopped(0.0, BERM_STOP_OPERATOR);
+    o.kernel_state = BERM_STATE_STOPPING;
+    o.angle[boom] -= radians(9.0);  // the stop's own way
+    recovery.step(o, log);
+    o.angle = stopped(0.05, BERM_STOP_OPERATOR).angle;
+    recovery.step(o, log);
+    for (double t = 0.1; t < 20.0; t += 0.1) {
+      o = stopped(t, BERM_STOP_OPERATOR);
+      if (t > 10.0) o.angle[boom] += boom_after;
+      recovery.step(o, log);
+    }
+    o = permitted(20.0);
+    o.angle[boom] += boom_after;
+    if (const auto advice = recovery.step(o, log); advice.resumed) return advice.moved;
+    o.time_s = 21.0;
+    return recovery.step(o, log).moved;
+  };
+  EXPECT_FALSE(moved(0.0));
+  EXPECT_TRUE(moved(radians(20.0)));
+}
+
 TEST(Recovery, AfterGoodMotionAStopIsANewOne) {
   Recovery recovery(berm::app_bench::zx200());
   const ProgressLog log(-1);

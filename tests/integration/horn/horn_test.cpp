@@ -60,7 +60,9 @@ struct Attended {
   void until(double seconds, const HornSignal& first = {}) {
     HornSignal signal = first;
     for (; t < seconds; t += kCycle) {
-      person.step(t, signal, {true, truck_about, &panel, 0.0});
+      person.step(t, signal, {true, truck_about, &panel, 0.0, angle, person.lifts() && lifting_helps});
+      lifted = lifted || person.lifts();
+      relearned_by_hand = relearned_by_hand || (person.lifts() && person.relearn());
       signal = {};
       run_off = run_off || !person.run();
       relearned = relearned || person.relearn();
@@ -72,6 +74,8 @@ struct Attended {
   }
   Operator person;
   berm_heartbeat panel{true, 255, BERM_STATE_RUN, 0, 0, 0};
+  std::array<double, 4> angle{};
+  bool lifting_helps = true, lifted = false, relearned_by_hand = false;
   double t = 0.0;
   bool truck_about = true, run_off = false, relearned = false, reset_after_relearn = false, moved = false, moved_with_truck = false;
 };
@@ -117,6 +121,45 @@ TEST(Operator, LeavesAHeldMachineAlone) {
   EXPECT_TRUE(site.person.presses().empty());
   site.until(60.0);
   EXPECT_EQ(site.person.presses().size(), 1U) << "after a minute he has the map learned anew";
+}
+
+TEST(Operator, LiftsByHandWhereHisLastPressDidNotHelp) {
+  Attended site(kAttends);
+  site.panel = {true, 2, BERM_STATE_STOPPED, BERM_STOP_UNKNOWN_GROUND, 0, 0};
+  site.until(60.0);
+  ASSERT_EQ(site.person.presses().size(), 1U);
+  EXPECT_FALSE(site.lifted || site.run_off) << "the first press may be enough";
+  site.until(125.0);
+  EXPECT_TRUE(site.lifted && site.run_off) << "nothing has moved since";
+  EXPECT_TRUE(site.person.run()) << "and on again";
+  EXPECT_FALSE(site.relearned_by_hand) << "the levers are let go before the map is learned anew";
+  ASSERT_EQ(site.person.hand_lifts().size(), 1U);
+  EXPECT_GT(site.person.hand_lifts()[0].to_s, site.person.hand_lifts()[0].from_s + 3.0);
+  EXPECT_TRUE(site.person.moves().empty() && !site.moved);
+}
+
+TEST(Operator, KeepsTheLeversUntilTheImplementsAreUp) {
+  Attended site(kAttends);
+  site.lifting_helps = false;
+  site.panel = {true, 2, BERM_STATE_STOPPED, BERM_STOP_OVERPASS, 0, 0};
+  site.until(300.0);
+  EXPECT_TRUE(site.person.lifts() && !site.person.run());
+  EXPECT_FALSE(site.person.reset());
+}
+
+TEST(Operator, LeavesTheLeversAloneWhenThePressHelpedOrTheGroundIsNotWhatKeepsIt) {
+  Attended moved(kAttends);
+  moved.panel = {true, 2, BERM_STATE_STOPPED, BERM_STOP_UNKNOWN_GROUND, 0, 0};
+  moved.until(60.0);
+  moved.angle[1] = 0.1;
+  moved.until(125.0);
+  EXPECT_EQ(moved.person.presses().size(), 2U);
+  EXPECT_FALSE(moved.lifted);
+  Attended blocked(kAttends);
+  blocked.panel = {false, 1, BERM_STATE_FAULT, BERM_STOP_SENSOR_BLOCKED, 0, 0};
+  blocked.until(60.0);
+  EXPECT_GE(blocked.person.presses().size(), 2U);
+  EXPECT_FALSE(blocked.lifted);
 }
 
 TEST(Operator, WhoAttendsNoStopsPressesNothing) {

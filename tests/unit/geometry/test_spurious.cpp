@@ -75,6 +75,24 @@ TEST(Spurious, JudgesByTheRawNeighbours) {
   EXPECT_EQ(filtered({9000, 9000, 2000, 6000, 6000}), (Ranges{9000, 9000, 0, 6000, 6000}));
 }
 
+// Of two in a row that do not agree, one lies between the other and the ground.
+// verifies: SK-GE-23
+TEST(Spurious, DropsBothOfTwoInARowThatDoNotAgree) {
+  EXPECT_EQ(filtered({9000, 9000, 2000, 6000, 9000, 9000}), (Ranges{9000, 9000, 0, 0, 9000, 9000}));
+  EXPECT_EQ(filtered({9000, 9000, 6000, 2000, 9000, 9000}), (Ranges{9000, 9000, 0, 0, 9000, 9000}));
+  EXPECT_EQ(filtered({9000, 9000, 14000, 30000, 9000, 9000}), (Ranges{9000, 9000, 0, 0, 9000, 9000}));
+  EXPECT_EQ(filtered({9000, 0, 9000, 0, 2000, 0, 6000, 0, 9000, 0, 9000}), (Ranges{9000, 0, 9000, 0, 0, 0, 0, 0, 9000, 0, 9000}));
+}
+
+// But the second one stays where it lies between what is before and behind both, and ground that recedes from an edge loses nothing.
+// verifies: SK-GE-23
+TEST(Spurious, KeepsTheGroundBesideOneThatStandsOut) {
+  EXPECT_EQ(filtered({5000, 5000, 2000, 7000, 9500, 12000, 12500}), (Ranges{5000, 5000, 0, 7000, 9500, 12000, 12500}));
+
+  EXPECT_EQ(filtered({5000, 5000, 7000, 9500, 12000, 12500}), (Ranges{5000, 5000, 7000, 9500, 12000, 12500}));
+  EXPECT_EQ(filtered({9000, 9000, 2000, 4000, 6000, 9000, 9000}), (Ranges{9000, 9000, 0, 0, 6000, 9000, 9000})) << "of what recedes before farther ground the first two go";
+}
+
 // A lone return over the own bucket: what agrees with it, or encloses it, is the machine itself.
 // verifies: SK-GE-23
 TEST(Spurious, TheOwnMachineSupportsNothing) {

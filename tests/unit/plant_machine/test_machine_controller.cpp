@@ -136,6 +136,21 @@ TEST(MachineController, VelocitySilenceIsAZeroCommand) {
   }
 }
 
+TEST(MachineController, AtManualTheJointsObeyTheLeversAndNotTheBus) {
+  Bench b;
+  b.kernel.heartbeat(0.0, false);
+  b.kernel.velocity(0.0, kMove);
+  b.controller.select(std::array<double, 4>{0.0, 0.1, 0.0, 0.0});
+  for (int k = 0; k < 100; ++k) b.cycle(0.01 * k);
+  EXPECT_EQ(b.controller.command(), (std::array<double, 4>{0.0, 0.1, 0.0, 0.0}));
+  EXPECT_GT(b.joints.state().angle[1], pose(0, 45, -100, -60).angle[1] + 0.05);
+  EXPECT_DOUBLE_EQ(b.joints.state().angle[0], 0.0) << "what the bus asks for moves nothing";
+  b.controller.select(std::nullopt);
+  b.cycle(1.0);
+  EXPECT_EQ(b.controller.drive(), Drive::brake) << "nobody enables the machine";
+  EXPECT_EQ(b.controller.command(), (std::array<double, 4>{}));
+}
+
 TEST(MachineController, HornSoundsAsLongAsItIsSet) {
   Bench b;
   for (int k = 0; k < 10; ++k) {

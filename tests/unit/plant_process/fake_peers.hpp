@@ -21,6 +21,7 @@ struct Answer {
   bool enable = true;
   std::array<std::int32_t, 4> velocity_urad_s{};
   bool finished = false;
+  std::uint8_t stop_reason = 0;                // that the heartbeat tells
   bool kernel_dies = false, app_dies = false;  // after this answer, respectively instead of it
 };
 
@@ -64,7 +65,7 @@ class FakePeers {
   void answer_as_kernel(const Answer& a, std::uint32_t cycle) {
     berm_velocity_cmd velocity{};
     for (std::size_t j = 0; j < 4; ++j) velocity.velocity_urad_s[j] = a.velocity_urad_s[j];
-    const berm_heartbeat heartbeat{a.enable, static_cast<std::uint8_t>(a.enable ? 255 : 1), static_cast<std::uint8_t>(a.enable ? 2 : 4), 0,
+    const berm_heartbeat heartbeat{a.enable, static_cast<std::uint8_t>(a.enable ? 255 : 1), static_cast<std::uint8_t>(a.enable ? 2 : 4), a.stop_reason,
                                    static_cast<std::uint16_t>(cycle), 0};
     for (auto& [guard, frame] : {std::pair<GuardSender*, berm_can_frame>{&velocity_guard_, berm_encode_velocity_cmd(&velocity)},
                                  std::pair<GuardSender*, berm_can_frame>{&heartbeat_guard_, berm_encode_heartbeat(&heartbeat)}}) {

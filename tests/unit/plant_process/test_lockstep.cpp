@@ -1,12 +1,15 @@
 // Whole runs of the plant in lockstep with a played kernel and app.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
 
+#include "contract/berm_contract.h"
 #include "fake_peers.hpp"
 #include "plant/process/plant_run.hpp"
 #include "scratch.hpp"
@@ -25,8 +28,8 @@ std::string text_of(const std::string& file) {
 
 struct Result { std::string folder, trace; nlohmann::json truth; };
 
-Result run(const std::string& name, std::uint64_t seed, const std::function<Answer(std::uint32_t)>& policy) {
-  const Scenario scenario = load_scenario(BERM_SCENARIOS "/bench.toml", BERM_PLANT_PROFILES);
+Result run(const std::string& name, std::uint64_t seed, const std::function<Answer(std::uint32_t)>& policy,
+           const Scenario& scenario = load_scenario(BERM_SCENARIOS "/bench.toml", BERM_PLANT_PROFILES)) {
   FakePeers peers(test_can_address(), policy);
   RunOptions options;
   options.seed = seed;
@@ -110,6 +113,32 @@ TEST(Lockstep, DeadAppEndsTheRunAtStandstill) {
   EXPECT_EQ(r.truth.at("end_reason"), "app gone");
   EXPECT_NEAR(r.truth.at("fault_s"), 1.5, 0.02);
   EXPECT_GT(r.truth.at("first_standstill_after_fault_s"), 2.0);
+}
+
+// The kernel lets nothing move for the ground's sake, and the operator's press does not help.
+TEST(Lockstep, AnOperatorLiftsTheImplementsByHand) {
+  Scenario scenario = load_scenario(BERM_SCENARIOS "/shift.toml", BERM_PLANT_PROFILES);
+  scenario.operator_config->resets_after_s = {1.0, 2.0};
+  scenario.start.angle[1] = 0.3;
+  const Result r = run("by_hand", 1, [](std::uint32_t cycle) {
+    Answer a;
+    a.enable = false;
+    a.stop_reason = BERM_STOP_UNKNOWN_GROUND;
+    a.velocity_urad_s = kSwing;
+    a.finished = cycle >= 2000;
+    return a;
+  }, scenario);
+  const auto& lifts = r.truth.at("hand_lifts");
+  ASSERT_EQ(lifts.size(), 1U);
+  const double from = lifts[0].at("from_s"), to = lifts[0].at("to_s");
+  EXPECT_GT(r.truth.at("operator_presses").size(), 1U);
+  const auto at = [&](double t) { return row(r.trace, static_cast<std::size_t>(std::lround(t * 100))); };
+  EXPECT_DOUBLE_EQ(std::stod(at(from)[2]), 0.3) << "the kernel enabled nothing";
+  EXPECT_GT(std::stod(at(to)[2]), 0.4);
+  EXPECT_NEAR(std::stod(at(to)[1]), 0.0, 1e-6) << "what the bus asks for moves nothing";
+  EXPECT_EQ(std::stod(at(to)[6]), 0.0) << "the boom stands when he lets go";
+  const auto& disturbed = r.truth.at("disturbances");
+  EXPECT_TRUE(std::any_of(disturbed.begin(), disturbed.end(), [&](const auto& d) { return d.at("what") == "levers" && d.at("from_s") == from; })) << disturbed;
 }
 
 }  // namespace
