@@ -7,7 +7,7 @@
 #include "config/command_line.hpp"
 #include "config/whole_file.hpp"
 #include "in_process/workers.hpp"
-#include "truck_world/trial.hpp"
+#include "truck_world/arrival.hpp"
 
 namespace berm::truck_world {
 namespace {
@@ -17,7 +17,7 @@ struct TrialOptions {
   std::uint64_t seed = 1;
   int only = -1;
   int jobs = 1;
-  bool trucks = false, no_trucks = false, list = false;
+  bool trucks = false, no_trucks = false, list = false, arriving = false;
   std::string json, table, drawn = BERM_TRUCK_CLASSES, ranges = BERM_TRUCK_RANGES;
   SceneOptions scene;
 };
@@ -52,17 +52,41 @@ void report(const Trial& t, const TrialOptions& o) {
              t.pose.open_end, t.pose.length, t.pose.width, t.cab, t.true_score, t.true_cab);
 }
 
+struct Judged {
+  std::vector<Trial> whole;      // of whole sweeps
+  std::vector<Arrival> arrived;  // of the same scenes, scanline by scanline, where that was asked for
+};
+
+void add(Judged& to, const Judged& more) {
+  to.whole.insert(to.whole.end(), more.whole.begin(), more.whole.end());
+  to.arrived.insert(to.arrived.end(), more.arrived.begin(), more.arrived.end());
+}
+
 // Of one number: the scene with a truck, and that without.
-std::vector<Trial> trials_of(int number, const TrialOptions& o, const std::vector<TruckClass>& classes, const app::TruckRangeSet& ranges) {
-  std::vector<Trial> trials;
+Judged trials_of(int number, const TrialOptions& o, const std::vector<TruckClass>& classes, const app::TruckRangeSet& ranges) {
+  Judged judged;
   for (const Content content : {Content::truck, Content::no_truck}) {
     if ((content == Content::truck && o.no_trucks) || (content == Content::no_truck && o.trucks)) continue;
     SceneOptions options = o.scene;
     options.content = content;
     const Scene scene = draw_scene(classes, options, o.seed, number);
-    trials.push_back(judge(scene, app::recognise_truck(scene.cloud, viewpoint_of(scene), ranges)));
+    judged.whole.push_back(judge(scene, app::recognise_truck(scene.cloud, viewpoint_of(scene), ranges)));
+    if (o.arriving) judged.arrived.push_back(take_as_it_arrives(scene, ranges));
   }
-  return trials;
+  return judged;
+}
+
+void report(const Judged& judged, const TrialOptions& o) {
+  for (std::size_t i = 0; i < judged.whole.size(); ++i) {
+    report(judged.whole[i], o);
+    if (!o.arriving) continue;
+    const Arrival& a = judged.arrived[i];
+    if (o.list || a.trial.recognised != judged.whole[i].recognised || a.trial.found != judged.whole[i].found)
+      fmt::print("  as it arrives, scene {}: {}{}, {} asks, {:.0f} ms{}\n", a.trial.scene,
+                 !a.trial.found ? "none" : a.trial.truck && !a.trial.recognised ? "MISPLACED" : a.trial.truck ? "found" : "ACCEPTED",
+                 a.early ? " before the sweep's end" : "", a.asks, a.asking,
+                 a.trial.truck ? fmt::format(", {:.0f} ms after the last scanline of the truck", a.after_last_scanline) : "");
+  }
 }
 
 constexpr int kSamples = 72000;  // about 18,800 returns: the rest of a mirror's turn sees the sky or the machine
@@ -82,6 +106,7 @@ int run(int argc, char** argv) {
   app.add_option("--jobs", o.jobs, "so many scenes at a time; their CPU times are larger on a computer that has more to do")->check(CLI::Range(1, 256))->capture_default_str();
   auto* with = app.add_flag("--trucks", o.trucks, "only the scenes with a truck");
   app.add_flag("--no-trucks", o.no_trucks, "only the scenes without")->excludes(with);
+  app.add_flag("--arriving", o.arriving, "the scanlines of each scene one by one as well: which answer stands, and how long after the last that shows the truck");
   app.add_flag("--list", o.list, "one line for every scene, with its evidence");
   app.add_option("--points", o.scene.samples, "samples of a sweep; about a quarter of them come back with a return")->check(CLI::Range(9200, 1000000))->capture_default_str();
   app.add_option("--noise", o.scene.noise.stddev, "standard deviation of a range, m")->check(CLI::Range(0.0, 0.5))->capture_default_str();
@@ -98,24 +123,25 @@ int run(int argc, char** argv) {
   const app::TruckRangeSet ranges = app::read_truck_ranges(o.ranges);
   const int first = o.only >= 0 ? o.only : 0, count = o.only >= 0 ? 1 : o.scenes;
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  std::vector<std::vector<Trial>> judged(static_cast<std::size_t>(count));
+  std::vector<Judged> judged(static_cast<std::size_t>(count));
   std::vector<bool> ready(judged.size(), false);
-  std::vector<Trial> trials;
+  Judged all;
   std::size_t told = 0;  // in the order of the scenes, whatever is done first
   in_process::run_trials(
       count, o.jobs, [&](int k) { judged[static_cast<std::size_t>(k)] = trials_of(first + k, o, classes, ranges); },
       [&](int finished, int k) {
         ready[static_cast<std::size_t>(k)] = true;
         for (; told < judged.size() && ready[told]; ++told) {
-          for (const Trial& t : judged[told]) report(t, o);
-          trials.insert(trials.end(), judged[told].begin(), judged[told].end());
+          report(judged[told], o);
+          add(all, judged[told]);
         }
         if (terminal && finished % 10 == 0) fmt::print(stderr, "\r{} of {} scenes", finished, count);
       });
   if (terminal) fmt::print(stderr, "\n");
-  const nlohmann::ordered_json json = summary(trials);
+  nlohmann::ordered_json json = summary(all.whole);
+  if (o.arriving) json["arriving"] = summary(all.arrived);
   fmt::print("{}\n", json.dump(1));
-  if (!o.table.empty()) config::write_whole_file(o.table, table(trials));
+  if (!o.table.empty()) config::write_whole_file(o.table, table(all.whole));
   if (!o.json.empty()) config::write_whole_file(o.json, json.dump(1) + "\n");
   return json["trucks"] == json["recognised"] && json["false_accepts"] == 0 ? 0 : 1;
 }

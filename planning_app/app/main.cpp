@@ -54,7 +54,7 @@ int run(const Options& options) {
   const SiteModel site = site_model(berm::config::load_site_file(options.site));
   const ScriptSet scripts = read_scripts(options.scripts);
   const ProgressLog log(1);
-  constexpr double lockstep_answer_s = 0.2;  // from a sweep to its truck; twice what it takes
+  constexpr double lockstep_answer_s = 0.05;  // from a scanline to the answer that it brings: what is asked of it, and twice what it takes in the median
   const auto lockstep_cycles = static_cast<std::uint64_t>(options.lockstep ? std::ceil(lockstep_answer_s / machine.cycle) : 0.0);
   RecognitionThread finder(read_truck_ranges(options.truck_classes), lockstep_cycles);
   Sequencer sequencer(machine, site, options.trucks, scripts, finder, log);

@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "recognition/ongoing_recognition.hpp"
+
 namespace berm::app {
 
 namespace {
@@ -28,47 +30,73 @@ RecognitionThread::~RecognitionThread() {
   thread_.join();
 }
 
-void RecognitionThread::ask(std::vector<ScanPoint> points, const std::array<double, 3>& viewpoint, std::uint64_t cycle) {
+void RecognitionThread::add(Task task) {
   {
     const std::lock_guard lock(mutex_);
-    question_ = Question{std::move(points), viewpoint};
-    answer_.reset();
-    ++number_;
-    open_ = true;
-    asked_cycle_ = cycle;
+    if (task.what == Task::What::begin) {
+      tasks_.clear();
+      answer_.reset();
+      answered_ = false;
+      ++sweep_;
+    }
+    tasks_.push_back(std::move(task));
   }
   changed_.notify_all();
 }
 
+void RecognitionThread::begin(const std::array<double, 3>& viewpoint) { add({Task::What::begin, viewpoint, {}, 0}); }
+void RecognitionThread::take(std::vector<ScanPoint> scanline, std::uint64_t cycle) { add({Task::What::scanline, {}, std::move(scanline), cycle}); }
+void RecognitionThread::end(std::uint64_t cycle) { add({Task::What::end, {}, {}, cycle}); }
+
 std::optional<RecognisedTruck> RecognitionThread::answer(std::uint64_t cycle) {
   std::unique_lock lock(mutex_);
-  if (!open_) return std::nullopt;
+  if (answered_) return std::nullopt;
   if (lockstep_cycles_ > 0) {
-    if (cycle < asked_cycle_ + lockstep_cycles_) return std::nullopt;
-    changed_.wait(lock, [this] { return answer_.has_value(); });
+    // Whatever is due now has been worked on when there is an answer, or nothing that is due is left.
+    changed_.wait(lock, [&] { return answer_ || !((at_work_ && due(*at_work_, cycle)) || (!tasks_.empty() && due(tasks_.front().cycle, cycle))); });
   }
-  if (!answer_) return std::nullopt;
-  open_ = false;
-  return std::exchange(answer_, std::nullopt);
+  if (!answer_ || !due(answer_->cycle, cycle)) return std::nullopt;
+  answered_ = true;
+  tasks_.clear();
+  return std::move(answer_->truck);
 }
 
 void RecognitionThread::work() {
   // Of this thread; where it fails the scheduler is merely fairer. In lockstep the loop waits for the answer, and on a busy computer a thread that stands
   // behind all others would keep it waiting until the plant takes the app for dead.
   if (lockstep_cycles_ == 0) ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), behind_the_loop);
+  std::optional<OngoingRecognition> recognition;
+  bool asks = false;  // since the last question
   std::unique_lock lock(mutex_);
   runs_ = true;
   changed_.notify_all();
   for (;;) {
-    changed_.wait(lock, [this] { return ends_ || question_.has_value(); });
+    changed_.wait(lock, [this] { return ends_ || !tasks_.empty(); });
     if (ends_) return;
-    const Question question = *std::exchange(question_, std::nullopt);
-    const std::uint64_t number = number_;
+    const Task task = std::move(tasks_.front());
+    tasks_.pop_front();
+    const std::uint64_t sweep = sweep_;
+    const bool catches_up = lockstep_cycles_ == 0 && !tasks_.empty();
+    if (answer_) continue;  // it stands
+    at_work_ = task.cycle;
     lock.unlock();
-    RecognisedTruck truck = recognise_truck(question.points, question.viewpoint, ranges_);
+    std::optional<Answer> answer;
+    switch (task.what) {
+      case Task::What::begin:
+        recognition.emplace(task.viewpoint, ranges_);
+        asks = false;
+        break;
+      case Task::What::scanline:
+        asks = recognition->take(task.scanline) || asks;
+        if (!asks || catches_up) break;
+        asks = false;
+        if (const RecognisedTruck& truck = recognition->ask(); recognition->stands()) answer = Answer{truck, task.cycle};
+        break;
+      case Task::What::end: answer = Answer{recognition->ask(), task.cycle}; break;
+    }
     lock.lock();
-    if (number != number_) continue;  // a newer question
-    answer_ = std::move(truck);
+    at_work_.reset();
+    if (sweep == sweep_ && !answered_) answer_ = std::move(answer);
     changed_.notify_all();
   }
 }

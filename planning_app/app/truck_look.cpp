@@ -56,43 +56,83 @@ void TruckLook::begin(const Observation& o, ScanScheduler& scanners) {
     }
   scanners.begin_look(scanner_, bearings);
   sweep_.end();
+  bed_.reset();
   swing_ = o.angle[swing];
   stage_ = Stage::sweeps;
   stage_s_ = o.time_s;
 }
 
-void TruckLook::stop(ScanScheduler& scanners) {
+void TruckLook::end_sweep(ScanScheduler& scanners) {
   scanners.end_look();
   sweep_.end();
+}
+
+void TruckLook::stop(ScanScheduler& scanners) {
+  end_sweep(scanners);
   stage_ = Stage::idle;
 }
 
+void TruckLook::feed(const Observation& o) {
+  const std::size_t whole = sweep_.whole();
+  visit_scanlines(std::span(sweep_.points()).subspan(told_, whole - told_), [&](std::span<const ScanPoint> scanline) {
+    finder_.take({scanline.begin(), scanline.end()}, o.cycle);
+  });
+  told_ = whole;
+}
+
+bool TruckLook::passed(const TruckBed& bed, const Observation& o) const {
+  const double sense = o.pan[scanner_] >= pan_began_ ? 1.0 : -1.0, c = std::cos(bed.yaw), s = std::sin(bed.yaw);
+  for (const double u : {-0.5 * bed.length, 0.5 * bed.length})
+    for (const double v : {-0.5 * bed.width, 0.5 * bed.width}) {
+      const double pan = head_bearing_of(bed.centre_x + u * c - v * s, bed.centre_y + u * s + v * c, o.angle[swing]) - o.angle[swing];
+      if (sense * (o.pan[scanner_] - pan) < beyond) return false;
+    }
+  return true;
+}
+
+void TruckLook::take_answer(const Observation& o, ScanScheduler& scanners, int truck, const ProgressLog& log) {
+  const auto answer = finder_.answer(o.cycle);
+  if (!answer) return;
+  bed_ = judge(*answer, o, truck, log);
+  stage_s_ = o.time_s;
+  stage_ = bed_ ? Stage::passes : Stage::pauses;
+  if (!bed_) end_sweep(scanners);
+}
+
 std::optional<TruckBed> TruckLook::step(const Observation& o, ScanScheduler& scanners, int truck, const ProgressLog& log) {
-  const bool looks = stage_ == Stage::sweeps || stage_ == Stage::drains;
+  const bool looks = stage_ == Stage::sweeps || stage_ == Stage::drains || stage_ == Stage::passes;
   if (looks && std::fabs(o.angle[swing] - swing_) > moved) begin(o, scanners);
   switch (stage_) {
     case Stage::idle: break;
     case Stage::sweeps:
-      if (scanners.look_sweeps() && !sweep_.recording()) sweep_.begin(scanner_);
-      if (!scanners.look_done()) break;
-      stage_ = Stage::drains;
-      stage_s_ = o.time_s;
+      if (scanners.look_sweeps() && !sweep_.recording()) {
+        sweep_.begin(scanner_);
+        told_ = 0;
+        pan_began_ = o.pan[scanner_];
+        finder_.begin(viewpoint(o.angle[swing]));
+      }
+      if (scanners.look_done()) {
+        stage_ = Stage::drains;
+        stage_s_ = o.time_s;
+      }
+      if (!sweep_.recording()) break;
+      feed(o);
+      take_answer(o, scanners, truck, log);
       break;
     case Stage::drains:
-      if (o.time_s - stage_s_ < drain_s) break;
-      sweep_.end();
-      scanners.end_look();
-      finder_.ask(sweep_.points(), viewpoint(o.angle[swing]), o.cycle);
-      stage_ = Stage::asked;
-      break;
-    case Stage::asked:
-      if (const auto answer = finder_.answer(o.cycle)) {
-        const auto bed = judge(*answer, o, truck, log);
-        stage_ = bed ? Stage::idle : Stage::pauses;
-        stage_s_ = o.time_s;
-        return bed;
+      if (o.time_s - stage_s_ >= drain_s) {
+        end_sweep(scanners);
+        stage_ = Stage::asked;
       }
+      feed(o);
+      if (stage_ == Stage::asked) finder_.end(o.cycle);
+      take_answer(o, scanners, truck, log);
       break;
+    case Stage::asked: take_answer(o, scanners, truck, log); break;
+    case Stage::passes:
+      if (sweep_.recording() && !scanners.look_done() && !passed(*bed_, o)) break;
+      stop(scanners);
+      return bed_;
     case Stage::pauses:
       if (vain_ < vain_until_operator || o.time_s - stage_s_ >= vain_pause_s) begin(o, scanners);
       break;
@@ -127,7 +167,8 @@ std::optional<TruckBed> TruckLook::judge(const RecognisedTruck& truck, const Obs
   limit_to_zones(bed, site_.truck_zones);
   const nlohmann::ordered_json fields{{"time_s", o.time_s}, {"truck", number}, {"class", truck.truck_class}, {"x_m", bed.centre_x}, {"y_m", bed.centre_y},
                                       {"yaw_deg", degrees(bed.yaw)}, {"length_m", bed.length}, {"width_m", bed.width}, {"height_m", bed.height},
-                                      {"wall_top_m", bed.wall_top}, {"end_deviation_m", bed.end_deviation}, {"several_echoes", sweep_.several_echoes()}};
+                                      {"wall_top_m", bed.wall_top}, {"end_deviation_m", bed.end_deviation}, {"several_echoes", sweep_.several_echoes()},
+                                      {"before_sweep_end", sweep_.recording()}};
   if (!stands_in_zone(bed, site_.truck_zones)) {
     tell_none("truck_misplaced", fields, "the truck stands where the site has no truck zone: nothing may pass over it there; have it park anew", o, log);
     return std::nullopt;

@@ -1,5 +1,5 @@
-// Looking for the truck that the spotter has admitted: one sweep over the place where trucks park, the recogniser, and a bed to load; again and again
-// until there is one. Where the truck truly stands and how large it is the site file does not say.
+// Looking for the truck that the spotter has admitted: one sweep over the place where trucks park, whose scanlines go to the recogniser as they come, and a
+// bed to load; again and again until there is one. When an answer stands before the sweep's end the look ends once the scanner has passed the bed. Where the truck truly stands and how large it is the site file does not say.
 #pragma once
 
 #include <optional>
@@ -29,9 +29,13 @@ public:
   TruckSweep& sweep() { return sweep_; }
 
 private:
-  enum class Stage { idle, sweeps, drains, asked, pauses };
+  enum class Stage { idle, sweeps, drains, asked, passes, pauses };
   double head_bearing_of(double x, double y, double swing_angle) const;
   std::array<double, 3> viewpoint(double swing_angle) const;
+  void feed(const Observation& o);  // what of the sweep is whole and has not been told
+  bool passed(const TruckBed& bed, const Observation& o) const;
+  void take_answer(const Observation& o, ScanScheduler& scanners, int truck, const ProgressLog& log);
+  void end_sweep(ScanScheduler& scanners);
   std::optional<TruckBed> judge(const RecognisedTruck& truck, const Observation& o, int number, const ProgressLog& log);
   void tell_none(const std::string& event, nlohmann::ordered_json fields, const std::string& advice, const Observation& o, const ProgressLog& log);
 
@@ -43,6 +47,9 @@ private:
   double side_;                    // 1: the truck stands to the left of the dig
   Stage stage_ = Stage::idle;
   double stage_s_ = 0.0, swing_ = 0.0;
+  double pan_began_ = 0.0;         // of the sweep
+  std::size_t told_ = 0;           // of its points
+  std::optional<TruckBed> bed_;    // that was recognised in it
   int vain_ = 0;                   // looks since the last truck
 };
 

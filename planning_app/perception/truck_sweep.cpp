@@ -10,7 +10,10 @@ void TruckSweep::begin(std::size_t scanner) {
 
 void TruckSweep::take(const ScanlinePart& part) {
   if (!recording_ || part.scanner != scanner_) return;
-  if (any_ && part.scanline != line_) ++lines_;
+  if (any_ && part.scanline != line_) {
+    ++lines_;
+    whole_ = points_.size();
+  }
   any_ = true;
   line_ = part.scanline;
   for (const ScanReturn& s : part.samples()) {
@@ -22,6 +25,7 @@ void TruckSweep::take(const ScanlinePart& part) {
     points_.push_back({static_cast<float>(s.x), static_cast<float>(s.y), static_cast<float>(s.z), lines_, s.time_s});
     flagged_.push_back(s.several_echoes);
   }
+  if (part.first_index + part.count == part.samples_per_revolution) whole_ = points_.size();  // it ends its turn of the mirror
 }
 
 }  // namespace berm::app

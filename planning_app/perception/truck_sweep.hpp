@@ -20,6 +20,8 @@ public:
   void take(const ScanlinePart& part);
 
   bool recording() const { return recording_; }
+  // Of points, those of scanlines to which nothing will be added: all when the sweep has ended.
+  std::size_t whole() const { return recording_ ? whole_ : points_.size(); }
   const std::vector<ScanPoint>& points() const { return points_; }  // base frame
   bool flagged(std::size_t point) const { return flagged_[point]; }
   // Of the samples with a return, the share with an echo before the last: dust, or edges.
@@ -34,6 +36,7 @@ private:
   std::vector<bool> flagged_;  // by point: an echo before the last
   bool any_ = false;
   std::uint32_t line_ = 0, lines_ = 0;  // the scanner's number of the newest scanline; how many before it
+  std::size_t whole_ = 0;
   std::size_t returns_ = 0, several_ = 0;
 };
 

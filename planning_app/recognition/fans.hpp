@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,13 +45,55 @@ struct FanSweep {
   [[nodiscard]] std::span<const FanReturn> of(std::size_t fan) const { return {returns.data() + begin[fan], begin[fan + 1] - begin[fan]}; }
 };
 
-// points in measuring order; viewpoint: of the sensor in the middle of the sweep. The fans are upright planes through the sensor; with the machine
-// swinging the sensor moves on a circle about the frame's z axis, and angle and rate are found from the fans' planes by least squares. Scanlines with
-// fewer than 8 returns within 30 m are left out. On failure only reason is set.
-FanSweep make_fans(const std::vector<ScanPoint>& points, const std::array<double, 3>& viewpoint);
+// The upright plane of a scanline's returns, and when it was measured.
+struct FanPlane {
+  Eigen::Vector2d normal;  // horizontal, unit
+  double offset, time;
+};
 
-// Every second, third ... fan of a sweep whose fans lie closer than a degree, so that they lie about a degree apart: what a search for a truck needs, and
-// what its weights of evidence are meant for. Nothing is marked upright yet.
+// How the sensor moved on a circle about the frame's z axis: at a time it stands at the viewpoint turned by this angle. Radians, seconds.
+struct SwingOfHead {
+  double angle = 0.0, rate = 0.0;  // in the middle; rad/s
+  double middle = 0.0;             // the planes' mean time
+  std::string reason;              // why the scanlines are no fans through it; empty when they are
+  [[nodiscard]] double at(double time) const { return angle + rate * (time - middle); }
+  [[nodiscard]] bool stands() const { return angle == 0.0 && rate == 0.0; }
+};
+
+// Adds a scanline (points of one, in measuring order) as the next fan, seen from the head. None, and nothing added, where it has fewer than 8 returns within
+// 30 m or they lie too near to one another to tell a plane.
+std::optional<FanPlane> append_fan(FanSweep& sweep, std::span<const ScanPoint> scanline, const Eigen::Vector3d& head);
+
+// Angle and rate by least squares; where the head stands both are exactly 0.
+SwingOfHead swing_of_head(const std::vector<FanPlane>& planes, const Eigen::Vector3d& head);
+
+// Puts the heads of a sweep, whose fans have these planes, where the swing had them, and finds their rays' directions again.
+void place_heads(FanSweep& sweep, const std::vector<FanPlane>& planes, const Eigen::Vector3d& head, const SwingOfHead& swing);
+
+// From a fan to the next, rad, counter-clockwise from above; and the median of such without their sense, 0 of none.
+double turn_between(const FanPlane& one, const FanPlane& next);
+double median_of(std::vector<double> steps);
+
+// points in measuring order; viewpoint: of the sensor in the middle of the sweep. The fans are upright planes through the sensor; with the machine
+// swinging the sensor moves on a circle about the frame's z axis, and angle and rate are found from the fans' planes. On failure only reason is set.
+FanSweep make_fans(std::span<const ScanPoint> points, const std::array<double, 3>& viewpoint);
+
+// Every which fan of a sweep with this step is kept, so that the kept lie about a degree apart: what a search for a truck needs, and what its weights of
+// evidence are meant for.
+std::size_t thinning(double step);
+void append_thinned(FanSweep& out, const FanSweep& sweep, std::size_t fan);
+// All fans that are kept. Nothing is marked upright yet.
 FanSweep thinned(const FanSweep& sweep);
+
+// Hands on the points of each scanline by itself: neighbours with the same number.
+template <typename Take>
+void visit_scanlines(std::span<const ScanPoint> points, const Take& take) {
+  for (std::size_t i = 0; i < points.size();) {
+    std::size_t end = i;
+    while (end < points.size() && points[end].scanline == points[i].scanline) ++end;
+    take(points.subspan(i, end - i));
+    i = end;
+  }
+}
 
 }  // namespace berm::app

@@ -232,13 +232,11 @@ double thread_milliseconds() {
   return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
 }
 
-RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array<double, 3>& viewpoint, const TruckRangeSet& ranges) {
+RecognisedTruck recognise(ArrivingSweep& scanlines, const TruckRangeSet& ranges) {
   RecognisedTruck out;
-  const FanSweep whole = make_fans(points, viewpoint);
-  out.reason = whole.reason;
+  const auto [reason, whole, sweep, regions] = scanlines.view();
+  out.reason = reason;
   if (!out.reason.empty()) return out;
-  FanSweep sweep = thinned(whole);
-  const std::vector<UprightRegion> regions = upright_regions(sweep, upright_segments(sweep));
   out.reason = "the sweep shows no upright wall";
   if (regions.empty()) return out;
   const std::vector<BedEnds> rough = rough_beds(sweep, regions, ranges);
@@ -295,9 +293,18 @@ RecognisedTruck recognise(const std::vector<ScanPoint>& points, const std::array
 
 }  // namespace
 
-RecognisedTruck recognise_truck(const std::vector<ScanPoint>& points, const std::array<double, 3>& viewpoint, const TruckRangeSet& ranges) {
+RecognisedTruck recognise_truck(ArrivingSweep& scanlines, const TruckRangeSet& ranges) {
   const double begin = thread_milliseconds();
-  RecognisedTruck out = recognise(points, viewpoint, ranges);
+  RecognisedTruck out = recognise(scanlines, ranges);
+  out.milliseconds = thread_milliseconds() - begin;
+  return out;
+}
+
+RecognisedTruck recognise_truck(std::span<const ScanPoint> points, const std::array<double, 3>& viewpoint, const TruckRangeSet& ranges) {
+  const double begin = thread_milliseconds();
+  ArrivingSweep scanlines(viewpoint);
+  visit_scanlines(points, [&](std::span<const ScanPoint> scanline) { scanlines.take(scanline); });
+  RecognisedTruck out = recognise(scanlines, ranges);
   out.milliseconds = thread_milliseconds() - begin;
   return out;
 }

@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "points/point_cloud.hpp"
+#include "recognition/arriving_sweep.hpp"
 #include "recognition/bed_fit.hpp"
 #include "recognition/bed_search.hpp"
 #include "recognition/truck_ranges.hpp"
@@ -31,7 +33,11 @@ struct RecognisedTruck {
   double milliseconds = 0.0;                    // of CPU, in one thread
 };
 
-// points in measuring order; viewpoint: of the sensor in the middle of the sweep. Never throws for what the points are.
-RecognisedTruck recognise_truck(const std::vector<ScanPoint>& points, const std::array<double, 3>& viewpoint, const TruckRangeSet& ranges);
+// Of the scanlines that have arrived so far; milliseconds are of this call alone.
+RecognisedTruck recognise_truck(ArrivingSweep& scanlines, const TruckRangeSet& ranges);
+
+// Of a whole sweep, the same bits as when its scanlines had arrived one by one. points in measuring order; viewpoint: of the sensor in the middle of the
+// sweep. Never throws for what the points are.
+RecognisedTruck recognise_truck(std::span<const ScanPoint> points, const std::array<double, 3>& viewpoint, const TruckRangeSet& ranges);
 
 }  // namespace berm::app

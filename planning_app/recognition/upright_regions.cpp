@@ -14,37 +14,6 @@ constexpr double kOffLine = 0.09;       // m, of a segment from its region in pl
 constexpr std::size_t kFansApart = 3;
 constexpr int kSegmentsLeast = 4;
 
-struct Growing {
-  double n = 0.0;
-  Vector2d sum = Vector2d::Zero();
-  double xx = 0.0, xy = 0.0, yy = 0.0;
-  std::vector<UprightSegment> members;
-
-  void add(const UprightSegment& s) {
-    const double w = s.count;
-    n += w;
-    sum += w * s.at;
-    xx += w * s.at.x() * s.at.x();
-    xy += w * s.at.x() * s.at.y();
-    yy += w * s.at.y() * s.at.y();
-    members.push_back(s);
-  }
-  [[nodiscard]] Vector2d normal() const {
-    const Vector2d m = sum / n;
-    const double angle = 0.5 * std::atan2(2.0 * (xy / n - m.x() * m.y()), xx / n - m.x() * m.x() - yy / n + m.y() * m.y());
-    return {-std::sin(angle), std::cos(angle)};
-  }
-  // s: at most kFansApart later than the last.
-  [[nodiscard]] bool takes(const UprightSegment& s) const {
-    const UprightSegment& last = members.back();
-    if (s.fan == last.fan) return false;
-    if (std::min(s.high, last.high) - std::max(s.low, last.low) < 0.0) return false;
-    const double step = (s.at - last.at).norm() / static_cast<double>(s.fan - last.fan);
-    if (members.size() < 3) return step < 0.45;
-    return step < 1.2 && std::abs(normal().dot(s.at - sum / n)) < kOffLine;
-  }
-};
-
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -53,58 +22,92 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-std::vector<UprightSegment> upright_segments(FanSweep& sweep) {
-  std::vector<UprightSegment> out;
-  for (std::size_t fan = 0; fan + 1 < sweep.begin.size(); ++fan) {
-    const std::span<const FanReturn> returns = sweep.of(fan);
-    const Vector2d head = sweep.heads[fan].head<2>();
-    for (std::size_t i = 0; i < returns.size();) {
-      double mean = (returns[i].at.head<2>() - head).norm();
-      Vector2d sum = returns[i].at.head<2>();
-      int count = 1;
-      std::size_t end = i + 1;
-      double low = returns[i].at.z(), high = low;
-      for (; end < returns.size(); ++end) {
-        const Vector2d at = returns[end].at.head<2>();
-        const double distance = (at - head).norm(), z = returns[end].at.z();
-        if (std::abs(distance - mean) > kAcross || std::abs(z - returns[end - 1].at.z()) > 0.5 || (at - sum / count).squaredNorm() > 0.25) break;
-        mean += (distance - mean) / ++count;
-        sum += at;
-        low = std::min(low, z);
-        high = std::max(high, z);
-      }
-      if (count >= 3 && high - low >= kRiseLeast) {
-        out.push_back({fan, sum / count, low, high, count});
-        for (std::size_t k = i; k < end; ++k) sweep.returns[sweep.begin[fan] + k].upright = true;
-        i = end;
-      } else {
-        ++i;
-      }
+void upright_segments(FanSweep& sweep, std::size_t fan, std::vector<UprightSegment>& out) {
+  const std::span<const FanReturn> returns = sweep.of(fan);
+  const Vector2d head = sweep.heads[fan].head<2>();
+  for (std::size_t i = 0; i < returns.size();) {
+    double mean = (returns[i].at.head<2>() - head).norm();
+    Vector2d sum = returns[i].at.head<2>();
+    int count = 1;
+    std::size_t end = i + 1;
+    double low = returns[i].at.z(), high = low;
+    for (; end < returns.size(); ++end) {
+      const Vector2d at = returns[end].at.head<2>();
+      const double distance = (at - head).norm(), z = returns[end].at.z();
+      if (std::abs(distance - mean) > kAcross || std::abs(z - returns[end - 1].at.z()) > 0.5 || (at - sum / count).squaredNorm() > 0.25) break;
+      mean += (distance - mean) / ++count;
+      sum += at;
+      low = std::min(low, z);
+      high = std::max(high, z);
+    }
+    if (count >= 3 && high - low >= kRiseLeast) {
+      out.push_back({fan, sum / count, low, high, count});
+      for (std::size_t k = i; k < end; ++k) sweep.returns[sweep.begin[fan] + k].upright = true;
+      i = end;
+    } else {
+      ++i;
     }
   }
+}
+
+std::vector<UprightSegment> upright_segments(FanSweep& sweep) {
+  std::vector<UprightSegment> out;
+  for (std::size_t fan = 0; fan + 1 < sweep.begin.size(); ++fan) upright_segments(sweep, fan, out);
   return out;
 }
 
-std::vector<UprightRegion> upright_regions(const FanSweep& sweep, const std::vector<UprightSegment>& segments) {
-  std::vector<Growing> growing;
-  std::vector<std::size_t> open;  // of growing: those that a segment of this fan may still join
-  for (const UprightSegment& s : segments) {
-    std::erase_if(open, [&](std::size_t g) { return s.fan - growing[g].members.back().fan > kFansApart; });
-    std::size_t best = growing.size();
-    double nearest = 1e9;
-    for (const std::size_t g : open) {
-      if (!growing[g].takes(s)) continue;
-      const double distance = (growing[g].members.back().at - s.at).norm();
-      if (distance < nearest) nearest = distance, best = g;
-    }
-    if (best == growing.size()) {
-      growing.emplace_back();
-      open.push_back(best);
-    }
-    growing[best].add(s);
+void RegionGrowth::Growing::add(const UprightSegment& s) {
+  const double w = s.count;
+  n += w;
+  sum += w * s.at;
+  xx += w * s.at.x() * s.at.x();
+  xy += w * s.at.x() * s.at.y();
+  yy += w * s.at.y() * s.at.y();
+  members.push_back(s);
+}
+
+Vector2d RegionGrowth::Growing::normal() const {
+  const Vector2d m = sum / n;
+  const double angle = 0.5 * std::atan2(2.0 * (xy / n - m.x() * m.y()), xx / n - m.x() * m.x() - yy / n + m.y() * m.y());
+  return {-std::sin(angle), std::cos(angle)};
+}
+
+bool RegionGrowth::Growing::takes(const UprightSegment& s) const {
+  const UprightSegment& last = members.back();
+  if (s.fan == last.fan) return false;
+  if (std::min(s.high, last.high) - std::max(s.low, last.low) < 0.0) return false;
+  const double step = (s.at - last.at).norm() / static_cast<double>(s.fan - last.fan);
+  if (members.size() < 3) return step < 0.45;
+  return step < 1.2 && std::abs(normal().dot(s.at - sum / n)) < kOffLine;
+}
+
+void RegionGrowth::take(const UprightSegment& s) {
+  std::erase_if(open_, [&](std::size_t g) { return s.fan - growing_[g].members.back().fan > kFansApart; });
+  std::size_t best = growing_.size();
+  double nearest = 1e9;
+  for (const std::size_t g : open_) {
+    if (!growing_[g].takes(s)) continue;
+    const double distance = (growing_[g].members.back().at - s.at).norm();
+    if (distance < nearest) nearest = distance, best = g;
   }
+  if (best == growing_.size()) {
+    growing_.emplace_back();
+    open_.push_back(best);
+  }
+  growing_[best].add(s);
+}
+
+bool RegionGrowth::pauses(std::size_t newest_fan, double length) const {
+  return std::any_of(open_.begin(), open_.end(), [&](std::size_t g) {
+    const std::vector<UprightSegment>& members = growing_[g].members;
+    const std::size_t since = newest_fan - members.back().fan;
+    return since > 0 && since <= kFansApart && static_cast<int>(members.size()) >= kSegmentsLeast && (members.back().at - members.front().at).norm() >= length;
+  });
+}
+
+std::vector<UprightRegion> RegionGrowth::regions(const FanSweep& sweep) const {
   std::vector<UprightRegion> out;
-  for (const Growing& g : growing) {
+  for (const Growing& g : growing_) {
     if (static_cast<int>(g.members.size()) < kSegmentsLeast) continue;
     UprightRegion r;
     const Vector2d mean = g.sum / g.n;
@@ -130,6 +133,12 @@ std::vector<UprightRegion> upright_regions(const FanSweep& sweep, const std::vec
   }
   std::sort(out.begin(), out.end(), [](const UprightRegion& a, const UprightRegion& b) { return a.count > b.count; });
   return out;
+}
+
+std::vector<UprightRegion> upright_regions(const FanSweep& sweep, const std::vector<UprightSegment>& segments) {
+  RegionGrowth growth;
+  for (const UprightSegment& s : segments) growth.take(s);
+  return growth.regions(sweep);
 }
 
 }  // namespace berm::app

@@ -25,10 +25,37 @@ struct UprightRegion {
   std::vector<UprightSegment> segments;
 };
 
-// Marks their returns in the sweep.
+// Of one fan of the sweep; marks their returns.
+void upright_segments(FanSweep& sweep, std::size_t fan, std::vector<UprightSegment>& out);
+// Of every fan.
 std::vector<UprightSegment> upright_segments(FanSweep& sweep);
 
-// The largest first. segments by rising fan. Linear in them: each is offered to the regions that grew within the last three fans.
+// Regions as their segments come. Linear in these: each is offered to the regions that grew within the last three fans.
+class RegionGrowth {
+public:
+  // By rising fan.
+  void take(const UprightSegment& segment);
+  // Whether a region as long as this, from its first segment to its last, has not grown in the newest fan, but up to three before.
+  [[nodiscard]] bool pauses(std::size_t newest_fan, double length) const;
+  // The largest first, of the segments so far.
+  [[nodiscard]] std::vector<UprightRegion> regions(const FanSweep& sweep) const;
+
+private:
+  struct Growing {
+    double n = 0.0;
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    std::vector<UprightSegment> members;
+
+    void add(const UprightSegment& segment);
+    [[nodiscard]] Eigen::Vector2d normal() const;
+    [[nodiscard]] bool takes(const UprightSegment& segment) const;  // one that is not much later than the last
+  };
+
+  std::vector<Growing> growing_;
+  std::vector<std::size_t> open_;  // of growing_: those that a segment of the newest fan may still join
+};
+
 std::vector<UprightRegion> upright_regions(const FanSweep& sweep, const std::vector<UprightSegment>& segments);
 
 }  // namespace berm::app

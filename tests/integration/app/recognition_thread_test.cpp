@@ -6,6 +6,7 @@
 
 #include "drawn_bed.hpp"
 #include "app/recognition_thread.hpp"
+#include "recognition/ongoing_recognition.hpp"
 
 namespace {
 
@@ -13,50 +14,106 @@ using namespace berm::app;
 
 TruckRangeSet ranges() { return read_truck_ranges(BERM_CONFIG_DIR "/truck_classes.toml"); }
 
-TEST(RecognitionThread, AnswersInLockstepInAFixedCycleAndAsTheRecogniserDoes) {
+constexpr std::uint64_t cycles_between = 4;  // scanlines
+
+// Tells the sweep from this cycle on, asking for an answer in every cycle; the cycle of the answer, 0 without one before its end.
+std::uint64_t tell(RecognitionThread& finder, const std::vector<ScanPoint>& sweep, std::uint64_t cycle, std::optional<RecognisedTruck>& answer) {
+  finder.begin(drawn_viewpoint);
+  std::uint64_t answered = 0;
+  visit_scanlines(sweep, [&](std::span<const ScanPoint> scanline) {
+    if (answer) return;
+    finder.take({scanline.begin(), scanline.end()}, cycle);
+    for (std::uint64_t k = 0; k < cycles_between && !answer; ++k, ++cycle)
+      if ((answer = finder.answer(cycle))) answered = cycle;
+  });
+  return answered;
+}
+
+// A question in each scanline's cycle, which takes no time at all.
+struct Direct {
+  RecognisedTruck truck;
+  std::uint64_t asked = 0;
+};
+Direct direct(const std::vector<ScanPoint>& sweep, std::uint64_t cycle) {
+  const TruckRangeSet classes = ranges();
+  OngoingRecognition recognition(drawn_viewpoint, classes);
+  Direct out;
+  visit_scanlines(sweep, [&](std::span<const ScanPoint> scanline) {
+    if (out.asked == 0 && recognition.take(scanline) && (recognition.ask(), recognition.stands())) out = {recognition.ask(), cycle};
+    cycle += cycles_between;
+  });
+  return out;
+}
+
+TEST(RecognitionThread, AnswersInLockstepInAFixedCycleAfterTheScanlineWithWhichTheAnswerStands) {
   const std::vector<ScanPoint> sweep = sweep_of({});
-  const RecognisedTruck direct = recognise_truck(sweep, drawn_viewpoint, ranges());
-  ASSERT_TRUE(direct.found) << direct.reason;
+  const Direct expected = direct(sweep, 100);
+  ASSERT_GT(expected.asked, 100u) << "it stands before the sweep's end";
   for (int run = 0; run < 2; ++run) {
-    RecognitionThread finder(ranges(), 20);
-    EXPECT_FALSE(finder.answer(5)) << "nothing was asked";
-    finder.ask(sweep, drawn_viewpoint, 100);
-    for (std::uint64_t cycle = 100; cycle < 120; ++cycle) ASSERT_FALSE(finder.answer(cycle)) << cycle;
-    const auto answer = finder.answer(120);
+    RecognitionThread finder(ranges(), 5);
+    EXPECT_FALSE(finder.answer(5)) << "nothing was told";
+    std::optional<RecognisedTruck> answer;
+    EXPECT_EQ(tell(finder, sweep, 100, answer), expected.asked + 5);
     ASSERT_TRUE(answer);
-    EXPECT_EQ(answer->length, direct.length);
-    EXPECT_EQ(answer->pose.middle, direct.pose.middle);
-    EXPECT_FALSE(finder.answer(121)) << "once";
+    EXPECT_EQ(answer->length, expected.truck.length);
+    EXPECT_EQ(answer->pose.middle, expected.truck.pose.middle);
+    finder.end(1000);
+    EXPECT_FALSE(finder.answer(2000)) << "once";
   }
+}
+
+TEST(RecognitionThread, WithoutAnAnswerThatStandsTheEndIsTheLastQuestion) {
+  DrawnBed lid;
+  lid.lid = true;
+  const std::vector<ScanPoint> sweep = sweep_of(lid);
+  const RecognisedTruck whole = recognise_truck(sweep, drawn_viewpoint, ranges());
+  ASSERT_FALSE(whole.found);
+  RecognitionThread finder(ranges(), 5);
+  std::optional<RecognisedTruck> answer;
+  EXPECT_EQ(tell(finder, sweep, 100, answer), 0u);
+  finder.end(1000);
+  for (std::uint64_t cycle = 1000; cycle < 1005; ++cycle) ASSERT_FALSE(finder.answer(cycle)) << cycle;
+  answer = finder.answer(1005);
+  ASSERT_TRUE(answer);
+  EXPECT_FALSE(answer->found);
+  EXPECT_EQ(answer->reason, whole.reason);
+  EXPECT_FALSE(finder.answer(1006)) << "once";
 }
 
 TEST(RecognitionThread, AnswersInRealTimeWhenItIsDone) {
   RecognitionThread finder(ranges(), 0);
-  finder.ask(sweep_of({}), drawn_viewpoint, 1);
   std::optional<RecognisedTruck> answer;
-  std::uint64_t cycle = 1;
-  for (; !answer && cycle < 2000; ++cycle) {
-    answer = finder.answer(cycle);
+  tell(finder, sweep_of({}), 1, answer);
+  finder.end(1000);
+  for (int wait = 0; !answer && wait < 2000; ++wait) {
+    answer = finder.answer(1000);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   ASSERT_TRUE(answer);
   EXPECT_TRUE(answer->found);
 }
 
-TEST(RecognitionThread, ANewerQuestionReplacesAnOpenOne) {
+TEST(RecognitionThread, ANewerSweepReplacesOneThatGoesOn) {
   RecognitionThread finder(ranges(), 10);
-  finder.ask(sweep_of({}), drawn_viewpoint, 1);
-  finder.ask({}, drawn_viewpoint, 2);
+  const std::vector<ScanPoint> sweep = sweep_of({});
+  finder.begin(drawn_viewpoint);
+  visit_scanlines(sweep, [&](std::span<const ScanPoint> scanline) { finder.take({scanline.begin(), scanline.end()}, 1); });
+  finder.end(1);
+  finder.begin(drawn_viewpoint);
+  finder.end(2);
   EXPECT_FALSE(finder.answer(11));
   const auto answer = finder.answer(12);
   ASSERT_TRUE(answer);
-  EXPECT_FALSE(answer->found);
+  EXPECT_FALSE(answer->found) << "of a sweep without a scanline";
   EXPECT_FALSE(finder.answer(13));
 }
 
 TEST(RecognitionThread, EndsWithAQuestionOpen) {
   RecognitionThread finder(ranges(), 10);
-  finder.ask(sweep_of({}), drawn_viewpoint, 1);
+  finder.begin(drawn_viewpoint);
+  const std::vector<ScanPoint> sweep = sweep_of({});
+  visit_scanlines(sweep, [&](std::span<const ScanPoint> scanline) { finder.take({scanline.begin(), scanline.end()}, 1); });
+  finder.end(1);
 }
 
 }  // namespace

@@ -48,9 +48,9 @@ private:
 
 TEST(TruckLook, AsksWithOneSweepOverTheWholePlaceFromWhereTheMachineStands) {
   Loading run(1, start_pose());
-  while (run.finder.asked.empty() && run.seconds < 60.0) run.step();
-  ASSERT_EQ(run.finder.asked.size(), 1u);
-  const auto& asked = run.finder.asked.front();
+  while (run.finder.ended() == 0 && run.seconds < 60.0) run.step();
+  ASSERT_EQ(run.finder.looks.size(), 1u);
+  const auto& asked = run.finder.looks.front();
   const ScannerMount& mount = run.machine.scanner[0];
   const double swing_angle = run.plant.angle()[swing];
   EXPECT_NEAR(asked.viewpoint[0], mount.x * std::cos(swing_angle) - mount.y * std::sin(swing_angle), 0.01);
@@ -83,9 +83,9 @@ TEST(TruckLook, WithoutATruckItLooksAgainTellsTheOperatorAndDoesNotDig) {
     run.step();
     ASSERT_NE(run.last.phase, BERM_PHASE_DIG);
   }
-  EXPECT_GE(run.finder.asked.size(), 4u);
+  EXPECT_GE(run.finder.ended(), 4u);
   const auto none = events.named("no_truck"), operators = events.named("operator_needed");
-  EXPECT_EQ(none.size(), run.finder.asked.size());
+  EXPECT_EQ(none.size(), run.finder.ended());
   EXPECT_EQ(none.front().at("reason"), "the sweep shows no upright wall");
   ASSERT_EQ(operators.size(), 1u) << "once";
   EXPECT_EQ(operators.front().at("reason"), "no_truck");
@@ -115,11 +115,11 @@ TEST(TruckLook, ATruckOutsideTheTruckZoneIsNotLoaded) {
 TEST(TruckLook, ATruckThatLeavesMeanwhileIsNotLookedForAnyLonger) {
   Loading run(1, start_pose());
   run.finder.truck = {};
-  while (run.finder.asked.empty() && run.seconds < 60.0) run.step();
+  while (run.finder.ended() == 0 && run.seconds < 60.0) run.step();
   run.plant.truck_parked = false;
-  const std::size_t asked = run.finder.asked.size();
+  const std::size_t looks = run.finder.looks.size();
   for (int k = 0; k < 2000; ++k) run.step();
-  EXPECT_EQ(run.finder.asked.size(), asked);
+  EXPECT_EQ(run.finder.looks.size(), looks);
   EXPECT_FALSE(moves(run.last));
 }
 
@@ -128,14 +128,76 @@ TEST(TruckLook, AStopInTheLookBeginsItAnew) {
   while (run.plant.angle()[swing] < radians(30.0) && run.seconds < 60.0) run.step();
   while (std::fabs(run.plant.state().joint_velocity_urad_s[0]) > 20000 && run.seconds < 60.0) run.step();
   for (int k = 0; k < 150; ++k) run.step();  // the sweep is under way
-  ASSERT_TRUE(run.finder.asked.empty());
+  ASSERT_EQ(run.finder.looks.size(), 1u);
   run.plant.kernel_runs = false;
   for (int k = 0; k < 300; ++k) run.step();
-  EXPECT_TRUE(run.finder.asked.empty()) << "half a sweep tells nothing";
+  EXPECT_EQ(run.finder.ended(), 0u) << "half a sweep tells nothing";
   run.plant.kernel_runs = true;
   const double resumed = run.seconds;
-  while (run.finder.asked.empty() && run.seconds < resumed + 40.0) run.step();
-  EXPECT_EQ(run.finder.asked.size(), 1u);
+  while (run.finder.ended() == 0 && run.seconds < resumed + 40.0) run.step();
+  EXPECT_EQ(run.finder.ended(), 1u);
+  EXPECT_GT(run.finder.looks.size(), 1u);
+}
+
+// The head's bearing of a place, from where the machine stands.
+double bearing_from(const std::array<double, 3>& head, double x, double y) { return std::atan2(y - head[1], x - head[0]); }
+
+// However early the answer stands, the look goes on until the whole bed was looked into, and no longer.
+TEST(TruckLook, AnAnswerThatStandsEarlyEndsTheLookWhenTheBedWasPassed) {
+  std::size_t whole = 0;
+  for (const bool early : {false, true}) {
+    Events events;
+    Loading run(1, start_pose(), events.fd());
+    if (early) run.finder.stands_after = 10;
+    while (run.sequencer.bed() == nullptr && run.seconds < 60.0) run.step();
+    ASSERT_NE(run.sequencer.bed(), nullptr);
+    ASSERT_EQ(run.finder.looks.size(), 1u);
+    const auto& look = run.finder.looks.front();
+    const auto recognised = events.named("recognised");
+    ASSERT_EQ(recognised.size(), 1u);
+    EXPECT_EQ(recognised.front().at("before_sweep_end"), early);
+    EXPECT_EQ(look.ended, !early);
+    const std::vector<ScanPoint>& seen = run.sequencer.sweep().points();
+    if (!early) {
+      whole = seen.size();
+      continue;
+    }
+    EXPECT_LT(seen.size(), whole) << "it does not go on to the sweep's end";
+    double low = 1e9, high = -1e9;
+    for (const ScanPoint& p : seen) {
+      if (static_cast<double>(p.y) < look.viewpoint[1] + 2.0) continue;
+      const double b = bearing_from(look.viewpoint, static_cast<double>(p.x), static_cast<double>(p.y));
+      low = std::min(low, b), high = std::max(high, b);
+    }
+    const TruckBed bed = app_bench::bench_bed();
+    for (const double u : {-0.5, 0.5})
+      for (const double v : {-0.5, 0.5}) {
+        const double b = bearing_from(look.viewpoint, bed.centre_x + u * bed.length, bed.centre_y + v * bed.width);
+        EXPECT_GT(b, low);
+        EXPECT_LT(b, high);
+      }
+  }
+}
+
+// A scanline is told whole, once, and as soon as it is whole, whatever the blocks are that it comes in.
+TEST(TruckLook, TellsTheSweepScanlineByScanlineWhileItGoesOn) {
+  Loading run(1, start_pose());
+  while (run.finder.looks.empty() && run.seconds < 60.0) run.step();
+  ASSERT_FALSE(run.finder.looks.empty());
+  std::size_t during = 0;
+  while (run.finder.ended() == 0 && run.seconds < 60.0) {
+    run.step();
+    const auto& told = run.finder.looks.front().points;
+    const std::vector<ScanPoint>& seen = run.sequencer.sweep().points();
+    if (!run.sequencer.sweep().recording()) continue;
+    during = std::max(during, told.size());
+    ASSERT_LE(told.size(), seen.size());
+    if (told.size() == seen.size() || told.empty()) continue;
+    ASSERT_EQ(seen[told.size()].scanline, told.back().scanline + 1);
+    ASSERT_EQ(seen.back().scanline, seen[told.size()].scanline) << "only the newest is not told yet";
+  }
+  EXPECT_GT(during, 1000u);
+  EXPECT_EQ(run.finder.looks.front().points.size(), run.sequencer.sweep().points().size());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // In the recogniser's place: tells what the test gives it, some cycles after the question.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -25,28 +26,45 @@ inline app::RecognisedTruck bench_truck() {
 
 class BenchFinder final : public app::TruckFinder {
 public:
-  void ask(std::vector<app::ScanPoint> points, const std::array<double, 3>& viewpoint, std::uint64_t cycle) override {
-    asked.push_back({std::move(points), viewpoint});
-    due_ = cycle + cycles;
-    open_ = true;
+  void begin(const std::array<double, 3>& viewpoint) override {
+    looks.push_back({{}, viewpoint});
+    due_.reset();
+    answered_ = false;
+  }
+  void take(std::vector<app::ScanPoint> scanline, std::uint64_t cycle) override {
+    std::vector<app::ScanPoint>& points = looks.back().points;
+    points.insert(points.end(), scanline.begin(), scanline.end());
+    if (!due_ && ++looks.back().scanlines >= stands_after) due_ = cycle + cycles;
+  }
+  void end(std::uint64_t cycle) override {
+    looks.back().ended = true;
+    if (!due_) due_ = cycle + cycles;
   }
   std::optional<app::RecognisedTruck> answer(std::uint64_t cycle) override {
-    if (!open_ || cycle < due_) return std::nullopt;
-    open_ = false;
+    if (answered_ || !due_ || cycle < *due_) return std::nullopt;
+    answered_ = true;
     return truck;
   }
 
-  struct Question {
+  struct Look {
     std::vector<app::ScanPoint> points;
     std::array<double, 3> viewpoint{};
+    std::size_t scanlines = 0;
+    bool ended = false;
   };
-  std::vector<Question> asked;
+  std::vector<Look> looks;
   app::RecognisedTruck truck = bench_truck();
   std::uint64_t cycles = 10;
+  std::size_t stands_after = 1000000;  // scanlines: the sweep's end
+
+  // Sweeps that were told to their end.
+  std::size_t ended() const {
+    return static_cast<std::size_t>(std::count_if(looks.begin(), looks.end(), [](const Look& l) { return l.ended; }));
+  }
 
 private:
-  std::uint64_t due_ = 0;
-  bool open_ = false;
+  std::optional<std::uint64_t> due_;
+  bool answered_ = false;
 };
 
 }  // namespace berm::app_bench

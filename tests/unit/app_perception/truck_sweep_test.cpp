@@ -74,6 +74,26 @@ TEST(TruckSweep, KeepsReturnsWithSeveralEchoesAndTellsTheirShare) {
   EXPECT_TRUE(sweep.flagged(1));
 }
 
+TEST(TruckSweep, AScanlineIsWholeWhenItsTurnEndsOrTheNextBegins) {
+  TruckSweep sweep;
+  sweep.begin(0);
+  ScanlinePart first = part(0, 1, 5), rest = part(0, 1, 3);
+  first.samples_per_revolution = rest.samples_per_revolution = 8;
+  rest.first_index = 5;
+  sweep.take(first);
+  EXPECT_EQ(sweep.whole(), 0u);
+  sweep.take(rest);
+  EXPECT_EQ(sweep.whole(), 8u) << "its turn has ended";
+  first.scanline = 2;
+  sweep.take(first);
+  EXPECT_EQ(sweep.whole(), 8u);
+  first.scanline = 3;
+  sweep.take(first);
+  EXPECT_EQ(sweep.whole(), 13u) << "a block of it was lost, but the next has begun";
+  sweep.end();
+  EXPECT_EQ(sweep.whole(), 18u);
+}
+
 TEST(TruckSweep, ASweepWithoutEndIsCut) {
   TruckSweep sweep;
   sweep.begin(0);

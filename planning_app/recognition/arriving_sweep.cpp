@@ -1,0 +1,75 @@
+#include "recognition/arriving_sweep.hpp"
+
+namespace berm::app {
+namespace {
+
+constexpr std::size_t kReturnsExpected = 20000;  // of a sweep
+
+}  // namespace
+
+ArrivingSweep::ArrivingSweep(const std::array<double, 3>& viewpoint) : head_(viewpoint[0], viewpoint[1], viewpoint[2]) {
+  whole_.returns.reserve(kReturnsExpected);
+  whole_.directions.reserve(kReturnsExpected);
+}
+
+void ArrivingSweep::Thinned::take(const FanSweep& whole, std::size_t fan) {
+  append_thinned(sweep, whole, fan);
+  std::vector<UprightSegment> segments;
+  upright_segments(sweep, sweep.heads.size() - 1, segments);
+  for (const UprightSegment& s : segments) growth.take(s);
+}
+
+ArrivingSweep::Thinned ArrivingSweep::thin(const FanSweep& whole, std::size_t stride) {
+  Thinned out;
+  for (std::size_t fan = 0; fan < whole.heads.size(); fan += stride) out.take(whole, fan);
+  return out;
+}
+
+void ArrivingSweep::take(std::span<const ScanPoint> scanline) {
+  const auto plane = append_fan(whole_, scanline, head_);
+  if (!plane) return;
+  if (!planes_.empty()) {
+    const double step = turn_between(planes_.back(), *plane);
+    steps_.push_back(std::abs(step));
+    turned_ += step;
+  }
+  planes_.push_back(*plane);
+  whole_.step = median_of(steps_);
+  const std::size_t stride = thinning(whole_.step), fan = planes_.size() - 1;
+  if (stride != stride_) {
+    stride_ = stride;
+    thinned_ = thin(whole_, stride_);
+  } else if (fan % stride_ == 0) {
+    thinned_.take(whole_, fan);
+  }
+}
+
+bool ArrivingSweep::passed(const Eigen::Vector2d& at) const {
+  if (planes_.empty()) return false;
+  const FanPlane& newest = planes_.back();
+  const bool ahead = newest.normal.y() * (at.x() - head_.x()) - newest.normal.x() * (at.y() - head_.y()) > 0.0;  // where the normal is to the left of the fan
+  const double to_left = (ahead ? 1.0 : -1.0) * (newest.normal.dot(at) - newest.offset);
+  return turned_ * to_left < 0.0;
+}
+
+bool ArrivingSweep::wall_pauses(double length) const {
+  return !thinned_.sweep.heads.empty() && thinned_.growth.pauses(thinned_.sweep.heads.size() - 1, length);
+}
+
+ArrivingSweep::View ArrivingSweep::view() {
+  const SwingOfHead swing = swing_of_head(planes_, head_);
+  if (!swing.reason.empty()) return {swing.reason, whole_, thinned_.sweep, {}};
+  const bool stands = swing.stands();
+  if (!stands) {
+    swung_whole_ = whole_;
+    place_heads(swung_whole_, planes_, head_, swing);
+    swung_thinned_ = thin(swung_whole_, stride_);
+  }
+  FanSweep& whole = stands ? whole_ : swung_whole_;
+  Thinned& thinned = stands ? thinned_ : swung_thinned_;
+  whole.swing_rate = thinned.sweep.swing_rate = swing.rate;
+  thinned.sweep.step = static_cast<double>(stride_) * whole.step;
+  return {{}, whole, thinned.sweep, thinned.growth.regions(thinned.sweep)};
+}
+
+}  // namespace berm::app
