@@ -10,6 +10,8 @@ scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-trucks-"))
 SUMMARY = {"trucks", "recognised", "corner_error_m_p95", "yaw_error_deg_p95", "dimension_error_m_p95", "nees_ratio", "non_trucks", "false_accepts",
            "ms_p50", "ms_max", "by_class"}
 ANSWER = {"found", "reason", "corners_m", "yaw_deg", "length_m", "width_m", "height_m", "covariance", "milliseconds"}
+ARRIVING = {"recognised", "false_accepts", "before_sweeps_end", "corner_error_m_p95", "answer_after_last_scanline_ms_p50", "answer_after_last_scanline_ms_p95",
+            "answer_after_last_scanline_ms_max", "answer_within_50_ms", "scanline_ms_p50", "scanline_ms_max", "asks_p50", "asking_ms_p50"}
 SEED = 3
 SAMPLES = 72000  # of a sweep of berm_trucks; berm_truck_world's own are half as many
 
@@ -56,6 +58,25 @@ def what_tells_a_bed_from_a_pit():
     for number in (278, 345, 449):
         pit = drawn(101, number, "--no-trucks")
         assert pit.returncode == 0 and pit.stdout.startswith("none building_pit"), pit.stdout
+
+
+def as_scanlines_arrive():
+    """An answer stands for nearly every truck that is found in whole sweeps, mostly before the sweep's end, and which does not depend on times."""
+    def arriving():
+        out = scratch / "arriving.json"
+        done = run("berm_trucks", "--scenes", 6, "--seed", SEED, "--arriving", "--points", 36000, "--json", out)
+        print(done.stdout, done.stderr)
+        return json.loads(out.read_text())
+
+    summary = arriving()
+    a = summary["arriving"]
+    assert ARRIVING <= a.keys(), a.keys()
+    assert a["trucks"] == a["non_trucks"] == 6 and a["recognised"] >= summary["recognised"] - 1 and a["recognised"] >= 4
+    assert a["false_accepts"] <= summary["false_accepts"]
+    assert a["before_sweeps_end"] >= 2, "the rule waits for the end"
+    assert a["answer_after_last_scanline_ms_p50"] < 500 and a["scanline_ms_p50"] < 1.0
+    again = arriving()["arriving"]
+    assert {k: v for k, v in a.items() if "_ms" not in k} == {k: v for k, v in again.items() if "_ms" not in k}
 
 
 def several_jobs_judge_the_same():
@@ -105,4 +126,4 @@ def what_is_malformed_is_refused():
     assert done.returncode == 1 and "no truck: " in done.stdout, (done.returncode, done.stdout, done.stderr)
 
 
-main([a_drawn_truck_is_found_and_bare_ground_is_none, what_tells_a_bed_from_a_pit, several_jobs_judge_the_same, what_is_malformed_is_refused])
+main([a_drawn_truck_is_found_and_bare_ground_is_none, what_tells_a_bed_from_a_pit, as_scanlines_arrive, several_jobs_judge_the_same, what_is_malformed_is_refused])
