@@ -14,6 +14,8 @@ namespace berm::truck_world {
 namespace {
 
 using Json = nlohmann::ordered_json;
+constexpr double kNormal95 = 1.96;  // standard deviations
+
 using Vector8d = Eigen::Matrix<double, 8, 1>;
 
 // Null without a value.
@@ -38,7 +40,7 @@ Json accuracy(const std::vector<Trial>& trials) {
   std::vector<double> corner, yaw, size, length, width, height;
   int trucks = 0, recognised = 0;
   double nees = 0.0;
-  int within = 0;
+  int within = 0, height_within = 0;
   for (const Trial& t : trials) {
     trucks += t.truck ? 1 : 0;
     if (!t.recognised) continue;
@@ -49,6 +51,7 @@ Json accuracy(const std::vector<Trial>& trials) {
     length.push_back(std::abs(t.length_error));
     width.push_back(std::abs(t.width_error));
     height.push_back(std::abs(t.height_error));
+    height_within += std::abs(t.height_error) <= kNormal95 * t.height_deviation ? 1 : 0;
     nees += t.nees / 8.0;
     within += t.nees < 15.507 ? 1 : 0;  // chi-square, 8 degrees of freedom, 95 %
   }
@@ -61,7 +64,9 @@ Json accuracy(const std::vector<Trial>& trials) {
   json["dimension_error_m_p95"] = percentile(size, 0.95);
   json["length_error_m_p95"] = percentile(length, 0.95);
   json["width_error_m_p95"] = percentile(width, 0.95);
+  json["height_error_m_p50"] = percentile(height, 0.5);
   json["height_error_m_p95"] = percentile(height, 0.95);
+  json["height_within_95"] = recognised > 0 ? Json(static_cast<double>(height_within) / recognised) : Json(nullptr);
   json["nees_ratio"] = recognised > 0 ? Json(nees / recognised) : Json(nullptr);
   json["nees_within_95"] = recognised > 0 ? Json(static_cast<double>(within) / recognised) : Json(nullptr);
   return json;
@@ -83,6 +88,7 @@ Trial judge(const Scene& scene, const app::RecognisedTruck& answer) {
   t.found = answer.found;
   t.truck_class = k.truck_class;
   t.tailgate = k.tailgate;
+  t.fill = k.fill;
   t.look_alike = truth.look_alike;
   t.reason = answer.reason;
   t.wall_hidden = k.wall_hidden;
@@ -111,6 +117,7 @@ Trial judge(const Scene& scene, const app::RecognisedTruck& answer) {
   t.length_error = answer.length - k.inside_length;
   t.width_error = answer.width - k.inside_width;
   t.height_error = answer.height - k.wall_height;
+  t.height_deviation = answer.height_deviation;
   Vector8d error;
   error << answer.pose.middle - middle, t.yaw_error, answer.pose.pitch - k.pitch, answer.pose.roll - k.roll, t.length_error, t.width_error;
   for (int i = 0; i < 8; ++i) {
@@ -123,17 +130,17 @@ Trial judge(const Scene& scene, const app::RecognisedTruck& answer) {
 }
 
 std::string table(const std::vector<Trial>& trials) {
-  std::string out = "scene,truck,found,recognised,class,tailgate,wall_hidden,look_alike,hidden_share,occluded_share,corner_0_m,corner_1_m,corner_2_m,corner_3_m";
+  std::string out = "scene,truck,found,recognised,class,tailgate,fill,wall_hidden,look_alike,hidden_share,occluded_share,corner_0_m,corner_1_m,corner_2_m,corner_3_m";
   for (const char* what : {"error", "deviation"})
     for (const char* of : {"x_m", "y_m", "z_m", "yaw_rad", "pitch_rad", "roll_rad", "length_m", "width_m"}) out += fmt::format(",{}_{}", what, of);
-  out += ",height_error_m,nees,evidence,cab,true_evidence,true_cab,milliseconds,reason\n";
+  out += ",height_error_m,height_deviation_m,nees,evidence,cab,true_evidence,true_cab,milliseconds,reason\n";
   for (const Trial& t : trials) {
-    out += fmt::format("{},{:d},{:d},{:d},{},{},{},{},{:.3f},{:.3f}", t.scene, t.truck, t.found, t.recognised, t.truck_class, t.tailgate, t.wall_hidden, t.look_alike,
+    out += fmt::format("{},{:d},{:d},{:d},{},{},{},{},{},{:.3f},{:.3f}", t.scene, t.truck, t.found, t.recognised, t.truck_class, t.tailgate, t.fill, t.wall_hidden, t.look_alike,
                        t.hidden_share, t.occluded_share);
     for (const double e : t.corner_errors) out += fmt::format(",{:.4f}", e);
     for (const auto& all : {t.error, t.deviation})
       for (const double e : all) out += fmt::format(",{:.5f}", e);
-    out += fmt::format(",{:.3f},{:.2f},{:.1f},{:.1f},{:.1f},{:.1f},{:.2f},\"{}\"\n", t.height_error, t.nees, t.evidence.score, t.cab, t.true_score, t.true_cab, t.milliseconds, t.reason);
+    out += fmt::format(",{:.3f},{:.3f},{:.2f},{:.1f},{:.1f},{:.1f},{:.1f},{:.2f},\"{}\"\n", t.height_error, t.height_deviation, t.nees, t.evidence.score, t.cab, t.true_score, t.true_cab, t.milliseconds, t.reason);
   }
   return out;
 }
@@ -149,6 +156,7 @@ Json summary(const std::vector<Trial>& trials) {
       with.push_back(t);
       classes[t.truck_class].push_back(t);
       classes["tailgate " + t.tailgate].push_back(t);
+      classes["load " + t.fill].push_back(t);
       classes[t.wall_hidden.empty() ? "both ends in sight" : "an end hidden"].push_back(t);
     } else {
       ++without;

@@ -20,11 +20,12 @@ struct Trial {
   int scene = 0;
   bool truck = false, found = false;
   bool recognised = false;        // a truck was found where it stands: every corner within kCornerGate, and the cab on the right end
-  std::string truck_class, tailgate, wall_hidden, look_alike, reason;
+  std::string truck_class, tailgate, fill, wall_hidden, look_alike, reason;
   double hidden_share = 0.0, occluded_share = 0.0;  // SceneTruth
   std::array<double, 4> corner_errors{};  // m
   double yaw_error = 0.0;         // rad
   double length_error = 0.0, width_error = 0.0, height_error = 0.0;  // m
+  double height_deviation = 0.0;  // m, the recogniser's own
   std::array<double, 8> error{}, deviation{};  // of middle x y z (m), yaw, pitch, roll (rad), length, width (m); the recogniser's own
   double nees = 0.0;              // of the eight parameters of the opening by the recogniser's own covariance
   double milliseconds = 0.0;
@@ -42,7 +43,7 @@ Trial judge(const Scene& scene, const app::RecognisedTruck& answer);
 // A row for each trial, with a line of names.
 std::string table(const std::vector<Trial>& trials);
 
-// Counts and percentiles; "by_class" has the same for each class of trucks.
+// Counts and percentiles; "by_class" has the same for each class of trucks, kind of tailgate and of load.
 nlohmann::ordered_json summary(const std::vector<Trial>& trials);
 
 }  // namespace berm::truck_world

@@ -166,7 +166,7 @@ std::optional<TruckBed> TruckLook::judge(const RecognisedTruck& truck, const Obs
   bed.end_deviation = std::sqrt(std::max(0.0, middle + both + 0.25 * truck.pose_covariance(6, 6)));  // the worse end
   limit_to_zones(bed, site_.truck_zones);
   const nlohmann::ordered_json fields{{"time_s", o.time_s}, {"truck", number}, {"class", truck.truck_class}, {"x_m", bed.centre_x}, {"y_m", bed.centre_y},
-                                      {"yaw_deg", degrees(bed.yaw)}, {"length_m", bed.length}, {"width_m", bed.width}, {"height_m", bed.height},
+                                      {"yaw_deg", degrees(bed.yaw)}, {"length_m", bed.length}, {"width_m", bed.width}, {"height_m", bed.height}, {"height_sd_m", truck.height_deviation},
                                       {"wall_top_m", bed.wall_top}, {"end_deviation_m", bed.end_deviation}, {"several_echoes", sweep_.several_echoes()},
                                       {"before_sweep_end", sweep_.recording()}};
   if (!stands_in_zone(bed, site_.truck_zones)) {

@@ -31,7 +31,7 @@ nlohmann::ordered_json json_of(const RecognisedTruck& truck) {
   nlohmann::ordered_json json;
   json["found"] = truck.found;
   json["reason"] = truck.reason;
-  for (const char* key : {"class", "corners_m", "yaw_deg", "length_m", "width_m", "height_m", "open_rear", "covariance", "pose_covariance"})
+  for (const char* key : {"class", "corners_m", "yaw_deg", "length_m", "width_m", "height_m", "height_sd_m", "open_rear", "covariance", "pose_covariance"})
     json[key] = nullptr;
   if (truck.found) {
     json["class"] = truck.truck_class;
@@ -41,6 +41,7 @@ nlohmann::ordered_json json_of(const RecognisedTruck& truck) {
     json["length_m"] = truck.length;
     json["width_m"] = truck.width;
     json["height_m"] = truck.height;
+    json["height_sd_m"] = truck.height_deviation;
     json["open_rear"] = truck.open_rear;
     json["covariance"] = rows_of(truck.covariance);
     json["pose_covariance"] = rows_of(truck.pose_covariance);
@@ -55,8 +56,8 @@ int run(const Options& options) {
   const RecognisedTruck truck = recognise_truck(cloud.points, cloud.viewpoint, ranges);
   if (!options.json.empty()) write_file_bytes(options.json, json_of(truck).dump(1) + "\n");
   if (truck.found) {
-    fmt::print("{}: opening {:.2f} by {:.2f} m, yaw {:.1f} degrees, walls {:.2f} m high; {:.1f} ms\n", truck.truck_class, truck.length, truck.width,
-               json_of(truck)["yaw_deg"].get<double>(), truck.height, truck.milliseconds);
+    fmt::print("{}: opening {:.2f} by {:.2f} m, yaw {:.1f} degrees, walls {:.2f} m high (standard deviation {:.2f}); {:.1f} ms\n", truck.truck_class, truck.length, truck.width,
+               json_of(truck)["yaw_deg"].get<double>(), truck.height, truck.height_deviation, truck.milliseconds);
     for (const Eigen::Vector3d& c : truck.corners) fmt::print("  corner {:8.3f} {:8.3f} {:8.3f}\n", c.x(), c.y(), c.z());
   } else {
     fmt::print("no truck: {}; {:.1f} ms\n", truck.reason, truck.milliseconds);
@@ -76,7 +77,7 @@ int main(int argc, char** argv) {
       "berm recognize"};
   app.add_option("FILE", options.file, "the sweep (PCD)")->required();
   app.add_option("--json", options.json,
-                 "write found, reason, class, corners_m, yaw_deg, length_m, width_m, height_m, open_rear, covariance (12 x 12, of the corners), "
+                 "write found, reason, class, corners_m, yaw_deg, length_m, width_m, height_m, height_sd_m, open_rear, covariance (12 x 12, of the corners), "
                  "pose_covariance (8 x 8: middle x y z, yaw, pitch, roll, length, width; m, rad), milliseconds");
   app.add_option("--picture", options.picture, "write a view from above (SVG)");
   app.add_option("--classes", options.classes, "file of truck classes")->capture_default_str();

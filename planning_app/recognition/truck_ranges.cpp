@@ -10,6 +10,7 @@ namespace {
 TruckRanges read_class(config::StrictTable& table) {
   TruckRanges c;
   c.name = table.text("name");
+  c.half_round = table.choice("bed", {"box", "half_round"}) == "half_round";
   c.inside_length = table.interval("inside_length", 3.0, 9.0, 0.0);
   c.inside_width = table.interval("inside_width", 1.8, 3.5, 0.0);
   c.wall_height = table.interval("wall_height", 0.6, 2.5, 0.0);

@@ -13,7 +13,8 @@ struct TruckRanges {
   std::string name;
   SizeRange inside_length{}, inside_width{}, wall_height{}, wall_thickness{};
   SizeRange top_over_ground{};  // of the walls' tops over the ground that the truck stands on
-  bool open_rear = false;  // the tailgate may be missing or hang down
+  bool half_round = false;      // the bed is a half pipe below straight sides
+  bool open_rear = false;       // the tailgate may be missing or hang down
 };
 
 // What a bed's width and the thickness of its walls may be, over all classes.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "recognition/bed_ground.hpp"
+#include "recognition/bed_height.hpp"
 #include "recognition/bed_refinement.hpp"
 
 namespace berm::app {
@@ -22,9 +23,7 @@ constexpr int kLastRounds = 4;           // of the last fit
 constexpr double kPolishStep = 0.06;     // m
 constexpr int kPolishHalvings = 3, kPolishRounds = 3;
 constexpr std::size_t kPolishStride = 2;  // of rays, while walls are moved
-constexpr double kBelowFloor = 0.1;       // m
-constexpr int kFootLeast = 12;            // returns
-constexpr double kFloorFlat = 0.15;       // m between its returns: a floor, not a load
+constexpr double kBelowTops = 2.5;        // m, of rays that may tell the floor
 constexpr double kLengthUnsure = 0.5;  // m, standard deviation
 constexpr double kMuchBetter = 1.1;
 constexpr double kMovesGain = 1.6;      // of evidence, by moves of walls: hardly more; 1.25 lost two trucks in 300
@@ -38,64 +37,6 @@ void turn_round(BedPose& pose) {
   pose.pitch = -pose.pitch;
   pose.roll = -pose.roll;
   pose.open_end = -pose.open_end;
-}
-
-// Where rays cross the outer face of a wall that faces the sensor: how deep below its top those that end there are, and those that pass.
-struct FaceDepths {
-  std::vector<double> hits, passes;
-};
-
-FaceDepths face_depths(const BedPose& pose, const std::vector<Ray>& rays, int axis) {
-  FaceDepths out;
-  const Eigen::Matrix3d rotation = pose.rotation();
-  for (const Ray& ray : rays) {
-    const Eigen::Vector3d a = rotation.transpose() * (ray.head - pose.middle), d = rotation.transpose() * (ray.at - ray.head);
-    const int side = a[axis] > 0.0 ? 1 : -1;
-    const double face = pose.face(axis, side, true);
-    if (std::abs(a[axis]) < face || (axis == 0 && side == pose.open_end)) continue;
-    const double share = (side * face - a[axis]) / d[axis];
-    const Eigen::Vector3d at = a + share * d;
-    if (share < 0.0 || std::abs(at[1 - axis]) > pose.face(1 - axis, 1, false) || at.z() > -0.5) continue;
-    const double off = (1.0 - share) * d.norm();
-    if (std::abs(off) < 0.1) out.hits.push_back(-at.z());
-    else if (off > 0.0) out.passes.push_back(-at.z());
-  }
-  return out;
-}
-
-// The depth at which hits on an outer face give way to rays that pass below the wall, by the fewest contradictions; at least that of the load's or
-// floor's deeper returns. An end wall reaches down to the floor in every class, the side of a half pipe does not. A face that goes on below every
-// class's floor is of what carries the bed as well, and has no foot to tell; then the floor is where a flat inside lies.
-double wall_height(const BedPose& pose, const std::vector<Ray>& rays, const TruckRangeSet& ranges) {
-  const SizeRange heights = ranges.hull(&TruckRanges::wall_height);
-  FaceDepths depths = face_depths(pose, rays, 0);
-  if (depths.hits.size() < 12 || depths.passes.size() < 6) depths = face_depths(pose, rays, 1);
-  const auto below = [&](const std::vector<double>& all) {
-    return std::count_if(all.begin(), all.end(), [&](double depth) { return depth > heights[1] + kBelowFloor; });
-  };
-  const bool no_foot = below(depths.hits) >= kFootLeast && below(depths.hits) > below(depths.passes);
-  double best = 0.5 * (heights[0] + heights[1]);
-  long least = 1L << 30;
-  for (double h = heights[0]; !no_foot && h <= heights[1]; h += 0.02) {
-    const long wrong = std::count_if(depths.hits.begin(), depths.hits.end(), [h](double x) { return x > h; }) +
-                       std::count_if(depths.passes.begin(), depths.passes.end(), [h](double x) { return x < h; });
-    if (wrong < least) least = wrong, best = h;
-  }
-  std::vector<double> inside;
-  const Eigen::Matrix3d rotation = pose.rotation();
-  for (const Ray& ray : rays) {
-    const RayMeeting m = meet(pose, rotation, ray);
-    if (m.what == Meeting::inside) inside.push_back(-m.end.z());
-  }
-  if (inside.size() >= 10) {
-    const auto deep = inside.begin() + static_cast<std::ptrdiff_t>(inside.size() * 9 / 10);
-    std::nth_element(inside.begin(), deep, inside.end());
-    const auto shallow = inside.begin() + static_cast<std::ptrdiff_t>(inside.size() / 10);
-    std::nth_element(inside.begin(), shallow, deep);
-    const bool floor_seen = *deep > heights[0] && *deep - *shallow < kFloorFlat;
-    best = no_foot && floor_seen ? *deep : std::max(best, *deep);
-  }
-  return best;
 }
 
 // Why the bed is none; empty when it is one.
@@ -284,7 +225,9 @@ RecognisedTruck recognise(ArrivingSweep& scanlines, const TruckRangeSet& ranges)
   out.yaw = fit.pose.yaw;
   out.length = fit.pose.length;
   out.width = fit.pose.width;
-  out.height = wall_height(fit.pose, rays_near(whole, fit.pose, 2.5), ranges);
+  const BedHeight height = bed_height(fit, rays_near(whole, fit.pose, kBelowTops), ranges);
+  out.height = height.height;
+  out.height_deviation = height.deviation;
   out.open_rear = fit.pose.open_end != 0;
   out.pose_covariance = fit.covariance;
   out.covariance = corner_covariance(fit);

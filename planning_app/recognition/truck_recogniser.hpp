@@ -23,7 +23,8 @@ struct RecognisedTruck {
   std::array<Eigen::Vector3d, 4> corners{};     // on the inner top edge: front left, rear left, rear right, front right as seen towards the cab
   double yaw = 0.0;                             // of the bed's long axis, towards the cab
   double length = 0.0, width = 0.0;             // inside
-  double height = 0.0;                          // from the floor to the walls' top, by what is seen of either; a bed that is full hides its floor
+  double height = 0.0;                          // from the floor to the walls' top: bed_height
+  double height_deviation = 0.0;                // standard
   bool open_rear = false;
   Matrix12d covariance = Matrix12d::Zero();     // of x y z of the corners in turn; rank 8: four corners of one rectangle
   Matrix8d pose_covariance = Matrix8d::Zero();  // of middle x y z, yaw, pitch, roll, length, width

@@ -1,0 +1,372 @@
+#include "recognition/bed_height.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace berm::app {
+namespace {
+
+using Eigen::Vector3d;
+
+// Weights of depths below the tops, kStep apart, as logarithms.
+constexpr double kStep = 0.01, kShallowest = 0.5, kDeepestSeen = 2.4;  // m
+constexpr std::size_t kDepths = 191;
+static_assert(kDepths == static_cast<std::size_t>((kDeepestSeen - kShallowest) / kStep + 1.5));
+using Weights = std::array<double, kDepths>;
+constexpr double kImpossible = -1e9;
+
+double depth_of(std::size_t i) { return kShallowest + kStep * static_cast<double>(i); }
+
+// Of a return so far from the plane of a wall's outer face, m, to the outside positive: densities where the wall stands, below its foot, and of what
+// carries the bed: wheels a little behind the plane, tracks in it.
+constexpr double kFaceSpread = 0.035, kCarrierSpread = 0.04, kBefore = 0.12;  // m; the spread with mud
+constexpr double kTopLeft = 0.3, kFromWalls = 0.12;                          // m: what lies nearer to the tops, or within to the walls, tells nothing
+constexpr double kFarthest = 2.5, kNearBehind = 0.4;                               // m behind the plane
+constexpr double kAnything = 0.03;
+struct Under { double edge, near; };  // shares of the floor's own edge, behind the wall, and of what lies near
+constexpr std::array<Under, 2> kUnder{{{0.25, 0.5}, {0.05, 0.05}}};
+constexpr double kWheelsShare = 0.25, kWheelsBack = 0.04;  // of the length, m behind the plane
+constexpr std::array<std::size_t, 7> kGapsUnder{4, 7, 12, 20, 30, 45, kDepths};  // steps, between a foot and what carries the bed
+constexpr std::array<std::size_t, 4> kEdges{6, 10, 14, kDepths};            // steps, of the floor's thickness at an open end
+struct Toe { double share, deep; };  // of soil behind an open end
+constexpr std::array<Toe, 2> kToes{{{0.5, 0.4}, {0.9, 0.2}}};
+constexpr double kIndependent = 0.5;                                        // neighbouring rays share mud and the errors of the pose
+constexpr double kPipeFloor = 0.85;                                         // of its radius: farther aside it is too steep
+constexpr double kGrazing = 0.02;                                           // m
+constexpr double kFloorSpread = 0.022, kPipeSpread = 0.035;                 // m
+constexpr double kSoil = 0.5, kDeeper = 0.01;                               // densities of a return over the floor and below it, per m
+constexpr double kMostInside = 150.0;                                       // returns within count as so many at most
+constexpr double kFlushOften = 0.15;  // how often what carries a bed is flush with its walls
+constexpr double kFlatLoad = 0.5, kRoundLoad = 1e-4;  // how often a load looks like a floor, and like a half pipe's
+struct Shown { double share, often; };
+constexpr std::array<Shown, 3> kFloorShown{{{0.95, 0.7}, {0.5, 0.2}, {0.15, 0.1}}}, kFlatShown{{{0.95, 0.1}, {0.5, 0.5}, {0.15, 0.4}}};
+constexpr std::size_t kFlatOver = 4;  // steps: a flat load lies so much over the floor at least
+constexpr double kFootUnsure = 0.01, kEdgeUnsure = 0.03, kBoxUnsure = 0.008, kPipeUnsure = 0.02;  // m, standard deviations, by mud and by soil at an edge
+
+double gauss(double x, double spread) { return 0.3989422804 / spread * std::exp(-0.5 * x * x / (spread * spread)); }
+
+double add_logs(double a, double b) {
+  const double most = std::max(a, b);
+  return most <= kImpossible ? kImpossible : most + std::log1p(std::exp(-std::fabs(a - b)));
+}
+
+// The densities' logarithms, kOffStep apart.
+class OffWeights {
+ public:
+  static constexpr std::size_t kWall = 0, kUnders = 1, kWheels = kUnders + kUnder.size(), kMissed = kWheels + 1, kToe = kMissed + 1,
+                               kEdge = kToe + kToes.size(), kKinds = kEdge + 1;
+  using Kinds = std::array<double, kKinds>;
+
+  explicit OffWeights(double thickness) {
+    for (std::size_t i = 0; i < of_.size(); ++i) {
+      const double off = (static_cast<double>(i) - 0.5) * kOffStep - kNearBehind;  // the first: farther behind
+      const bool far = i == 0;
+      const auto near = [&](double behind, double spread) { return far ? 0.0 : gauss(off + behind, spread); };
+      const double little = far || off > 0.0 ? 0.0 : 1.0 / kNearBehind, any = 1.0 / kFarthest;
+      Kinds& k = of_[i];
+      k[kWall] = (1.0 - kAnything) * near(0.0, kFaceSpread) + kAnything * any;
+      for (std::size_t u = 0; u < kUnder.size(); ++u)
+        k[kUnders + u] = kUnder[u].edge * near(thickness, kFaceSpread) + kUnder[u].near * little + (1.0 - kUnder[u].edge - kUnder[u].near) * any;
+      k[kWheels] = kWheelsShare * near(kWheelsBack, kCarrierSpread) + (1.0 - kWheelsShare) * any;
+      k[kMissed] = 0.1 * near(kWheelsBack, kCarrierSpread) + 0.2 * little + 0.7 * any;
+      for (std::size_t t = 0; t < kToes.size(); ++t) k[kToe + t] = (far || off > 0.0 || off < -kToes[t].deep ? 0.0 : kToes[t].share / kToes[t].deep) + (1.0 - kToes[t].share) * any;
+      k[kEdge] = 0.9 * near(0.0, kFaceSpread) + 0.1 * any;
+      for (double& density : k) density = std::log(density);
+    }
+  }
+  [[nodiscard]] const Kinds& of(double off) const {
+    return of_[static_cast<std::size_t>(std::clamp((off + kNearBehind) / kOffStep + 1.0, 0.0, static_cast<double>(of_.size() - 1)))];
+  }
+
+ private:
+  static constexpr double kOffStep = 0.004;
+  std::array<Kinds, 132> of_{};  // up to kBefore
+};
+
+struct Crossed { double depth, aside, off; Vector3d from, along; };
+
+// The rays in the bed's frame.
+struct Placed { Vector3d from, end; };
+
+std::vector<Placed> placed(const BedPose& pose, const std::vector<Ray>& rays) {
+  std::vector<Placed> out;
+  out.reserve(rays.size());
+  const Placing place(pose);
+  Vector3d head(0.0, 0.0, 0.0), from = place.of(head);
+  for (const Ray& ray : rays) {
+    if (ray.head != head) head = ray.head, from = place.of(head);  // that of a whole fan
+    out.push_back({from, place.of(ray.at)});
+  }
+  return out;
+}
+
+// Where rays cross the outer faces of walls that the sensor sees, or the open end: how deep below the tops, how far from the middle, and how far from
+// the face, to the outside, they end.
+std::vector<Crossed> crossings(const BedPose& pose, const std::vector<Placed>& rays, int axis, bool open) {
+  std::vector<Crossed> out;
+  for (const Placed& ray : rays) {
+    const Vector3d& a = ray.from;
+    const int side = a[axis] > 0.0 ? 1 : -1;
+    const double face = pose.face(axis, side, true), off = side * ray.end[axis] - face;
+    if (std::abs(a[axis]) < face || off > kBefore || off < -kFarthest || (axis == 0 && side == pose.open_end) != open) continue;
+    const Vector3d d = ray.end - a;
+    if (side * d[axis] >= 0.0) continue;
+    const double share = (side * face - a[axis]) / d[axis], aside = a[1 - axis] + share * d[1 - axis], depth = -(a.z() + share * d.z());
+    if (std::abs(aside) > pose.face(1 - axis, 1, false) || depth < kTopLeft || depth > kDeepestSeen) continue;
+    out.push_back({depth, aside, off, {a.x(), side * a.y(), a.z()}, {d.x(), side * d.y(), d.z()}});
+  }
+  return out;
+}
+
+// Sums over the crossings of each kind of weight: of those shallower than each depth, and of all.
+struct DepthSums {
+  std::array<OffWeights::Kinds, kDepths + 1> above{};
+  OffWeights::Kinds all{};
+
+  // rise: of a half pipe's floor over its lowest line, by the place across; 0 deep: none.
+  DepthSums(const std::vector<Crossed>& crossed, const OffWeights& weights, double radius) {
+    std::array<OffWeights::Kinds, kDepths + 1> at{};
+    for (const Crossed& c : crossed) {
+      const double rise = radius > 0.0 ? radius - std::sqrt(std::max(0.0, radius * radius - c.aside * c.aside)) : 0.0;
+      const auto i = static_cast<std::size_t>(std::clamp((c.depth + rise - kShallowest) / kStep, 0.0, static_cast<double>(kDepths)));
+      const OffWeights::Kinds& w = weights.of(c.off);
+      for (std::size_t k = 0; k < w.size(); ++k) at[i][k] += kIndependent * w[k];
+    }
+    for (std::size_t i = 0; i <= kDepths; ++i)
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        above[i][k] = all[k];
+        all[k] += at[i][k];
+      }
+  }
+  [[nodiscard]] double between(std::size_t from, std::size_t to, std::size_t kind) const { return above[to][kind] - above[from][kind]; }
+  [[nodiscard]] double below(std::size_t from, std::size_t kind) const { return all[kind] - above[from][kind]; }
+};
+
+// With the depths known to a standard deviation only.
+Weights blurred(const Weights& sharp, double deviation) {
+  const int reach = static_cast<int>(std::lround(2.5 * deviation / kStep));
+  std::vector<double> weight;
+  double all = 0.0;
+  for (int j = -reach; j <= reach; ++j) all += weight.emplace_back(gauss(j * kStep, deviation));
+  Weights out{};
+  for (int i = 0; i < static_cast<int>(kDepths); ++i) {
+    const int from = std::max(i - reach, 0), to = std::min(i + reach, static_cast<int>(kDepths) - 1);
+    double most = kImpossible, sum = 0.0;
+    for (int k = from; k <= to; ++k) most = std::max(most, sharp[static_cast<std::size_t>(k)]);
+    for (int k = from; k <= to; ++k) {
+      const double below = sharp[static_cast<std::size_t>(k)] - most;
+      if (below > -20.0) sum += weight[static_cast<std::size_t>(k - i + reach)] / all * std::exp(below);
+    }
+    out[static_cast<std::size_t>(i)] = sum > 0.0 ? most + std::log(sum) : kImpossible;
+  }
+  return out;
+}
+
+// By the depth of an upright wall's foot.
+Weights weigh_feet(const DepthSums& sums) {
+  Weights feet{};
+  for (std::size_t i = 0; i < kDepths; ++i) {
+    double any = kImpossible;
+    for (const std::size_t gap : kGapsUnder) {
+      const std::size_t end = std::min(i + gap, kDepths);
+      for (std::size_t u = 0; u < kUnder.size(); ++u)
+        for (const std::size_t carrier : {OffWeights::kWheels, OffWeights::kWall})  // tracks look as the wall does
+          any = std::max(any, sums.between(i, end, OffWeights::kUnders + u) + sums.below(end, carrier));
+    }
+    feet[i] = sums.above[i][OffWeights::kWall] + any;
+  }
+  return feet;
+}
+
+// By the depth of the floor at an open end: soil or nothing above it, its edge, and what is below that.
+Weights weigh_edges(const DepthSums& sums) {
+  Weights floors{};
+  for (std::size_t i = 0; i < kDepths; ++i) {
+    double any = kImpossible;
+    for (const std::size_t edge : kEdges) {
+      const std::size_t end = std::min(i + edge, kDepths);
+      for (std::size_t u = 0; u < kUnder.size(); ++u) any = std::max(any, sums.between(i, end, OffWeights::kEdge) + sums.below(end, OffWeights::kUnders + u));
+    }
+    floors[i] = std::max(sums.above[i][OffWeights::kToe], sums.above[i][OffWeights::kToe + 1]) + any;
+  }
+  return floors;
+}
+
+// By the height of a half pipe whose sides are these, where that is allowed.
+Weights weigh_pipes(const BedPose& pose, const std::vector<Crossed>& crossed, const OffWeights& weights, const Weights& may_be) {
+  Weights heights{};
+  heights.fill(kImpossible);
+  const double inner = pose.width / 2, outer = inner + pose.thickness;
+  std::size_t first = kDepths, last = 0;
+  for (std::size_t i = 0; i < kDepths; ++i)
+    if (may_be[i] > kImpossible) first = std::min(first, i), last = i;
+  const auto straight = [&](std::size_t i) { return std::max(0.0, depth_of(i) - inner); };
+  struct Near { double depth, y, z, dy, dz, one_by, missed; };
+  std::vector<Near> near;
+  double same = 0.0;  // whatever the height
+  for (const Crossed& c : crossed) {
+    const OffWeights::Kinds& w = weights.of(c.off);
+    const Near n{c.depth, c.from.y(), c.from.z(), c.along.y(), c.along.z(), 1.0 / std::sqrt(c.along.y() * c.along.y() + c.along.z() * c.along.z()), w[OffWeights::kMissed]};
+    if (c.depth < straight(first)) same += w[OffWeights::kWall];
+    else if (c.depth > straight(last) && std::fabs(n.y * n.dz - (n.z + straight(last)) * n.dy) * n.one_by > outer + kGrazing) same += n.missed;
+    else near.push_back(n);
+  }
+  const auto weight_of = [&](const Near& n, double upright) {
+    if (n.depth < upright) return weights.of(n.y + n.dy - outer)[OffWeights::kWall];
+    const double z = n.z + upright, past = std::fabs(n.y * n.dz - z * n.dy) * n.one_by - outer;  // the ray from the pipe
+    if (past > kGrazing) return n.missed;
+    const double y_end = n.y + n.dy, z_end = z + n.dz, off = std::sqrt(y_end * y_end + z_end * z_end) - outer;
+    const double of_pipe = weights.of(off > kBefore || (y_end < 0.0 && z_end < 0.0) ? -kFarthest : off)[OffWeights::kWall];
+    return past < -kGrazing ? of_pipe : std::max(of_pipe, n.missed);
+  };
+  const auto sum_at = [&](std::size_t i) {
+    double sum = same;
+    for (const Near& n : near) sum += weight_of(n, straight(i));
+    return kIndependent * sum;
+  };
+  double before = 0.0;
+  for (std::size_t i = first; i <= last; i += 2) {
+    const double here = sum_at(i);
+    heights[i] = here;
+    if (i > first) heights[i - 1] = 0.5 * (before + here);
+    before = here;
+  }
+  if ((last - first) % 2 == 1) heights[last] = sum_at(last);
+  return heights;
+}
+
+// Depths at which the floor lies if these returns are of it.
+std::vector<double> floors_by(const BedPose& pose, const std::vector<Placed>& rays, bool pipe) {
+  std::vector<double> out;
+  const double radius = pose.width / 2;
+  for (const auto& [from, at] : rays) {
+    if (std::abs(at.x()) > pose.length / 2 - kFromWalls || std::abs(at.y()) > radius - kFromWalls || at.z() > -kTopLeft) continue;
+    if (meet_in_bed(pose, from, at).what != Meeting::inside) continue;
+    if (pipe && std::abs(at.y()) > kPipeFloor * radius) continue;
+    out.push_back(pipe ? radius - at.z() - std::sqrt(radius * radius - at.y() * at.y()) : -at.z());
+  }
+  return out;
+}
+
+// By the floor's depth, from what lies within.
+Weights weigh_inside(const std::vector<double>& floors, double spread, double flat_load) {
+  Weights out{};
+  if (floors.empty()) return out;
+  std::array<double, kDepths> count{};
+  double under = 0.0, over = 0.0;  // the grid's ends
+  for (const double f : floors) {
+    const double i = (f - kShallowest) / kStep + 0.5;
+    if (i < 0.0) ++under;
+    else if (i >= static_cast<double>(kDepths)) ++over;
+    else ++count[static_cast<std::size_t>(i)];
+  }
+  const double each = std::min(kIndependent, kMostInside / static_cast<double>(floors.size()));
+  constexpr int kReach = 12;
+  // Of a surface at each depth, seen by a share of the returns.
+  const auto surface = [&](double share, bool floor) {
+    std::array<double, 2 * kReach + 1> near{};
+    for (int j = -kReach; j <= kReach; ++j) {
+      const double deeper = j * kStep, soil = !floor || deeper < 0.0 ? kSoil : std::max(kDeeper, kSoil * std::exp(-0.5 * deeper * deeper / (spread * spread)));
+      near[static_cast<std::size_t>(j + kReach)] = std::log(share * gauss(deeper, spread) + (1.0 - share) * soil);
+    }
+    const double shallow = std::log((1.0 - share) * kSoil), deep = std::log(floor ? kDeeper : (1.0 - share) * kSoil);
+    double total = under + over;
+    for (const double c : count) total += c;
+    Weights w{};
+    double above = under;  // returns farther up than near reaches
+    for (int i = 0; i < static_cast<int>(kDepths); ++i) {
+      if (i - kReach - 1 >= 0) above += count[static_cast<std::size_t>(i - kReach - 1)];
+      double sum = 0.0, within = 0.0;
+      for (int j = std::max(-kReach, -i); j <= kReach && i + j < static_cast<int>(kDepths); ++j) {
+        const double c = count[static_cast<std::size_t>(i + j)];
+        sum += c * near[static_cast<std::size_t>(j + kReach)];
+        within += c;
+      }
+      w[static_cast<std::size_t>(i)] = each * (sum + above * shallow + (total - above - within) * deep);
+    }
+    return w;
+  };
+  out.fill(kImpossible);
+  // The floor is seen, in part or whole.
+  for (const Shown& s : kFloorShown) {
+    const Weights w = surface(s.share, true);
+    for (std::size_t i = 0; i < kDepths; ++i) out[i] = add_logs(out[i], w[i] + std::log(s.often));
+  }
+  // A load hides it: rough, or flat, anywhere above it.
+  const Weights rough = surface(0.0, true);
+  for (std::size_t i = 0; i < kDepths; ++i) out[i] = add_logs(out[i], rough[i] + std::log(1.0 - flat_load));
+  Weights flat{};
+  flat.fill(kImpossible);
+  for (const Shown& s : kFlatShown) {
+    const Weights w = surface(s.share, false);
+    for (std::size_t i = 0; i < kDepths; ++i) flat[i] = add_logs(flat[i], w[i] + std::log(s.often));
+  }
+  double sum = kImpossible;
+  const double anywhere = std::log(flat_load * kStep), too_deep = std::log(kDeeper / kSoil);
+  double deeper = over;  // returns that lie below the floor
+  for (std::size_t i = kFlatOver; i < kDepths; ++i) deeper += count[i];
+  for (std::size_t i = 0; i < kDepths; ++i) {
+    if (i >= kFlatOver) sum = add_logs(sum, flat[i - kFlatOver]);
+    out[i] = add_logs(out[i], sum + anywhere + each * deeper * too_deep);
+    if (i + kFlatOver < kDepths) deeper -= count[i + kFlatOver];
+  }
+  return out;
+}
+
+// By the classes that take in the bed's sizes.
+Weights allowed(const BedPose& pose, const TruckRangeSet& ranges, bool pipe) {
+  Weights out{};
+  out.fill(kImpossible);
+  const auto within = [&](double x, const SizeRange& range) { return x >= range[0] - ranges.slack && x <= range[1] + ranges.slack; };
+  for (const TruckRanges& c : ranges.classes) {
+    if (c.half_round != pipe || !within(pose.length, c.inside_length) || !within(pose.width, c.inside_width) || (pose.open_end != 0 && !c.open_rear)) continue;
+    const auto [low, high] = c.wall_height;
+    for (std::size_t i = 0; i < kDepths; ++i) {
+      const double beyond = std::max({0.0, low - depth_of(i), depth_of(i) - high}) / kStep;
+      if (beyond < 4.0) out[i] = add_logs(out[i], -0.5 * beyond * beyond - std::log(high - low));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+BedHeight bed_height(const FittedBed& fit, const std::vector<Ray>& rays, const TruckRangeSet& ranges) {
+  const BedPose& pose = fit.pose;
+  const OffWeights weights(pose.thickness);
+  const std::vector<Placed> near = placed(pose, rays);
+  const std::vector<Crossed> sides = crossings(pose, near, 1, false), edge = crossings(pose, near, 0, true);
+  const DepthSums ends(crossings(pose, near, 0, false), weights, 0.0), faces(sides, weights, 0.0);
+  // The plane of the tops leans by so much less or more.
+  const double at_side = std::hypot(kFootUnsure, pose.width / 2 * std::sqrt(fit.covariance(5, 5)));
+  const double tilt_along = pose.length / 2 * std::sqrt(fit.covariance(4, 4)), at_end = std::hypot(kFootUnsure, tilt_along), at_edge = std::hypot(kEdgeUnsure, tilt_along);
+  const Weights end_feet = blurred(weigh_feet(ends), at_end), side_feet = blurred(weigh_feet(faces), at_side);
+  Weights edges{};
+  if (!edge.empty()) edges = blurred(weigh_edges(DepthSums(edge, weights, 0.0)), at_edge);
+  const double flush = ends.all[OffWeights::kWall] + faces.all[OffWeights::kWall] + std::log(kFlushOften);
+  const Weights box = allowed(pose, ranges, false), half = allowed(pose, ranges, true);
+  Weights inside = weigh_inside(floors_by(pose, near, false), kFloorSpread, kFlatLoad), boxes{}, pipes{};
+  for (std::size_t i = 0; i < kDepths; ++i) boxes[i] = box[i] + inside[i] + edges[i] + add_logs(end_feet[i] + side_feet[i] + std::log(1.0 - kFlushOften), flush);
+  pipes.fill(kImpossible);
+  if (*std::max_element(half.begin(), half.end()) > kImpossible) {
+    inside = weigh_inside(floors_by(pose, near, true), kPipeSpread, kRoundLoad);
+    if (!edge.empty()) edges = blurred(weigh_edges(DepthSums(edge, weights, pose.width / 2)), at_edge);
+    const Weights drawn_in = blurred(weigh_pipes(pose, sides, weights, half), kPipeUnsure);
+    for (std::size_t i = 0; i < kDepths; ++i) pipes[i] = half[i] + inside[i] + edges[i] + end_feet[i] + drawn_in[i];
+  }
+  const double most = std::max(*std::max_element(boxes.begin(), boxes.end()), *std::max_element(pipes.begin(), pipes.end()));
+  double sum = 0.0, first = 0.0, second = 0.0;
+  for (std::size_t i = 0; i < kDepths; ++i) {
+    const double of_box = std::exp(boxes[i] - most), of_pipe = std::exp(pipes[i] - most), depth = depth_of(i);
+    sum += of_box + of_pipe;
+    first += (of_box + of_pipe) * depth;
+    second += of_box * (depth * depth + kBoxUnsure * kBoxUnsure) + of_pipe * (depth * depth + kPipeUnsure * kPipeUnsure);
+  }
+  BedHeight out;
+  out.height = first / sum;
+  out.deviation = std::sqrt(std::max(0.0, second / sum - out.height * out.height) + kStep * kStep / 12.0 + fit.covariance(2, 2));
+  return out;
+}
+
+}  // namespace berm::app

@@ -1,0 +1,95 @@
+// The height of a bed's walls: from its floor, from the foot of its walls, from the class alone; each with a deviation that says which.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "drawn_bed.hpp"
+#include "recognition/bed_height.hpp"
+#include "recognition/rays_of_sweep.hpp"
+
+namespace berm::app {
+namespace {
+
+FittedBed known(const DrawnBed& bed) {
+  FittedBed fit;
+  fit.pose.middle = {bed.x, bed.y, bed.top};
+  fit.pose.yaw = bed.yaw;
+  fit.pose.length = bed.length;
+  fit.pose.width = bed.width;
+  fit.pose.thickness = bed.thickness;
+  fit.pose.open_end = bed.rear_wall ? 0 : -1;
+  fit.covariance = 1e-6 * Matrix8d::Identity();
+  return fit;
+}
+
+std::vector<Ray> rays_to(const DrawnBed& bed) { return rays_near(make_fans(sweep_of(bed), drawn_viewpoint), known(bed).pose, 2.5); }
+
+BedHeight height_of(const DrawnBed& bed, const TruckRangeSet& ranges) { return bed_height(known(bed), rays_to(bed), ranges); }
+
+// Its walls go down to the ground without a gap, and the load hides its floor.
+DrawnBed full_block() {
+  DrawnBed bed;
+  bed.floor = bed.ground + 0.05;
+  bed.load = bed.top - 0.4;
+  return bed;
+}
+
+TruckRangeSet shipped() { return read_truck_ranges(BERM_TRUCK_RANGES); }
+
+TEST(BedHeight, IsThatOfTheWallsFootUnderALoad) {
+  for (const double top : {1.4, 1.6, 1.75}) {
+    DrawnBed bed;
+    bed.top = top;
+    bed.load = top - 0.2;
+    const BedHeight height = height_of(bed, shipped());
+    EXPECT_NEAR(height.height, bed.top - bed.floor, 0.04) << top;
+    EXPECT_LT(height.deviation, 0.04) << top;
+  }
+}
+
+TEST(BedHeight, IsThatOfTheFootOverWhatCarriesTheBed) {
+  DrawnBed bed;
+  bed.carrier = true;  // in the planes of its walls, 0.1 m below their feet
+  const BedHeight height = height_of(bed, shipped());
+  EXPECT_NEAR(height.height, bed.top - bed.floor, 0.04);
+  EXPECT_LT(height.deviation, 0.04);
+}
+
+TEST(BedHeight, IsThatOfTheFloorWhereThatAloneIsSeen) {
+  DrawnBed bed;
+  bed.y = 5.0;
+  const Placing place(known(bed).pose);
+  std::vector<Ray> inside;
+  for (const Ray& ray : rays_to(bed)) {
+    const Eigen::Vector3d at = place.of(ray.at);
+    if (std::abs(at.x()) < bed.length / 2 && std::abs(at.y()) < bed.width / 2) inside.push_back(ray);
+  }
+  const BedHeight height = bed_height(known(bed), inside, shipped());
+  EXPECT_NEAR(height.height, bed.top - bed.floor, 1.96 * height.deviation);
+  EXPECT_LT(height.deviation, 0.1) << "a flat load may look the same";
+}
+
+TEST(BedHeight, IsOfTheClassesWhereNothingShowsIt) {
+  const DrawnBed bed = full_block();
+  TruckRangeSet ranges = shipped();
+  const SizeRange all = ranges.hull(&TruckRanges::wall_height);
+  const BedHeight wide = height_of(bed, ranges);
+  EXPECT_GT(wide.deviation, 0.15);
+  EXPECT_LT(wide.deviation, (all[1] - all[0]) / 2);
+  for (TruckRanges& c : ranges.classes) c.wall_height = {1.3, 1.4};
+  const BedHeight narrow = height_of(bed, ranges);
+  EXPECT_NEAR(narrow.height, 1.35, 0.03);
+  EXPECT_NEAR(narrow.deviation, 0.1 / std::sqrt(12.0), 0.02);
+}
+
+// The plane of the tops is as uncertain as the fit says, and so is what is measured from it.
+TEST(BedHeight, IsNoBetterKnownThanTheTops) {
+  const DrawnBed bed;
+  FittedBed fit = known(bed);
+  fit.covariance(2, 2) = 0.05 * 0.05;
+  EXPECT_GT(bed_height(fit, rays_to(bed), shipped()).deviation, 0.05);
+}
+
+}  // namespace
+}  // namespace berm::app
