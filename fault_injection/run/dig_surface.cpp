@@ -31,9 +31,9 @@ double to_segment(double r, double z, const std::array<double, 2>& a, const std:
   return std::hypot(r - a[0] - s * dr, z - a[1] - s * dz);
 }
 
-double to_drag(double r, double z, const std::vector<std::array<double, 2>>& drag) {
+double to_shape(double r, double z, const std::vector<std::array<double, 2>>& shape) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i + 1 < drag.size(); ++i) nearest = std::min(nearest, to_segment(r, z, drag[i], drag[i + 1]));
+  for (std::size_t i = 0; i + 1 < shape.size(); ++i) nearest = std::min(nearest, to_segment(r, z, shape[i], shape[i + 1]));
   return nearest;
 }
 
@@ -60,11 +60,11 @@ std::vector<PlannedDig> planned_digs(const std::vector<json>& app_events) {
   bool open = false;
   for (const json& event : app_events) {
     const std::string name = event.value("event", "");
-    if (name == "dig" && event.contains("drag")) {
-      PlannedDig dig{event.value("bearing_deg", 0.0) * std::numbers::pi / 180, event["drag"].get<std::vector<std::array<double, 2>>>()};
-      open = dig.drag.size() >= 2;
+    if (name == "dig" && event.contains("shape")) {
+      PlannedDig dig{event.value("bearing_deg", 0.0) * std::numbers::pi / 180, event["shape"].get<std::vector<std::array<double, 2>>>()};
+      open = dig.shape.size() >= 2;
       if (!open) continue;
-      dig.reached_r = dig.drag.back()[0];
+      dig.reached_r = dig.shape.back()[0];
       digs.push_back(std::move(dig));
     } else if (name == "dug" && open) {
       digs.back().reached_r = std::max(digs.back().reached_r, event.value("r_m", 0.0));
@@ -94,12 +94,12 @@ std::optional<double> dig_surface_error_m(const HeightField& surface, const std:
       const double x = surface.x0 + (ix + 0.5) * surface.cell, y = surface.y0 + (iy + 0.5) * surface.cell;
       const auto last = std::find_if(digs.rbegin(), digs.rend(), [&](const PlannedDig& dig) {
         const double c = std::cos(dig.bearing), s = std::sin(dig.bearing), dx = x - dig.base_x, dy = y - dig.base_y, r = dx * c + dy * s;
-        return std::abs(dy * c - dx * s) <= half_width && r <= dig.drag.front()[0] && r >= dig.reached_r;
+        return std::abs(dy * c - dx * s) <= half_width && r <= dig.shape.front()[0] && r >= dig.reached_r;
       });
       if (last == digs.rend()) continue;
       const double r = (x - last->base_x) * std::cos(last->bearing) + (y - last->base_y) * std::sin(last->bearing);
       const double z = surface.height[static_cast<std::size_t>(iy) * static_cast<std::size_t>(surface.nx) + static_cast<std::size_t>(ix)];
-      sum += to_drag(r, z, last->drag);
+      sum += to_shape(r, z, last->shape);
       ++cells;
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/sequencer.hpp"
+#include "planning/dig_shape.hpp"
 
 namespace berm::app {
 
@@ -15,31 +16,26 @@ constexpr double air_speed = 3.0, soil_speed = 1.8, curl_speed = 2.2;  // m/s of
 constexpr double least_share_of_speed = 0.4;      // in soil, of digs for little
 constexpr double stall_patience = 1.0;            // s
 constexpr double curled = radians(-174.0);        // absolute bucket angle with the mouth up
-constexpr double range_guard = radians(7.5);      // a standing joint's stop travel stays inside its range
 constexpr double near_truck = radians(20.0);      // either side of the dump's bearing
 constexpr double bed_points_age = 12.0;           // s, for the bed map
-
-// How far the bucket's shell reaches below its tip at an attitude, m.
-double shell_under_tip(const MachineModel& machine, double attitude) {
-  constexpr double shell_side = -0.05;  // the outline's other side is the heaped load
-  double under = 0.0;
-  for (const Prism& part : machine.parts)
-    for (const auto& point : part.outline)
-      if (part.link == bucket && point[1] > shell_side)
-        under = std::max(under, -((point[0] - machine.bucket_length) * std::sin(attitude) + point[1] * std::cos(attitude)));
-  return under;
-}
 
 // Of wall clock: what of a cycle it took.
 double milliseconds_since(std::chrono::steady_clock::time_point began) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
 }
 
-// The tip's planned way through the soil, [r, z] in millimetres' precision: without the entry above the surface and the lift at the end.
+double millimetres(double metres) { return std::round(1000.0 * metres) / 1000.0; }
+
+// The tip's planned way through the soil, [r, z]: without the entry above the surface and the lift at the end.
 nlohmann::ordered_json drag_points(const DigPlan& plan) {
-  const auto rounded = [](double metres) { return std::round(1000.0 * metres) / 1000.0; };
   nlohmann::ordered_json points = nlohmann::ordered_json::array();
-  for (std::size_t i = 1; i + 1 < plan.drag.size(); ++i) points.push_back({rounded(plan.drag[i].r), rounded(plan.drag[i].z)});
+  for (std::size_t i = 1; i + 1 < plan.drag.size(); ++i) points.push_back({millimetres(plan.drag[i].r), millimetres(plan.drag[i].z)});
+  return points;
+}
+
+nlohmann::ordered_json shape_points(const DigShape& shape) {
+  nlohmann::ordered_json points = nlohmann::ordered_json::array();
+  for (const auto& [r, z] : shape) points.push_back({millimetres(r), millimetres(z)});
   return points;
 }
 
@@ -90,8 +86,9 @@ void Sequencer::begin_dig(const Observation& o) {
     begin_approach(o, true);
     return;
   }
+  const DigShape planned = shape_after(machine_, ground_, o.angle[swing], needs.bucket_width, *path, dig_.volume / cut_reserve, dig_.drag[1].r);
   log_.event("dig", {{"bearing_deg", degrees(dig_.bearing)}, {"depth_m", dig_.depth}, {"volume_m3", dig_.volume}, {"goal_kg", goal_kg_}, {"yield", yield_},
-                     {"path_m", path->length()}, {"drag", drag_points(dig_)}});
+                     {"path_m", path->length()}, {"drag", drag_points(dig_)}, {"shape", shape_points(planned)}});
   planned_fill_ = fill_along(machine_, SurfaceProfile(ground_, o.angle[swing], needs.bucket_width), needs.bucket_width, *path);
   follower_.begin(std::move(*path));
   filled_.begin();
@@ -103,12 +100,7 @@ void Sequencer::begin_dig(const Observation& o) {
 
 // Where the bucket has passed the ground is no higher than its shell was; what then stands too steep slides into the cut.
 void Sequencer::note_cut(const Observation& o) {
-  const SurfaceProfile before(ground_, o.angle[swing], bucket_width(machine_)), &after = cut_->surface();
-  const double half = 0.45 * bucket_width(machine_), c = std::cos(o.angle[swing]), s = std::sin(o.angle[swing]);
-  for (double r = SurfaceProfile::first; r < SurfaceProfile::last; r += 0.5 * DigGround::cell) {
-    if (after.at(r) > before.at(r) - 0.02) continue;
-    for (double across = -half; across <= half; across += 0.5 * DigGround::cell) ground_.lower_to(r * c - across * s, r * s + across * c, after.at(r));
-  }
+  lower_ground(ground_, o.angle[swing], bucket_width(machine_), cut_->surface());
   ground_.settle();
 }
 
@@ -174,32 +166,11 @@ Joints Sequencer::dig(const Observation& o) {
   return follower_.step(machine_, arm_, o.angle[swing], in_soil ? gently * soil_speed : air_speed, o.angle, o.velocity);
 }
 
-// Out of the soil straight up, for what lies over the bucket falls into it and what lies inward would be pushed, and curled so that the shell goes no
-// deeper, for soil under it holds a curl up more than all else; then up on, and inward a little, to where the bucket can be curled wholly: low and far
-// out the arm does not reach that.
 void Sequencer::begin_curl(const Observation& o) {
-  constexpr double over_surface = 0.15, inward = 0.05, lift = 0.80, step = 0.05, highest_rise = 2.5, most_inward = 0.5;
-  constexpr int curl_steps = 6;
-  constexpr double rise_sooner = 0.4;  // than the curl: clear of the wall behind the bucket
   const ArmPoints now = forward(machine_, arm_.predicted(o.angle, o.velocity));  // it is on its way up already
   log_.event("dug", {{"time_s", o.time_s}, {"r_m", now.tip.r}, {"z_m", now.tip.z}, {"modelled_kg", cut_->volume() * bank_density * yield_},
                      {"felt_kg", filled_.kg()}, {"impulse_kns", 1e-3 * filled_.impulse()}});
-  const double up = now.tip.r - inward, under = shell_under_tip(machine_, now.bucket_attitude);
-  const double last = std::min(now.bucket_attitude, curled), rise = std::max(0.0, shell_under_tip(machine_, last) - under);
-  std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}};
-  double z = now.tip.z;
-  for (int k = 1; k <= curl_steps; ++k) {
-    const double attitude = now.bucket_attitude + (last - now.bucket_attitude) * k / curl_steps;
-    z = std::max({z, now.tip.z + shell_under_tip(machine_, attitude) - under, now.tip.z + rise * std::pow(static_cast<double>(k) / curl_steps, rise_sooner)});
-    way.push_back({up, z, attitude});
-  }
-  z = std::max(z, cut_->surface().at(up) + over_surface);
-  const auto curls = [&](double r, double height) { return inverse_tip(machine_, {r, height}, curled, range_guard).has_value(); };
-  double r = up, top = z + lift;
-  while (top < z + lift + highest_rise && !curls(up - most_inward, top)) top += step;
-  while (r > SurfaceProfile::first && !curls(r, top)) r -= step;
-  way.push_back({r, std::max(top, cut_->surface().at(r) + over_surface + lift), curled});
-  if (auto path = DigPath::solve(machine_, way)) {
+  if (auto path = DigPath::solve(machine_, way_out(machine_, cut_->surface(), now))) {
     begin_pass_search(o, path->at(path->length()));
     follower_.begin(std::move(*path));
   } else {

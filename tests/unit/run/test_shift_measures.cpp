@@ -134,9 +134,9 @@ TEST(DigSurface, IsTheMeanDistanceFromTheLastDigsPlan) {
 }
 
 TEST(DigSurface, DigsAreTheAppsEvents) {
-  const std::vector<json> events{{{"event", "dig"}, {"bearing_deg", 90.0}, {"drag", {{7.0, -1.0}, {6.0, -1.5}, {5.0, -1.0}}}},
+  const std::vector<json> events{{{"event", "dig"}, {"bearing_deg", 90.0}, {"shape", {{7.0, -1.0}, {6.0, -1.5}, {5.0, -1.0}}}},
                                  {{"event", "dug"}, {"r_m", 5.6}},
-                                 {{"event", "dig"}, {"bearing_deg", 0.0}, {"drag", {{7.0, -1.0}, {5.0, -1.0}}}},
+                                 {{"event", "dig"}, {"bearing_deg", 0.0}, {"shape", {{7.0, -1.0}, {5.0, -1.0}}}},
                                  {{"event", "dig"}, {"bearing_deg", 0.0}}};
   const auto digs = planned_digs(events);
   ASSERT_EQ(digs.size(), 2u);
