@@ -9,6 +9,7 @@ namespace berm::app {
 
 namespace {
 
+constexpr double over_heaps = 0.4;                // z, on the ground that it stands on
 constexpr double script_period = 0.02;            // s; the paper has 0.1 (4.4), and each rule that waits for a crossing then comes half of that late
 constexpr double skyline_period = 0.5;
 constexpr double arrived = radians(1.5);
@@ -74,7 +75,6 @@ void Sequencer::begin_approach(const Observation& o, bool lower) {
 
 // Raised, to where the scanner on the truck's side sees the whole place.
 void Sequencer::begin_look(const Observation& o) {
-  constexpr double over_heaps = 0.4;  // z, on the ground that it stands on
   const auto script = approach_script(scripts_, machine_, {o.angle, look_.bearing(), over_heaps, std::nullopt});
   if (!script) {
     log_.event("unreachable", {{"time_s", o.time_s}, {"what", "where the truck is looked for"}});
@@ -82,6 +82,14 @@ void Sequencer::begin_look(const Observation& o) {
   }
   begin_script(*script);
   enter(Stage::go_look, o);
+}
+
+// Between two trucks: a bucket that stays low hides the ground round it until that is too old to move over.
+void Sequencer::wait_raised(const Observation& o) {
+  const auto script = approach_script(scripts_, machine_, {o.angle, o.angle[swing], over_heaps, std::nullopt});
+  waits_raised_ = script.has_value();
+  if (script) begin_script(*script);
+  enter(Stage::wait_truck, o);
 }
 
 Joints Sequencer::go_look(const Observation& o) {
@@ -307,9 +315,11 @@ Joints Sequencer::plan(const Observation& o) {
     case Stage::wait_truck:
       if (o.truck_parked) {
         log_.event("truck", {{"truck", truck_}, {"time_s", o.time_s}});
+        waits_raised_ = false;
         begin_look(o);
+        return {};
       }
-      return {};
+      return waits_raised_ ? run_script(o, event_none) : Joints{};
     case Stage::go_look: return go_look(o);
     case Stage::look: return look_for_truck(o);
     case Stage::approach: return approach(o);
@@ -333,7 +343,7 @@ Joints Sequencer::plan(const Observation& o) {
         bed_.reset();
         ++truck_;
         if (face_too_poor_for_a_truck()) begin_move_back(o, "what is left within reach does not fill the next truck");
-        else enter(Stage::wait_truck, o);
+        else wait_raised(o);
       }
       return {};
     case Stage::raise_for_move: return raise_for_move(o);

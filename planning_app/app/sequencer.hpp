@@ -73,6 +73,7 @@ private:
   void begin_script(const Script& script);
   void begin_approach(const Observation& o, bool lower);
   void begin_look(const Observation& o);
+  void wait_raised(const Observation& o);
   Joints go_look(const Observation& o);
   Joints look_for_truck(const Observation& o);
   void begin_truck(const Observation& o, const TruckBed& bed);
@@ -143,6 +144,7 @@ private:
   double loaded_here_kg_ = 0.0;               // since the machine stands where it does
   int vain_moves_ = 0;                        // in a row
   bool saw_run_ = false, part_filled_ = false;  // part_filled_: this truck was left in the middle for a move
+  bool waits_raised_ = false;
   LoadCheck load_check_;
   DumpPoint dump_;
   struct Dump { BedPoint at; double kg; };
