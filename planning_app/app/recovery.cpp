@@ -44,8 +44,9 @@ const char* advice_for(const Observation& o) {
     case BERM_STOP_SENSOR_BLOCKED:
       return "look what lies on the sensors' windows, clean them, then press reset; relearn before it if that does not help";
     case BERM_STOP_DUST: return "wait until the dust has settled, or lay it with water; if there is none, clean the sensors' windows";
-    case BERM_STOP_OVERPASS: return "send away who or what stands there, or admit the truck; if nothing stands there, press relearn";
-    default: return o.latched ? "mend the cause, then press reset" : "clear the place; if nothing stands there, press relearn";
+    case BERM_STOP_OVERPASS: return "send away who or what stands there, or admit the truck; if nothing stands there, press relearn, with the implements lifted by hand if need be";
+    default: return o.latched ? "mend the cause, then press reset"
+                                 : "clear the place; if nothing stands there, press relearn; if that does not help, lift the implements by hand before it";
   }
 }
 
@@ -79,6 +80,7 @@ bool Recovery::moved_by_hand(const Observation& o) const {
 bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
   if (called_ || !(o.latched || (by_place(o.stop_reason) && o.time_s - since_s_ > call_after))) return false;
   called_ = true;
+  called_latched_ = o.latched;
   nlohmann::ordered_json fields{{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}, {"stopped_s", o.time_s - since_s_}};
   if (!o.latched && BERM_STOP_HAS_CELL(o.stop_reason)) fields.update({{"x_m", o.blocked_x}, {"y_m", o.blocked_y}, {"height_m", o.blocked_height}});
   fields["advice"] = advice_for(o);
@@ -93,6 +95,8 @@ void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
   stopped_ = true;
   stop_s_ = o.time_s;
   stopped_at_ = o.angle;
+  if (retreats_) retreat_ = o.stop_reason == BERM_STOP_JOINT_RANGE ? retreat(o, 0.0) : Joints{};  // it led nowhere: not the same again
+  retreats_ = false;
   pause_s_ = again ? std::clamp(2.0 * pause_s_, shortest_pause, longest_pause) : 0.0;
   if (!again) {
     since_s_ = o.time_s;
@@ -143,11 +147,13 @@ Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log)
     running_s_ = o.time_s;
     by_hand_ = by_hand_ || moved_by_hand(o);
   }
+  retreats_ = false;
   if (handed_back_) return advice;
   advice.in_charge = true;
   const double ran = o.time_s - running_s_;
   if (back_ == Back::none && moved_ && ran < retreat_for) {
     advice.velocity = retreat_;
+    retreats_ = true;
   } else if (ran >= pause_s_ && !swing_back(o, advice)) {
     log.event("resumed", {{"time_s", o.time_s}, {"stopped_s", o.time_s - since_s_}});
     handed_back_ = true;
@@ -165,6 +171,10 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
   advice.in_charge = true;
   if (!stopped_) begin_stop(o, log);
   if (o.kernel_state == BERM_STATE_STOPPING) stopped_at_ = o.angle;
+  if (called_latched_ && !o.latched) {  // he has reset, and what keeps the machine now is another trouble
+    called_ = called_latched_ = false;
+    since_s_ = o.time_s;
+  }
   advice.operator_called = call_operator(o, log);
   if (!by_place(o.stop_reason)) return advice;
   const double blocked = o.time_s - stop_s_;  // without a moment in which standing was permitted

@@ -35,6 +35,7 @@ private:
   bool stopped_ = false;
   bool handed_back_ = true;      // the plan is in charge
   bool moved_ = false, called_ = false;
+  bool called_latched_ = false;  // what the operator was called for last was latched
   bool by_hand_ = false;         // the implements stand elsewhere than where the stop left them
   Joints stopped_at_{};          // rad
   double since_s_ = -1.0;        // begin of the trouble: a stop and those soon after it; negative: none yet
@@ -42,6 +43,7 @@ private:
   double pause_s_ = 0.0;         // of standing permitted, before the plan is in charge again
   double next_rescan_s_ = 0.0;
   Joints retreat_{};
+  bool retreats_ = false;        // in the newest cycle that permitted motion
   double blocked_x_ = 0.0, blocked_y_ = 0.0;  // of the last stop
   enum class Back { none, swings, looks } back_ = Back::none;
   double next_back_s_ = 0.0, back_began_s_ = 0.0, back_from_ = 0.0, back_way_ = 0.0;

@@ -40,6 +40,7 @@ class Operator {
     double base_yaw = 0.0;
     std::array<double, 4> angle{};          // of the joints, rad
     bool implements_up = false;             // HandLift: done
+    bool run_switch = true;                 // as others leave it
   };
   // From the cycle before to t. signal: of the horn, complete just now.
   void step(double t, const HornSignal& signal, const Sees& sees);

@@ -245,6 +245,46 @@ TEST(Recovery, KnowsThatTheImplementsWereMovedByHand) {
   EXPECT_TRUE(moved(radians(20.0)));
 }
 
+// A reset that is followed by another trouble: he is told of that too.
+TEST(Recovery, CallsAgainWhenTheGroundKeepsWhatWasReset) {
+  Recovery recovery(berm::app_bench::zx200());
+  const ProgressLog log(-1);
+  int calls = 0;
+  double last = 0.0;
+  for (double t = 0.0; t < 120.0; t += 0.1) {
+    Observation o = stopped(t, t < 10.0 ? BERM_STOP_OPERATOR : BERM_STOP_UNKNOWN_GROUND);
+    if (t >= 10.0) o.kernel_state = BERM_STATE_STANDBY;
+    if (!recovery.step(o, log).operator_called) continue;
+    ++calls;
+    last = t;
+  }
+  EXPECT_EQ(calls, 2);
+  EXPECT_NEAR(last, 40.0, 0.5) << "after looking and creeping did not help";
+}
+
+// The bucket, curled in on a retreat, comes to its range's end: it is not curled on whenever the kernel permits standing.
+TEST(Recovery, ARetreatThatIsStoppedItselfIsNotTriedAgain) {
+  const MachineModel m = berm::app_bench::zx200();
+  Recovery recovery(m);
+  const ProgressLog log(-1);
+  for (double t = 0.0; t < 11.5; t += 0.01) recovery.step(stopped(t, BERM_STOP_UNKNOWN_GROUND), log);
+  Observation o = permitted(11.5);
+  ASSERT_LT(recovery.step(o, log).velocity[bucket], 0.0);
+  double curled = 0.0, opened = 0.0;
+  for (int k = 0; k < 50; ++k) {
+    o = stopped(11.6 + 0.02 * k, BERM_STOP_JOINT_RANGE);
+    o.angle[bucket] = m.joint[bucket].low + radians(0.5);
+    recovery.step(o, log);
+    Observation runs = permitted(11.61 + 0.02 * k);
+    runs.angle = o.angle;
+    const double v = recovery.step(runs, log).velocity[bucket];
+    curled = std::min(curled, v);
+    opened = std::max(opened, v);
+  }
+  EXPECT_EQ(curled, 0.0);
+  EXPECT_GT(opened, 0.0) << "back into its range";
+}
+
 TEST(Recovery, AfterGoodMotionAStopIsANewOne) {
   Recovery recovery(berm::app_bench::zx200());
   const ProgressLog log(-1);

@@ -60,7 +60,7 @@ struct Attended {
   void until(double seconds, const HornSignal& first = {}) {
     HornSignal signal = first;
     for (; t < seconds; t += kCycle) {
-      person.step(t, signal, {true, truck_about, &panel, 0.0, angle, person.lifts() && lifting_helps});
+      person.step(t, signal, {true, truck_about, &panel, 0.0, angle, person.lifts() && lifting_helps, run_switch});
       lifted = lifted || person.lifts();
       relearned_by_hand = relearned_by_hand || (person.lifts() && person.relearn());
       signal = {};
@@ -75,7 +75,7 @@ struct Attended {
   Operator person;
   berm_heartbeat panel{true, 255, BERM_STATE_RUN, 0, 0, 0};
   std::array<double, 4> angle{};
-  bool lifting_helps = true, lifted = false, relearned_by_hand = false;
+  bool lifting_helps = true, run_switch = true, lifted = false, relearned_by_hand = false;
   double t = 0.0;
   bool truck_about = true, run_off = false, relearned = false, reset_after_relearn = false, moved = false, moved_with_truck = false;
 };
@@ -136,6 +136,21 @@ TEST(Operator, LiftsByHandWhereHisLastPressDidNotHelp) {
   ASSERT_EQ(site.person.hand_lifts().size(), 1U);
   EXPECT_GT(site.person.hand_lifts()[0].to_s, site.person.hand_lifts()[0].from_s + 3.0);
   EXPECT_TRUE(site.person.moves().empty() && !site.moved);
+}
+
+TEST(Operator, AttendsToAMachineThatShouldRunAndStandsBy) {
+  Attended site(kAttends);
+  site.panel = {false, 255, BERM_STATE_STANDBY, BERM_STOP_NONE, 0, 0};
+  site.until(45.0);
+  EXPECT_TRUE(site.person.presses().empty());
+  site.until(125.0);
+  EXPECT_GE(site.person.presses().size(), 2U);
+  EXPECT_TRUE(site.lifted) << "his first press has not helped";
+  Attended paused(kAttends);
+  paused.panel = site.panel;
+  paused.run_switch = false;
+  paused.until(125.0);
+  EXPECT_TRUE(paused.person.presses().empty()) << "somebody else has switched run off";
 }
 
 TEST(Operator, KeepsTheLeversUntilTheImplementsAreUp) {

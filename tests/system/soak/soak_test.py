@@ -45,4 +45,26 @@ def bench_move():
     shutil.rmtree(folder)
 
 
-main([short_shift, bench_move])
+def by_hand():
+    """The map is learned anew with the bucket in the face: nothing may move, the app says so, and the operator lifts the implements by hand."""
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
+    from berm_command import ROOT
+    text = (ROOT / "fault_injection/scenarios/shift.toml").read_text()
+    for old, new in (("max_time_s = 36000.0", "max_time_s = 160.0"),
+                     ("farthest_back_m = 84.0\n", "farthest_back_m = 84.0\nresets_after_s = [5.0, 10.0]\n\n"
+                      '[[panel]]\naction = "stop"\nat_s = 22.0\nfor_s = 0.5\n\n[[panel]]\naction = "relearn"\nat_s = 25.0\nfor_s = 0.5\n')):
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    (folder / "by_hand.toml").write_text(text)
+    _, result, out, words = load("--scenario", folder / "by_hand.toml", "--seed", "1", timeout=900)
+    truth = json.loads((out / "truth.json").read_text())
+    assert len(truth["hand_lifts"]) == 1, (truth["hand_lifts"], words[-1500:])
+    events = [json.loads(line) for line in (out / "app.jsonl").read_text().splitlines()]
+    called = [e["reason"] for e in events if e["event"] == "operator_needed"]
+    assert called == ["operator", "unknown ground"], called
+    assert result["passes"] >= 2 and result["contacts"] == 0 and result["own_motion_stops"] == {}, result
+    shutil.rmtree(out)
+    shutil.rmtree(folder)
+
+
+main([short_shift, bench_move, by_hand])
