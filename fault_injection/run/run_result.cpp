@@ -7,7 +7,7 @@
 #include <numeric>
 #include <optional>
 
-#include "run/percentile.hpp"
+#include "run/percentile_json.hpp"
 #include "run/recognised_truck.hpp"
 
 namespace berm::run {
@@ -41,8 +41,6 @@ json standstill_after_fault(const RunResult& r) {
   return still->get<double>() - fault->get<double>();
 }
 
-// null of nothing
-json share_of(const std::vector<double>& values, double share) { return values.empty() ? json(nullptr) : json(percentile_of(values, share)); }
 json maybe(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
 
 std::string place(const StopEvent& stop) {
@@ -151,9 +149,9 @@ json flat_json(const RunResult& r) {
   const auto passes = pass_seconds(r);
   out["passes"] = passes.size();
   out["pass_seconds"] = passes;
-  out["pass_seconds_median"] = share_of(passes, 0.5);
-  out["pass_seconds_p95"] = share_of(passes, 0.95);
-  out["kinematic_ratio_median"] = share_of(r.measures.kinematic_ratios, 0.5);
+  out["pass_seconds_median"] = percentile_or_null<json>(passes, 0.5);
+  out["pass_seconds_p95"] = percentile_or_null<json>(passes, 0.95);
+  out["kinematic_ratio_median"] = percentile_or_null<json>(r.measures.kinematic_ratios, 0.5);
   out["dig_surface_error_m"] = maybe(r.measures.dig_surface_error_m);
   out["plan_ms_max"] = maybe(longest_planning_ms(r.app_events));
   out["target_kg"] = r.truth.value("target_kg", 0.0);

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "recognition/ongoing_recognition.hpp"
-#include "run/percentile.hpp"
+#include "run/percentile_json.hpp"
 
 namespace berm::truck_world {
 namespace {
@@ -38,8 +38,6 @@ double last_of_truck_ms(const Scene& scene) {
     if (!scene.point_truth[i].outlier && is_truck(scene.point_truth[i].surface)) last = std::max(last, arrives_ms(scene.cloud[i].scanline));
   return last;
 }
-
-Json percentile(std::vector<double> values, double share) { return values.empty() ? Json(nullptr) : Json(run::percentile_of(std::move(values), share)); }
 
 Json share(const std::vector<double>& values, double most) {
   if (values.empty()) return nullptr;
@@ -99,22 +97,22 @@ Json summary(const std::vector<Arrival>& arrivals) {
   json["trucks"] = trucks;
   json["recognised"] = recognised;
   json["before_sweeps_end"] = early;
-  json["corner_error_m_p50"] = percentile(corners, 0.5);
-  json["corner_error_m_p95"] = percentile(corners, 0.95);
+  json["corner_error_m_p50"] = run::percentile_or_null(corners, 0.5);
+  json["corner_error_m_p95"] = run::percentile_or_null(corners, 0.95);
   json["non_trucks"] = non_trucks;
   json["false_accepts"] = accepted;
   json["scanlines_per_s"] = 1e3 / scanline_ms;
-  json["answer_after_last_scanline_ms_p50"] = percentile(after, 0.5);
-  json["answer_after_last_scanline_ms_p95"] = percentile(after, 0.95);
-  json["answer_after_last_scanline_ms_max"] = percentile(after, 1.0);
+  json["answer_after_last_scanline_ms_p50"] = run::percentile_or_null(after, 0.5);
+  json["answer_after_last_scanline_ms_p95"] = run::percentile_or_null(after, 0.95);
+  json["answer_after_last_scanline_ms_max"] = run::percentile_or_null(after, 1.0);
   json["answer_within_50_ms"] = share(after, asked_for_ms);
-  json["scanline_ms_p50"] = percentile(scanlines, 0.5);
-  json["scanline_ms_p95"] = percentile(scanlines, 0.95);
-  json["scanline_ms_max"] = percentile(scanlines, 1.0);
-  json["asks_p50"] = percentile(asks, 0.5);
-  json["asks_max"] = percentile(asks, 1.0);
-  json["asking_ms_p50"] = percentile(asking, 0.5);
-  json["asking_ms_max"] = percentile(asking, 1.0);
+  json["scanline_ms_p50"] = run::percentile_or_null(scanlines, 0.5);
+  json["scanline_ms_p95"] = run::percentile_or_null(scanlines, 0.95);
+  json["scanline_ms_max"] = run::percentile_or_null(scanlines, 1.0);
+  json["asks_p50"] = run::percentile_or_null(asks, 0.5);
+  json["asks_max"] = run::percentile_or_null(asks, 1.0);
+  json["asking_ms_p50"] = run::percentile_or_null(asking, 0.5);
+  json["asking_ms_max"] = run::percentile_or_null(asking, 1.0);
   return json;
 }
 

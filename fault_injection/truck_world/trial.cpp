@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "run/percentile.hpp"
+#include "run/percentile_json.hpp"
 
 namespace berm::truck_world {
 namespace {
@@ -17,11 +17,6 @@ using Json = nlohmann::ordered_json;
 constexpr double kNormal95 = 1.96;  // standard deviations
 
 using Vector8d = Eigen::Matrix<double, 8, 1>;
-
-// Null without a value.
-Json percentile(std::vector<double> values, double share) {
-  return values.empty() ? Json(nullptr) : Json(run::percentile_of(std::move(values), share));
-}
 
 app::BedPose pose_of(const TruckTruth& k) {
   app::BedPose pose;
@@ -58,14 +53,14 @@ Json accuracy(const std::vector<Trial>& trials) {
   Json json;
   json["trucks"] = trucks;
   json["recognised"] = recognised;
-  json["corner_error_m_p50"] = percentile(corner, 0.5);
-  json["corner_error_m_p95"] = percentile(corner, 0.95);
-  json["yaw_error_deg_p95"] = percentile(yaw, 0.95);
-  json["dimension_error_m_p95"] = percentile(size, 0.95);
-  json["length_error_m_p95"] = percentile(length, 0.95);
-  json["width_error_m_p95"] = percentile(width, 0.95);
-  json["height_error_m_p50"] = percentile(height, 0.5);
-  json["height_error_m_p95"] = percentile(height, 0.95);
+  json["corner_error_m_p50"] = run::percentile_or_null(corner, 0.5);
+  json["corner_error_m_p95"] = run::percentile_or_null(corner, 0.95);
+  json["yaw_error_deg_p95"] = run::percentile_or_null(yaw, 0.95);
+  json["dimension_error_m_p95"] = run::percentile_or_null(size, 0.95);
+  json["length_error_m_p95"] = run::percentile_or_null(length, 0.95);
+  json["width_error_m_p95"] = run::percentile_or_null(width, 0.95);
+  json["height_error_m_p50"] = run::percentile_or_null(height, 0.5);
+  json["height_error_m_p95"] = run::percentile_or_null(height, 0.95);
   json["height_within_95"] = recognised > 0 ? Json(static_cast<double>(height_within) / recognised) : Json(nullptr);
   json["nees_ratio"] = recognised > 0 ? Json(nees / recognised) : Json(nullptr);
   json["nees_within_95"] = recognised > 0 ? Json(static_cast<double>(within) / recognised) : Json(nullptr);
@@ -166,8 +161,8 @@ Json summary(const std::vector<Trial>& trials) {
   Json json = accuracy(with);
   json["non_trucks"] = without;
   json["false_accepts"] = accepted;
-  json["ms_p50"] = percentile(milliseconds, 0.5);
-  json["ms_max"] = percentile(milliseconds, 1.0);
+  json["ms_p50"] = run::percentile_or_null(milliseconds, 0.5);
+  json["ms_max"] = run::percentile_or_null(milliseconds, 1.0);
   json["by_class"] = Json::object();
   for (const auto& [name, own] : classes) json["by_class"][name] = accuracy(own);
   return json;

@@ -76,11 +76,15 @@ bool Recovery::moved_by_hand(const Observation& o) const {
   return false;
 }
 
+// Motion is permitted, and the retreat that led to that is used.
+bool Recovery::retreating(const Observation& o) const {
+  return !handed_back_ && back_ == Back::none && moved_ && o.time_s - running_s_ < retreat_for;
+}
+
 // What a person must do, once a trouble. True when the call was made just now.
 bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
-  if (called_ || !(o.latched || (by_place(o.stop_reason) && o.time_s - since_s_ > call_after))) return false;
-  called_ = true;
-  called_latched_ = o.latched;
+  if (called_ != Called::no || !(o.latched || (by_place(o.stop_reason) && o.time_s - since_s_ > call_after))) return false;
+  called_ = o.latched ? Called::for_latched : Called::for_held;
   nlohmann::ordered_json fields{{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}, {"stopped_s", o.time_s - since_s_}};
   if (!o.latched && BERM_STOP_HAS_CELL(o.stop_reason)) fields.update({{"x_m", o.blocked_x}, {"y_m", o.blocked_y}, {"height_m", o.blocked_height}});
   fields["advice"] = advice_for(o);
@@ -95,14 +99,14 @@ void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
   stopped_ = true;
   stop_s_ = o.time_s;
   stopped_at_ = o.angle;
-  if (retreats_) retreat_ = o.stop_reason == BERM_STOP_JOINT_RANGE ? retreat(o, 0.0) : Joints{};  // it led nowhere: not the same again
-  retreats_ = false;
+  if (retreating(o)) retreat_ = o.stop_reason == BERM_STOP_JOINT_RANGE ? retreat(o, 0.0) : Joints{};  // it led nowhere: not the same again
   pause_s_ = again ? std::clamp(2.0 * pause_s_, shortest_pause, longest_pause) : 0.0;
   if (!again) {
     since_s_ = o.time_s;
     next_rescan_s_ = since_s_ + rescan_after;
     next_back_s_ = since_s_ + back_after;
-    called_ = moved_ = by_hand_ = false;
+    called_ = Called::no;
+    moved_ = false;
     back_way_ = 0.0;
   }
   if (o.has_place() && by_ground(o.stop_reason)) {
@@ -145,21 +149,22 @@ Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log)
   if (stopped_) {
     stopped_ = false;
     running_s_ = o.time_s;
-    by_hand_ = by_hand_ || moved_by_hand(o);
+    if (!moved_ && moved_by_hand(o)) {
+      moved_ = true;
+      retreat_ = {};
+    }
   }
-  retreats_ = false;
   if (handed_back_) return advice;
   advice.in_charge = true;
   const double ran = o.time_s - running_s_;
-  if (back_ == Back::none && moved_ && ran < retreat_for) {
+  if (retreating(o)) {
     advice.velocity = retreat_;
-    retreats_ = true;
   } else if (ran >= pause_s_ && !swing_back(o, advice)) {
     log.event("resumed", {{"time_s", o.time_s}, {"stopped_s", o.time_s - since_s_}});
     handed_back_ = true;
     handed_back_s_ = o.time_s;
-    advice = {false, {}, false, true, moved_ || by_hand_, false};
-    moved_ = by_hand_ = false;
+    advice = {false, {}, false, true, moved_, false};
+    moved_ = false;
     back_ = Back::none;
   }
   return advice;
@@ -171,8 +176,8 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
   advice.in_charge = true;
   if (!stopped_) begin_stop(o, log);
   if (o.kernel_state == BERM_STATE_STOPPING) stopped_at_ = o.angle;
-  if (called_latched_ && !o.latched) {  // he has reset, and what keeps the machine now is another trouble
-    called_ = called_latched_ = false;
+  if (called_ == Called::for_latched && !o.latched) {  // he has reset, and what keeps the machine now is another trouble
+    called_ = Called::no;
     since_s_ = o.time_s;
   }
   advice.operator_called = call_operator(o, log);

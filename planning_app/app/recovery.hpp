@@ -29,21 +29,20 @@ private:
   void begin_stop(const Observation& o, const ProgressLog& log);
   Advice running(const Observation& o, const ProgressLog& log);
   bool moved_by_hand(const Observation& o) const;
+  bool retreating(const Observation& o) const;
   bool swing_back(const Observation& o, Advice& advice);
 
   MachineModel machine_;
   bool stopped_ = false;
   bool handed_back_ = true;      // the plan is in charge
-  bool moved_ = false, called_ = false;
-  bool called_latched_ = false;  // what the operator was called for last was latched
-  bool by_hand_ = false;         // the implements stand elsewhere than where the stop left them
+  bool moved_ = false;
+  enum class Called { no, for_held, for_latched } called_ = Called::no;  // the operator, for this trouble
   Joints stopped_at_{};          // rad
   double since_s_ = -1.0;        // begin of the trouble: a stop and those soon after it; negative: none yet
   double stop_s_ = 0.0, running_s_ = 0.0, handed_back_s_ = 0.0;
   double pause_s_ = 0.0;         // of standing permitted, before the plan is in charge again
   double next_rescan_s_ = 0.0;
   Joints retreat_{};
-  bool retreats_ = false;        // in the newest cycle that permitted motion
   double blocked_x_ = 0.0, blocked_y_ = 0.0;  // of the last stop
   enum class Back { none, swings, looks } back_ = Back::none;
   double next_back_s_ = 0.0, back_began_s_ = 0.0, back_from_ = 0.0, back_way_ = 0.0;

@@ -9,7 +9,6 @@ namespace berm::app {
 
 namespace {
 
-constexpr double over_heaps = 0.4;                // z, on the ground that it stands on
 constexpr double script_period = 0.02;            // s; the paper has 0.1 (4.4), and each rule that waits for a crossing then comes half of that late
 constexpr double skyline_period = 0.5;
 constexpr double arrived = radians(1.5);
@@ -73,9 +72,14 @@ void Sequencer::begin_approach(const Observation& o, bool lower) {
   enter(Stage::approach, o);
 }
 
+std::optional<Script> Sequencer::raised(const Observation& o, double bearing) const {
+  constexpr double over_heaps = 0.4;  // z, on the ground that it stands on
+  return approach_script(scripts_, machine_, {o.angle, bearing, over_heaps, std::nullopt});
+}
+
 // Raised, to where the scanner on the truck's side sees the whole place.
 void Sequencer::begin_look(const Observation& o) {
-  const auto script = approach_script(scripts_, machine_, {o.angle, look_.bearing(), over_heaps, std::nullopt});
+  const auto script = raised(o, look_.bearing());
   if (!script) {
     log_.event("unreachable", {{"time_s", o.time_s}, {"what", "where the truck is looked for"}});
     return;
@@ -86,7 +90,7 @@ void Sequencer::begin_look(const Observation& o) {
 
 // Between two trucks: a bucket that stays low hides the ground round it until that is too old to move over.
 void Sequencer::wait_raised(const Observation& o) {
-  const auto script = approach_script(scripts_, machine_, {o.angle, o.angle[swing], over_heaps, std::nullopt});
+  const auto script = raised(o, o.angle[swing]);
   waits_raised_ = script.has_value();
   if (script) begin_script(*script);
   enter(Stage::wait_truck, o);

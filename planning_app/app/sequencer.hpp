@@ -72,6 +72,7 @@ private:
   void hold_fill(double in_bucket_kg);
   void begin_script(const Script& script);
   void begin_approach(const Observation& o, bool lower);
+  std::optional<Script> raised(const Observation& o, double bearing) const;  // to that bearing, the implements up
   void begin_look(const Observation& o);
   void wait_raised(const Observation& o);
   Joints go_look(const Observation& o);
@@ -144,7 +145,7 @@ private:
   double loaded_here_kg_ = 0.0;               // since the machine stands where it does
   int vain_moves_ = 0;                        // in a row
   bool saw_run_ = false, part_filled_ = false;  // part_filled_: this truck was left in the middle for a move
-  bool waits_raised_ = false;
+  bool waits_raised_ = false;                 // for the next truck
   LoadCheck load_check_;
   DumpPoint dump_;
   struct Dump { BedPoint at; double kg; };

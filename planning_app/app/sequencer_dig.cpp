@@ -15,7 +15,6 @@ constexpr double cut_reserve = 1.05;              // the cut is planned larger t
 constexpr double air_speed = 3.0, soil_speed = 1.8, curl_speed = 2.2;  // m/s of the tip
 constexpr double least_share_of_speed = 0.4;      // in soil, of digs for little
 constexpr double stall_patience = 1.0;            // s
-constexpr double curled = radians(-174.0);        // absolute bucket angle with the mouth up
 constexpr double near_truck = radians(20.0);      // either side of the dump's bearing
 constexpr double bed_points_age = 12.0;           // s, for the bed map
 

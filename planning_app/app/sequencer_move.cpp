@@ -26,7 +26,6 @@ bool Sequencer::face_too_poor_for_a_truck() {
 }
 
 void Sequencer::begin_move_back(const Observation& o, const char* why) {
-  constexpr double over_heaps = 0.4;         // z, on the ground that it stands on
   enter_phase(BERM_PHASE_WAIT, o);
   vain_moves_ = loaded_here_kg_ < worth_a_move_kg ? vain_moves_ + 1 : 0;
   if (vain_moves_ > vain_moves) {
@@ -43,7 +42,7 @@ void Sequencer::begin_move_back(const Observation& o, const char* why) {
   log_.event("move_back", {{"time_s", o.time_s}, {"truck", truck_}, {"distance_m", back_m_}, {"why", why}, {"face_m3", face.volume}, {"crest_m", face.crest}});
   log_.event("operator_needed", {{"time_s", o.time_s}, {"reason", "move back"},
                                  {"advice", "switch run off, have the truck make way, tram the machine straight back by the distance, press relearn and reset, switch run on"}});
-  if (const auto script = approach_script(scripts_, machine_, {o.angle, 0.5 * (site_.dig_swing_left + site_.dig_swing_right), over_heaps, std::nullopt})) begin_script(*script);
+  if (const auto script = raised(o, 0.5 * (site_.dig_swing_left + site_.dig_swing_right))) begin_script(*script);
   else script_s_ = -1.0;
   enter(Stage::raise_for_move, o);
 }

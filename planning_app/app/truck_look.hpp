@@ -1,5 +1,6 @@
 // Looking for the truck that the spotter has admitted: one sweep over the place where trucks park, whose scanlines go to the recogniser as they come, and a
-// bed to load; again and again until there is one. When an answer stands before the sweep's end the look ends once the scanner has passed the bed. Where the truck truly stands and how large it is the site file does not say.
+// bed to load; again and again until there is one. When an answer stands before the sweep's end the look ends once the scanner has passed the bed. Where
+// the truck truly stands and how large it is the site file does not say.
 #pragma once
 
 #include <optional>

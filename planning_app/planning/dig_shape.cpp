@@ -7,7 +7,6 @@ namespace berm::app {
 
 namespace {
 
-constexpr double curled = radians(-174.0);        // absolute bucket angle with the mouth up
 constexpr double range_guard = radians(7.5);      // a standing joint's stop travel stays inside its range
 
 // How far the bucket's shell reaches below its tip at an attitude, m.

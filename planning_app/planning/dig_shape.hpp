@@ -9,6 +9,8 @@
 
 namespace berm::app {
 
+constexpr double curled = radians(-174.0);  // absolute bucket angle with the mouth up, at the end of the way out
+
 // Along a bearing, r and z, m, from the start of the dig inward.
 using DigShape = std::vector<std::array<double, 2>>;
 

@@ -135,6 +135,7 @@ FanSweep make_fans(std::span<const ScanPoint> points, const std::array<double, 3
   std::vector<FanPlane> planes;
   std::vector<double> steps;
   sweep.returns.reserve(points.size());
+  sweep.directions.reserve(points.size());
   visit_scanlines(points, [&](std::span<const ScanPoint> scanline) {
     const auto plane = append_fan(sweep, scanline, head);
     if (!plane) return;

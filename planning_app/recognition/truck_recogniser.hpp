@@ -20,7 +20,8 @@ struct RecognisedTruck {
   bool found = false;
   std::string reason;                           // a sentence; empty when found
   std::string truck_class;                      // the first that takes in the sizes
-  std::array<Eigen::Vector3d, 4> corners{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  // on the inner top edge: front left, rear left, rear right, front right as seen towards the cab
+  // On the inner top edge: front left, rear left, rear right, front right as seen towards the cab.
+  std::array<Eigen::Vector3d, 4> corners{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   double yaw = 0.0;                             // of the bed's long axis, towards the cab
   double length = 0.0, width = 0.0;             // inside
   double height = 0.0;                          // from the floor to the walls' top: bed_height

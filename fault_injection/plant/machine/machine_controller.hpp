@@ -23,7 +23,6 @@ class MachineController {
   void receive(const berm_can_frame& frame, double t);
   // The selector in the cab: the joints' speeds by the levers, rad/s, in place of the bus; nullopt: automatic. The kernel has no part in it.
   void select(const std::optional<std::array<double, 4>>& levers) { levers_ = levers; }
-  bool by_hand() const { return levers_.has_value(); }
   // Decides for the step that begins at t; standstill: all joints are at rest.
   void decide(double t, bool standstill);
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 
 #include "plant/machine/plant_profile.hpp"
 #include "plant/world/world.hpp"

@@ -15,7 +15,6 @@ constexpr double kRock = 2.0 * std::numbers::pi / 180, kRock_s = 0.6;  // the up
 constexpr double kBeforeTram_s = 1.0, kAfterTram_s = 2.0, kKey_s = 0.5, kBetween_s = 1.0;
 constexpr double kHeldPatience_s = 45.0;     // a stop that should resume by itself and does not: the app has called after 30 s
 constexpr double kMoved = 3.0 * std::numbers::pi / 180;  // of any joint: the last press helped
-constexpr double kNotDrawn_s = -1.0;
 constexpr double kRounding = 1e-6;
 
 bool latched(const berm_heartbeat& panel) {
@@ -68,10 +67,12 @@ void Operator::attend(double t, const Sees& sees) {
   if (stopped_since_s_ < 0.0 || now_held != held_) {
     stopped_since_s_ = t;
     held_ = now_held;
-    delay_s_ = stands_by ? kNotDrawn_s : drawn(*config_.resets_after_s) + (held_ ? kHeldPatience_s : 0.0);
+    acts_s_.reset();
   }
-  if (delay_s_ < 0.0 && t - stopped_since_s_ >= kHeldPatience_s) delay_s_ = kHeldPatience_s + drawn(*config_.resets_after_s);
-  if (delay_s_ < 0.0 || t - stopped_since_s_ < delay_s_) return;
+  const double notices_s = stopped_since_s_ + (held_ ? kHeldPatience_s : 0.0);
+  if (t < notices_s) return;
+  if (!acts_s_) acts_s_ = notices_s + drawn(*config_.resets_after_s);
+  if (t < *acts_s_) return;
   presses_.push_back({t, !held_, panel->stop_reason});
   stopped_since_s_ = -1.0;
   lifting_ = pressed_at_ && !moved_since(*pressed_at_, sees.angle) && (stands_by || BERM_STOP_HAS_CELL(panel->stop_reason));

@@ -52,7 +52,6 @@ class Operator {
   const BasePose& base() const { return base_; }
   bool wants_place() const { return stage_ == Stage::clears; }   // no truck may stand at the machine now
   const BenchMove* moved() const { return moved_ ? &moves_.back() : nullptr; }  // the tram ended in the newest step
-  bool trams() const { return stage_ >= Stage::stops && stage_ <= Stage::run_on && !lifting_; }
   bool lifts() const { return stage_ == Stage::lifts; }          // has the levers; the selector is at manual
   const std::vector<HandLiftTime>& hand_lifts() const { return hand_lifts_; }
   bool refuses() const { return refuses_; }            // was asked to move farther back than there is room
@@ -76,6 +75,7 @@ class Operator {
   bool run_ = true, reset_ = false, relearn_ = false, moved_ = false, refuses_ = false, held_ = false;
   BasePose from_, base_;
   double stopped_since_s_ = -1.0, off_s_ = 0.0;
+  std::optional<double> acts_s_;         // on the stop that he has noticed
   std::optional<std::array<double, 4>> pressed_at_;     // joints at the last press, rad
   bool lifting_ = false;               // from the run switch off on
   std::vector<HandLiftTime> hand_lifts_;

@@ -60,6 +60,28 @@ TEST_F(SpuriousHides, ARailOfNearlyTheStatedHeight) {
   }
 }
 
+// Each row so much behind the one below it that neither supports the other, and farther ground before and behind: two are hidden, of three the last is found.
+// verifies: SK-FI-3
+TEST_F(SpuriousHides, TheFirstTwoRowsOfWhatRecedes) {
+  constexpr double kBehind = 0.6;
+  for (const double distance : kDistances)
+    for (const int rows : {2, 3}) {
+      const double head = parameters.scanner[0].z_mm * 1e-3, lowest = std::floor(std::atan2(head - 0.6, distance) / kRow) * kRow, pan = degrees(60);
+      Sweep sweep(parameters, kSwing);
+      for (int row = 0; row < rows; ++row) {
+        const double at = distance + kBehind * row;
+        const auto height_at = [&](double of_row) { return head - at * std::tan(lowest - (row + of_row) * kRow); };
+        sweep.scene.thing.push_back(box(sweep.at(0, pan, at), sweep.bearing(pan), 0.01, 0.3, height_at(-0.45), height_at(0.45)));
+      }
+      for (int pass = 0; pass < 4; ++pass) sweep.pan(0, degrees(52), degrees(68), rates.app, 90.0 * pass);
+      for (int row = 0; row < 2; ++row)
+        EXPECT_TRUE(all_low(sweep.map(), sweep.scene.thing[static_cast<std::size_t>(row)].footprint, 1, kGroundMm)) << distance << " m, row " << row << " of " << rows;
+      if (rows == 3) {
+        EXPECT_GE(highest_top(sweep.map(), sweep.scene.thing[2].footprint), sweep.scene.thing[2].z_low * 1e3) << distance << " m";
+      }
+    }
+}
+
 // Rails above one another count one by one, so a fence of them has no size that is found.
 // verifies: SK-FI-3
 TEST_F(SpuriousHides, AFenceOfRailsAsHighAsAPerson) {

@@ -1,10 +1,11 @@
 """A few minutes of a shift end with a whole report and a scenario that runs again; and a bench that is soon dug out is moved back from, the work goes on."""
+import csv
 import json
 import pathlib
 import shutil
 import tempfile
 
-from berm_command import load, main, run
+from berm_command import ROOT, load, main, run
 
 KEYS = ("hours", "trucks", "tonnes_per_hour", "needless_stops", "memory_growth_kib_per_hour", "realtime_factor", "kernel_stops", "own_motion_stops", "soil",
         "pass_seconds_median", "pass_seconds_p95", "kinematic_ratio_median", "dig_surface_error_m", "plan_ms_max", "closest_approach_m", "stuck")
@@ -27,7 +28,6 @@ def short_shift():
 def bench_move():
     """A dig zone that reaches hardly beyond the crest holds a few buckets: the machine is moved, and a truck that was part filled is filled."""
     folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
-    from berm_command import ROOT
     text = (ROOT / "fault_injection/scenarios/shift.toml").read_text()
     assert "crest_x = 6.0" in text and "toe_x = 7.5" in text
     # The face begins farther in than the machine would want it: one truck's soil is hardly within reach.
@@ -48,7 +48,6 @@ def bench_move():
 def by_hand():
     """The map is learned anew with the bucket in the face: nothing may move, the app says so, and the operator lifts the implements by hand."""
     folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
-    from berm_command import ROOT
     text = (ROOT / "fault_injection/scenarios/shift.toml").read_text()
     for old, new in (("max_time_s = 36000.0", "max_time_s = 160.0"),
                      ("farthest_back_m = 84.0\n", "farthest_back_m = 84.0\nresets_after_s = [5.0, 10.0]\n\n"
@@ -59,6 +58,10 @@ def by_hand():
     _, result, out, words = load("--scenario", folder / "by_hand.toml", "--seed", "1", timeout=900)
     truth = json.loads((out / "truth.json").read_text())
     assert len(truth["hand_lifts"]) == 1, (truth["hand_lifts"], words[-1500:])
+    lift = truth["hand_lifts"][0]
+    with open(out / "trace.csv", encoding="utf-8") as trace:
+        states = {row["stop_state"] for row in csv.DictReader(trace) if lift["from_s"] < float(row["time_s"]) < lift["to_s"]}
+    assert "5" in states and "2" not in states, f"the kernel, to which the lift is a fault, had the states {states}"
     events = [json.loads(line) for line in (out / "app.jsonl").read_text().splitlines()]
     called = [e["reason"] for e in events if e["event"] == "operator_needed"]
     assert called == ["operator", "unknown ground"], called

@@ -76,6 +76,8 @@ TEST_F(ScanIntakeTest, SplittingAScanlineIntoPacketsChangesNothing) {
   ScanIntake other(parameters);
   berm_scan_packet line = ground(310, 80, 1);
   line.range[40][0] = static_cast<std::uint16_t>(line.range[40][0] / 2);  // a spurious one at a border
+  for (const int border : {24, 48})  // and two in a row, one on each side
+    for (const int i : {border - 1, border}) line.range[i][0] = static_cast<std::uint16_t>(line.range[i][0] * ((i < border) == (border == 24) ? 5 : 7) / 10);
   line.range[60][0] = 0;
   line.flags = BERM_SCAN_FLAG_LAST;
   ASSERT_TRUE(other.take(line, joints, kNow, *whole, *blocks));
@@ -93,7 +95,7 @@ TEST_F(ScanIntakeTest, SplittingAScanlineIntoPacketsChangesNothing) {
   EXPECT_EQ(std::memcmp(whole->seen_us, map->seen_us, sizeof map->seen_us), 0);
   EXPECT_EQ(other.points(), intake.points());
   EXPECT_GT(intake.points(), 50U);
-  EXPECT_LT(intake.points(), 79U) << "the spurious and the missing one are not in it, nor far ground at a grazing angle";
+  EXPECT_LT(intake.points(), 75U) << "the spurious and the missing one are not in it, nor far ground at a grazing angle";
 }
 
 // verifies: SK-CY-101

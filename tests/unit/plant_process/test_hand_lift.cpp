@@ -60,6 +60,7 @@ TEST(HandLift, EndsAtTheBoomsStopToo) {
   l.until(60.0);
   EXPECT_TRUE(l.hands.done());
   EXPECT_LE(l.joints.angle[1], l.profile.dynamics.joint[1].high);
+  EXPECT_GT(l.joints.angle[1], l.profile.dynamics.joint[1].high - 2 * kDegree) << "it was the stop that ended it";
 }
 
 }  // namespace

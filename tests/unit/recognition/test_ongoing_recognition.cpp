@@ -64,9 +64,8 @@ TEST(OngoingRecognition, NothingStandsWhileTheLastEndIsAhead) {
     const double scanline = back ? 134.0 - nearest : nearest - 45.0;
     const Watched seen = watch(points);
     ASSERT_TRUE(seen.truck.found) << seen.truck.reason;
-    if (seen.stood > 0) {
-      EXPECT_GT(seen.stood + 12.0, scanline) << back << ": its inside shows the end some scanlines before the near wall's";
-    }
+    ASSERT_GT(seen.stood, 0u) << back;
+    EXPECT_GT(seen.stood + 12.0, scanline) << back << ": its inside shows the end some scanlines before the near wall's";
     EXPECT_NEAR(seen.truck.length, bed.length, 0.1);
   }
 }
