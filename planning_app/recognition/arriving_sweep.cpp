@@ -1,9 +1,12 @@
 #include "recognition/arriving_sweep.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace berm::app {
 namespace {
 
-constexpr std::size_t kReturnsExpected = 20000;  // of a sweep
+constexpr std::size_t kReturnsExpected = 40000;  // of a sweep
 
 }  // namespace
 
@@ -30,14 +33,15 @@ void ArrivingSweep::take(std::span<const ScanPoint> scanline) {
   if (!plane) return;
   if (!planes_.empty()) {
     const double step = turn_between(planes_.back(), *plane);
-    steps_.push_back(std::abs(step));
+    steps_.insert(std::upper_bound(steps_.begin(), steps_.end(), std::abs(step)), std::abs(step));
     turned_ += step;
   }
   planes_.push_back(*plane);
-  whole_.step = median_of(steps_);
+  if (!steps_.empty()) whole_.step = steps_[steps_.size() / 2];
   const std::size_t stride = thinning(whole_.step), fan = planes_.size() - 1;
   if (stride != stride_) {
     stride_ = stride;
+    if (std::exchange(swung_, false)) place_heads(whole_, planes_, head_, {});
     thinned_ = thin(whole_, stride_);
   } else if (fan % stride_ == 0) {
     thinned_.take(whole_, fan);
@@ -60,12 +64,10 @@ ArrivingSweep::View ArrivingSweep::view() {
   const SwingOfHead swing = swing_of_head(planes_, head_);
   if (!swing.reason.empty()) return {swing.reason, whole_, thinned_.sweep, {}};
   const bool stands = swing.stands();
-  if (!stands) {
-    swung_whole_ = whole_;
-    place_heads(swung_whole_, planes_, head_, swing);
-    swung_thinned_ = thin(swung_whole_, stride_);
-  }
-  FanSweep& whole = stands ? whole_ : swung_whole_;
+  if (!stands || swung_) place_heads(whole_, planes_, head_, swing);
+  swung_ = !stands;
+  if (!stands) swung_thinned_ = thin(whole_, stride_);
+  FanSweep& whole = whole_;
   Thinned& thinned = stands ? thinned_ : swung_thinned_;
   whole.swing_rate = thinned.sweep.swing_rate = swing.rate;
   thinned.sweep.step = static_cast<double>(stride_) * whole.step;

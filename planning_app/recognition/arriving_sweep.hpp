@@ -20,7 +20,7 @@ public:
   // viewpoint: of the sensor in the middle of the sweep, or, where it stands, at any time.
   explicit ArrivingSweep(const std::array<double, 3>& viewpoint);
 
-  // The points of the next scanline in measuring order, as many as there are. Linear in them, but for a sort of the steps between the fans so far.
+  // The points of the next scanline in measuring order, as many as there are. Linear in them, but for the steps between the fans so far, which are kept in order.
   void take(std::span<const ScanPoint> scanline);
 
   // What a search is made in, of the scanlines so far. Where the machine swings the heads depend on all scanlines, and everything is made anew with
@@ -51,13 +51,13 @@ private:
   static Thinned thin(const FanSweep& whole, std::size_t stride);
 
   Eigen::Vector3d head_;
-  FanSweep whole_;  // as seen from the viewpoint
+  FanSweep whole_;
   std::vector<FanPlane> planes_;
-  std::vector<double> steps_;
+  std::vector<double> steps_;  // between the fans, rising
   double turned_ = 0.0;  // rad, with its sense
+  bool swung_ = false;   // the heads of the last view lie elsewhere
   std::size_t stride_ = 1;
   Thinned thinned_;
-  FanSweep swung_whole_;
   Thinned swung_thinned_;
 };
 

@@ -23,7 +23,8 @@ class Collector {
   Collector(const BedPose& pose, const std::vector<Ray>& rays) : pose_(pose), faces_(pose) {
     out.reserve(kStatementsExpected);
     const Placing place(pose);
-    Eigen::Vector3d head(0.0, 0.0, 0.0), a = place.of(head);
+    Eigen::Vector3f head(0.0F, 0.0F, 0.0F);
+    Eigen::Vector3d a = place.of(head);
     for (const Ray& ray : rays) {
       if (ray.head != head) head = ray.head, a = place.of(head);  // that of a whole fan
       take({ray.head, ray.at, a, place.of(ray.at)});
@@ -33,7 +34,7 @@ class Collector {
 
  private:
   struct LocalRay {
-    const Eigen::Vector3d &head, &at;  // in the base frame
+    const Eigen::Vector3f &head, &at;  // in the base frame
     const Eigen::Vector3d a, end;      // the same in the bed frame
   };
   void on_plane(const LocalRay& ray, BedPlane plane, double offset, double deviation) {

@@ -14,7 +14,7 @@ struct BedPlane {
 };
 
 struct BedConstraint {
-  Eigen::Vector3d head, at;  // of the ray
+  Eigen::Vector3f head, at;  // of the ray
   bool edge = false;
   BedPlane plane;            // the return lies on it; or the ray crosses it
   BedPlane bound;            // edge: where the ray crosses plane, side * coordinate is below the bound (sense 1) or beyond it (sense -1)

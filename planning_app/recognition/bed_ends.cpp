@@ -19,6 +19,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kMeanFit = 2.0 / 3.0;  // of fit over its gate
 constexpr int kEndsApart = 2;  // steps
 constexpr double kAsGood = 2.0;  // rays
+constexpr double kCabFront = 0.2;    // m, of a return from the plane of a cab's front
 constexpr double kAboveTop = 0.1;  // m, of a return that lies above a wall's top
 
 double place_of(int end) { return -kEndReach + kEndStep * end; }
@@ -119,7 +120,8 @@ BedPose pose_of(const BedStrip& strip) {
 CabProfile cab_of(const BedStrip& strip, const std::vector<Ray>& rays) {
   CabProfile cab(strip.width / 2, strip.width / 2 + strip.thickness);
   const Placing place(pose_of(strip));
-  Vector3d head(0.0, 0.0, 0.0), a = place.of(head);
+  Eigen::Vector3f head(0.0F, 0.0F, 0.0F);
+  Vector3d a = place.of(head);
   for (const Ray& ray : rays) {
     if (ray.head != head) head = ray.head, a = place.of(head);  // that of a whole fan
     cab.take(a, place.of(ray.at) - a, ray.upright);
@@ -133,13 +135,15 @@ class Weighing {
   Weighing(const BedStrip& strip, const std::vector<Ray>& rays, const Steps& steps)
       : sums(steps), inner_(strip.width / 2), outer_(inner_ + strip.thickness), thickness_(strip.thickness), slack_(strip.slack) {
     const Placing place(pose_of(strip));
-    Vector3d head(0.0, 0.0, 0.0), a = place.of(head);
+    Eigen::Vector3f head(0.0F, 0.0F, 0.0F);
+  Vector3d a = place.of(head);
     for (const Ray& ray : rays) {
       if (ray.head != head) head = ray.head, a = place.of(head);  // that of a whole fan
       StripRay r;
       r.a = a;
       r.d = place.of(ray.at) - a;
       if (std::abs(r.a.y()) < outer_ + kSensorClear) sensor_first_ = std::min(sensor_first_, r.a.x()), sensor_last_ = std::max(sensor_last_, r.a.x());
+      if (strip.from_cab && std::abs(r.u(1.0)) < kCabFront) continue;  // of the cab
       if (!enter(r)) continue;
       take(r, ray.upright);
       if (r.a.z() + r.d.z() > 0.0) over_opening(r, ray.upright);
@@ -350,10 +354,11 @@ std::vector<BedEnds> best_ends(const BedStrip& strip, const std::vector<Ray>& ra
   const int shortest = static_cast<int>(lengths[0] / kEndStep), longest = std::min(static_cast<int>(std::ceil(lengths[1] / kEndStep)), kEnds - 1);
   const Weighing w(strip, rays, {shortest, longest});
   const auto open_weight = static_cast<float>(kOpenEnd / share);
+  const std::array<int, 2> fronts = strip.from_cab ? std::array<int, 2>{first_end(-kBehindCabFront[1]), first_end(-kBehindCabFront[0])} : std::array<int, 2>{0, kEnds - 1};
   std::vector<Beds> beds;
   for (int i = 0; i + shortest < kEnds; ++i) {
     const float rear = w.rear_face.at(i);
-    for (int j = i + shortest; j <= std::min(i + longest, kEnds - 1); ++j) {
+    for (int j = std::max(i + shortest, fronts[0]); j <= std::min(i + longest, fronts[1]); ++j) {
       const Ways& sums = w.sums.at(i, j);
       const float front = w.front_face.at(j), sides = w.sides(i, j, share);
       const Beds b{i, j, sums[0] + sides + rear + front, sums[1] + sides + front - open_weight, sums[2] + sides + rear - open_weight};

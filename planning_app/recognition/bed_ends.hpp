@@ -17,8 +17,10 @@ struct BedStrip {
   double yaw = 0.0, pitch = 0.0, roll = 0.0;
   double width = 0.0, thickness = 0.0;               // inside; of the walls
   double slack = 0.0;                                // of the height: rays so near below the tops contradict nothing
+  bool from_cab = false;                             // u = 0 is the front of a cab, the bed behind it, towards -u
 };
 constexpr double kEndReach = 7.5;
+constexpr SizeRange kBehindCabFront{1.3, 2.9};        // m from a cab's front to the bed's inside: its length, the gap, the bed's front wall
 
 struct BedEnds {
   BedPose pose;

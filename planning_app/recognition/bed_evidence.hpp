@@ -1,8 +1,7 @@
 // The evidence that a sweep's rays are for a bed: each is followed through the model, and what it meets counts for it or against it (bed_model.hpp says what
-// a ray can meet, evidence_weights.hpp what that weighs). A search weighs tens of thousands of poses, so rays are packed and followed four at a time.
+// a ray can meet, evidence_weights.hpp what that weighs). A search weighs tens of thousands of poses, so rays are packed and followed eight at a time.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "recognition/bed_model.hpp"
@@ -10,22 +9,22 @@
 
 namespace berm::app {
 
-// Rays in single precision, four side by side; the last four are filled up with rays that meet nothing.
+// Rays in single precision, eight side by side; the last eight are filled up with rays that meet nothing.
 class PackedRays {
  public:
-  struct FourRays {
-    std::array<Four, 3> head, at;
-    Four range;       // m
-    FourInt upright;  // a mask
+  struct alignas(32) EightRays {
+    Eights<3> head, at;
+    Eight range;       // m
+    EightInt upright;  // a mask
   };
   PackedRays() = default;
   explicit PackedRays(const std::vector<Ray>& rays);
-  [[nodiscard]] const std::vector<FourRays>& fours() const { return fours_; }
+  [[nodiscard]] const std::vector<EightRays>& eights() const { return eights_; }
   // Those of the rays that may meet the bed when no corner of it is moved by more than so many metres; the others are no evidence of it.
   [[nodiscard]] PackedRays meeting(const BedPose& pose, double moved) const;
 
  private:
-  std::vector<FourRays> fours_;
+  std::vector<EightRays> eights_;
 };
 
 struct BedEvidence {

@@ -8,6 +8,9 @@ namespace {
 
 constexpr double kGroundSlack = 0.15;  // m: ruts
 constexpr int kReturnsLeast = 25;
+constexpr double kFarFrom = 0.2, kFarTo = 1.5;             // m beyond the outer faces of the far walls
+constexpr double kAtTops = 0.3, kLow = 1.8;                 // m of the tops; below them
+constexpr int kLevelLeast = 30, kLevelToLow = 20;          // returns; level ones to each that lies low
 
 }  // namespace
 
@@ -15,13 +18,32 @@ double share_of_ground(const FanSweep& sweep, const BedPose& pose, const SizeRan
   const Eigen::Matrix3d turn = pose.rotation().transpose();
   int all = 0, ground = 0;
   for (std::size_t k = 0; k < sweep.returns.size(); k += stride) {
-    const Eigen::Vector3d p = turn * (sweep.returns[k].at - pose.middle);
+    const Eigen::Vector3d p = turn * (sweep.returns[k].at() - pose.middle);
     const double beyond = std::max(std::abs(p.x()) - pose.length / 2, std::abs(p.y()) - pose.width / 2) - pose.thickness;
     if (beyond < 0.2 || beyond > 2.5) continue;
     ++all;
     ground += -p.z() > top_over_ground[0] - kGroundSlack && -p.z() < top_over_ground[1] + 2 * kGroundSlack ? 1 : 0;
   }
   return all * static_cast<int>(stride) < kReturnsLeast ? 1.0 : static_cast<double>(ground) / all;
+}
+
+bool lies_in_level_ground(const FanSweep& sweep, const BedPose& pose, int cab_end) {
+  const Placing place(pose);
+  int all = 0, level = 0, low = 0;
+  for (std::size_t fan = 0; fan < sweep.heads.size(); ++fan) {
+    const Eigen::Vector3d sensor = place.of(sweep.heads[fan]);
+    for (const FanReturn& r : sweep.of(fan)) {
+      const Eigen::Vector3d p = place.of(r.at());
+      const double along = std::abs(p.x()) - pose.length / 2 - pose.thickness, across = std::abs(p.y()) - pose.width / 2 - pose.thickness, beyond = std::max(along, across);
+      if (beyond < kFarFrom || beyond > kFarTo || (along > 0.0 && p.x() * cab_end > 0.0)) continue;
+      const bool far = (along > kFarFrom && p.x() * sensor.x() < 0.0) || (across > kFarFrom && p.y() * sensor.y() < 0.0);
+      if (!far) continue;
+      ++all;
+      level += std::abs(p.z()) < kAtTops ? 1 : 0;
+      low += p.z() < -kLow ? 1 : 0;
+    }
+  }
+  return level >= kLevelLeast && 2 * level > all && level > kLevelToLow * low;
 }
 
 }  // namespace berm::app

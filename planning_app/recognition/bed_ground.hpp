@@ -13,4 +13,8 @@ constexpr double kGroundLeast = 0.02;  // share of the returns beside a bed
 // returns. On the near side the bench may be higher, so a small share tells enough. Of every stride-th return.
 double share_of_ground(const FanSweep& sweep, const BedPose& pose, const SizeRange& top_over_ground, std::size_t stride = 1);
 
+// Whether what is seen beside the bed, beyond its far walls but not where its cab stands (cab_end 1: at +u), lies level with the walls' tops, and next to
+// nothing of it where a truck's ground would be: a pit.
+bool lies_in_level_ground(const FanSweep& sweep, const BedPose& pose, int cab_end);
+
 }  // namespace berm::app

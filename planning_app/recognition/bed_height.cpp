@@ -93,7 +93,8 @@ std::vector<Placed> placed(const BedPose& pose, const std::vector<Ray>& rays) {
   std::vector<Placed> out;
   out.reserve(rays.size());
   const Placing place(pose);
-  Vector3d head(0.0, 0.0, 0.0), from = place.of(head);
+  Eigen::Vector3f head(0.0F, 0.0F, 0.0F);
+  Vector3d from = place.of(head);
   for (const Ray& ray : rays) {
     if (ray.head != head) head = ray.head, from = place.of(head);  // that of a whole fan
     out.push_back({from, place.of(ray.at)});

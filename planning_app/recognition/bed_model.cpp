@@ -124,7 +124,7 @@ RayMeeting BedFaces::meet(const Eigen::Vector3d& a, const Eigen::Vector3d& end) 
 RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& end) { return BedFaces(pose).meet(a, end); }
 
 RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray& ray) {
-  return meet_in_bed(pose, rotation.transpose() * (ray.head - pose.middle), rotation.transpose() * (ray.at - pose.middle));
+  return meet_in_bed(pose, rotation.transpose() * (ray.head.cast<double>() - pose.middle), rotation.transpose() * (ray.at.cast<double>() - pose.middle));
 }
 
 std::vector<Ray> rays_meeting(const BedPose& pose, const std::vector<Ray>& rays, double within, double below) {
@@ -133,7 +133,8 @@ std::vector<Ray> rays_meeting(const BedPose& pose, const std::vector<Ray>& rays,
   const Placing place(pose);
   std::vector<Ray> out;
   out.reserve(rays.size());
-  Eigen::Vector3d head(0.0, 0.0, 0.0), a = place.of(head);
+  Eigen::Vector3f head(0.0F, 0.0F, 0.0F);
+  Eigen::Vector3d a = place.of(head);
   for (const Ray& ray : rays) {
     if (ray.head != head) head = ray.head, a = place.of(head);  // that of a whole fan
     const Eigen::Vector3d d = place.of(ray.at) - a;

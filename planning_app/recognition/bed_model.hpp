@@ -26,6 +26,7 @@ struct BedPose {
 class Placing {
  public:
   explicit Placing(const BedPose& pose) : turn_(pose.rotation().transpose()), shift_(-(turn_ * pose.middle)) {}
+  [[nodiscard]] Eigen::Vector3d of(const Eigen::Vector3f& at) const { return of(Eigen::Vector3d(at.cast<double>())); }
   [[nodiscard]] Eigen::Vector3d of(const Eigen::Vector3d& at) const { return turn_.col(0) * at.x() + turn_.col(1) * at.y() + turn_.col(2) * at.z() + shift_; }
 
  private:
@@ -34,7 +35,7 @@ class Placing {
 };
 
 struct Ray {
-  Eigen::Vector3d head, at;  // from the sensor to the return
+  Eigen::Vector3f head, at;  // from the sensor to the return; single precision, good to a micrometre
   bool upright = false;      // one of several returns one above the other
 };
 

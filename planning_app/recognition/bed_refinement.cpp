@@ -51,8 +51,8 @@ BedPose moved(const BedPose& from, int which, double by, const Vector2d& sight) 
 }
 
 Vector2d sight_of(const BedPose& pose, const PackedRays& rays) {
-  if (rays.fours().empty()) return Vector2d::Zero();
-  const std::array<Four, 3>& head = rays.fours()[rays.fours().size() / 2].head;
+  if (rays.eights().empty()) return Vector2d::Zero();
+  const Eights<3>& head = rays.eights()[rays.eights().size() / 2].head;
   const Eigen::Vector3d sensor = pose.rotation().transpose() * (Eigen::Vector3f(head[0][0], head[1][0], head[2][0]).cast<double>() - pose.middle);
   const Vector2d level = sensor.head<2>() / std::max(sensor.z(), 0.1);
   return level * std::min(1.0, kSightMost / std::max(level.norm(), 1e-9));

@@ -33,20 +33,22 @@ void add_face(const BedPlane& plane, int open_end, double factor, BedVector& slo
 }
 
 double of_return(const BedConstraint& c, const BedAxes& a, const BedVector& values, int open_end, BedVector* slope) {
+  const Vector3d at = c.at.cast<double>();
   const double side = c.plane.side, one = 1.0 / c.deviation;
   if (slope != nullptr) {
     slope->setZero();
-    add_in_bed(a, c.plane.axis, c.at, side * one, *slope);
+    add_in_bed(a, c.plane.axis, at, side * one, *slope);
     add_face(c.plane, open_end, -one, *slope);
   }
-  return (side * in_bed(a, c.plane.axis, c.at) - face(c.plane, values, open_end) - c.offset) * one;
+  return (side * in_bed(a, c.plane.axis, at) - face(c.plane, values, open_end) - c.offset) * one;
 }
 
 double of_edge(const BedConstraint& c, const BedAxes& a, const BedVector& values, int open_end, BedVector* slope) {
+  const Vector3d head = c.head.cast<double>(), to = c.at.cast<double>();
   const double side = c.plane.side, bound_side = c.bound.side, scale = c.sense / c.deviation;
-  const double begin = in_bed(a, c.plane.axis, c.head) * side, end = in_bed(a, c.plane.axis, c.at) * side, one_by_across = 1.0 / (end - begin);
+  const double begin = in_bed(a, c.plane.axis, head) * side, end = in_bed(a, c.plane.axis, to) * side, one_by_across = 1.0 / (end - begin);
   const double share = (face(c.plane, values, open_end) - begin) * one_by_across;
-  const double first = in_bed(a, c.bound.axis, c.head), way = in_bed(a, c.bound.axis, c.at) - first;
+  const double first = in_bed(a, c.bound.axis, head), way = in_bed(a, c.bound.axis, to) - first;
   const double y = (bound_side * (first + share * way) - face(c.bound, values, open_end)) * scale;
   if (y < -kCertain) {
     if (slope != nullptr) slope->setZero();
@@ -55,7 +57,7 @@ double of_edge(const BedConstraint& c, const BedAxes& a, const BedVector& values
   const double e = std::exp(std::min(y, kCertain)), r = std::sqrt(2.0 * (y > kCertain ? y : std::log(1.0 + e)));
   if (slope == nullptr) return r;
   // The crossing moves along the ray as the plane moves against it, and in the bed's frame as the bed does.
-  const Vector3d at = c.head + share * (c.at - c.head);
+  const Vector3d at = head + share * (to - head);
   const double factor = scale * (y > kCertain ? 1.0 / r : e / ((1.0 + e) * r)), along = factor * bound_side * way * one_by_across;
   slope->setZero();
   add_in_bed(a, c.bound.axis, at, factor * bound_side, *slope);

@@ -18,7 +18,7 @@ using Eigen::Vector2d;
 
 constexpr std::size_t kRegionsMost = 14;
 constexpr std::size_t kCoarseRays = 900, kCoarseStride = 2;                            // that first decide between interpretations
-constexpr std::size_t kEndsOfStrip = 4, kOfRegion = 5, kOfPairs = 8, kFitted = 24, kFittedEnds = 16;  // most candidates
+constexpr std::size_t kEndsOfStrip = 4, kOfRegion = 5, kBehindCab = 2, kOfPairs = 8, kFitted = 24, kFittedEnds = 16;  // most candidates
 constexpr double kRoughWorth = 0.2, kFittedWorth = 0.4;  // of the best one's evidence, to be fitted
 constexpr double kHopeful = 10.0;  // evidence of a bed, from which a fit, or moving its walls, may come to that of one that is accepted
 constexpr double kLengthSlack = 0.25;                                   // m, of what is fitted later
@@ -75,11 +75,17 @@ BedStrip strip_of(const BedPose& p) { return {p.middle, p.yaw, p.pitch, p.roll, 
 // Beds of which the region may be a face.
 std::vector<BedEnds> interpret_region(const FanSweep& sweep, const UprightRegion& region, const TruckRangeSet& ranges, const SizeRange& lengths) {
   const Vector2d middle = 0.5 * (region.first + region.last);
-  const SomeRays some = about(rays_around(sweep, {middle.x(), middle.y(), region.high}), kCoarseRays, kCoarseStride);
+  const SomeRays some = about(sweep, around_bed({middle.x(), middle.y(), region.high}), kCoarseRays, kCoarseStride);
   std::vector<BedEnds> found;
   for (const BedStrip& strip : strips_of(region, ranges))
     for (BedEnds& e : best_ends(strip, some.rays, lengths, some.share, kEndsOfStrip)) found.push_back(std::move(e));
-  return distinct(std::move(found), kOfRegion);
+  found = distinct(std::move(found), kOfRegion);
+  // What the region agrees with as a bed's end must not keep out beds of which it is the cab's front.
+  std::vector<BedEnds> behind;
+  for (const BedStrip& strip : strips_behind(region, ranges))
+    for (BedEnds& e : best_ends(strip, some.rays, lengths, some.share, 1)) behind.push_back(std::move(e));
+  for (BedEnds& e : distinct(std::move(behind), kBehindCab)) found.push_back(std::move(e));
+  return found;
 }
 
 // Beds of which two regions may be the sides.
@@ -88,7 +94,7 @@ std::vector<BedEnds> interpret_pairs(const FanSweep& sweep, const std::vector<Up
   for (std::size_t i = 0; i < regions.size(); ++i)
     for (std::size_t k = i + 1; k < regions.size(); ++k)
       for (const BedStrip& strip : strips_of(regions[i], regions[k], ranges)) {
-        const SomeRays some = about(rays_around(sweep, strip.middle), kCoarseRays, kCoarseStride);
+        const SomeRays some = about(sweep, around_bed(strip.middle), kCoarseRays, kCoarseStride);
         for (BedEnds& e : best_ends(strip, some.rays, lengths, some.share, kEndsOfStrip)) found.push_back(std::move(e));
       }
   return distinct(std::move(found), kOfPairs);
@@ -101,7 +107,7 @@ struct Weighed {
 
 // The pose after a fit, where that agrees better with the rays.
 Weighed fitted(const FanSweep& sweep, const BedPose& start, const BedSizes& sizes) {
-  const std::vector<Ray> rays = every(rays_near(sweep, start), kFitStride);
+  const std::vector<Ray> rays = rays_near(sweep, start, kNearBelow, kFitStride);
   const FittedBed fit = fit_pose(start, rays, kFitRounds, sizes);
   const PackedRays packed(rays);
   const double before = score_of(start, packed), after = fit.converged ? score_of(fit.pose, packed) : before;
@@ -139,7 +145,7 @@ void weigh_whole(const FanSweep& sweep, BedInterpretation& i) {
   const Eigen::Matrix3d turn = p.rotation().transpose();
   visit_around(sweep, p.middle, [&](std::size_t fan, std::size_t k) {
     const FanReturn& r = sweep.returns[k];
-    profile.take(turn * (sweep.heads[fan] - p.middle), turn * (r.at - sweep.heads[fan]), r.upright);
+    profile.take(turn * (sweep.heads[fan] - p.middle), turn * (r.at() - sweep.heads[fan]), r.upright);
   });
   profile.finish();
   const double at_front = p.face(0, 1, true), at_rear = -p.face(0, -1, true);
@@ -151,7 +157,7 @@ void weigh_whole(const FanSweep& sweep, BedInterpretation& i) {
 
 double longer_length(const FanSweep& sweep, const BedPose& pose, const TruckRangeSet& ranges, double cab) {
   const SizeRange usual = ranges.hull(&TruckRanges::inside_length);
-  const SomeRays some = about(rays_around(sweep, pose.middle), kLongerRays);
+  const SomeRays some = about(sweep, around_bed(pose.middle), kLongerRays);
   const auto within = best_ends(strip_of(pose), some.rays, usual, some.share, 1);
   const auto longer = best_ends(strip_of(pose), some.rays, {usual[1] + kLengthSlack, usual[1] + kLongest}, some.share, 1);
   if (within.empty() || longer.empty() || longer.front().bed < kLongerBy * (within.front().bed + std::max(0.0, cab))) return 0.0;
@@ -162,7 +168,7 @@ int sides_beyond(const FanSweep& sweep, const BedPose& pose, int cab_end) {
   const Eigen::Matrix3d turn = pose.rotation().transpose();
   int count = 0;
   visit_around(sweep, pose.middle, [&](std::size_t fan, std::size_t k) {
-    const Eigen::Vector3d p = turn * (sweep.returns[k].at - pose.middle);
+    const Eigen::Vector3d p = turn * (sweep.returns[k].at() - pose.middle);
     if (p.z() > -kBeyondBelow || p.z() < -kWallSeen) return;
     const int end = p.x() > 0.0 ? 1 : -1;
     const double beyond = end * p.x() - pose.length / 2;
@@ -190,11 +196,11 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
   const BedSizes sizes = ranges.bed_sizes();
   std::vector<BedEnds> ends;
   for (const BedEnds& rough : distinct(rough_ones, kFitted, kRoughWorth, refused)) {
-    const PackedRays near(about(rays_near(sweep, rough.pose), kLiftRays).rays);
+    const PackedRays near(about(sweep, near_bed(rough.pose), kLiftRays).rays);
     const BedPose lifted = refined(levelled(rough.pose, near), near, sizes.width, kRefineStep, kLiftHalvings);
     const auto [p, score] = fitted(sweep, lifted, sizes);
     ends.push_back({p, rough.cab_end, score, rough.cab});
-    const SomeRays around = about(rays_around(sweep, p.middle), kEndsRays);
+    const SomeRays around = about(sweep, around_bed(p.middle), kEndsRays);
     for (BedEnds& e : best_ends(strip_of(p), around.rays, lengths, around.share, kEndsOfStrip)) ends.push_back(std::move(e));
   }
   leave_hopeful(ends);

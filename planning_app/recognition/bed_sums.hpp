@@ -1,8 +1,7 @@
-// What a fit's statements add up to at some values of the bed: the loss, its slopes, and the products of slopes that a step is found by. Four statements
+// What a fit's statements add up to at some values of the bed: the loss, its slopes, and the products of slopes that a step is found by. Eight statements
 // at a time, in single precision: a search makes hundreds of fits, and each sums up some hundred statements a dozen times.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "recognition/bed_residuals.hpp"
@@ -13,23 +12,23 @@ namespace berm::app {
 // Of the Cauchy loss, in standard deviations. The loss of a residual r is kRobust^2 log(1 + r^2 / kRobust^2).
 constexpr double kRobust = 2.0;
 
-// Statements of a bed whose open end is known, four side by side; the last four are filled up with such as say nothing.
+// Statements of a bed whose open end is known, eight side by side; the last eight are filled up with such as say nothing.
 class PackedStatements {
  public:
-  using Vector = std::array<Four, 3>;
+  using Vector = Eights<3>;
   // A return is bound by the plane that it lies on. A ray past an edge is bound where it crosses a plane.
-  struct FourStatements {
+  struct alignas(32) EightStatements {
     Vector head, at;          // of the ray, base frame
     Vector bound, plane;      // outward normals in the bed's frame
-    Four bound_thick, plane_thick;  // 1: of an outer face, a wall's thickness beyond the inner one
-    Four scale, offset;       // 1/m, less than 0 where the ray must pass beyond the bound; m
-    FourInt edge;             // a mask
+    Eight bound_thick, plane_thick;  // 1: of an outer face, a wall's thickness beyond the inner one
+    Eight scale, offset;       // 1/m, less than 0 where the ray must pass beyond the bound; m
+    EightInt edge;             // a mask
   };
   PackedStatements(const std::vector<BedConstraint>& statements, int open_end);
-  [[nodiscard]] const std::vector<FourStatements>& fours() const { return fours_; }
+  [[nodiscard]] const std::vector<EightStatements>& eights() const { return eights_; }
 
  private:
-  std::vector<FourStatements> fours_;
+  std::vector<EightStatements> eights_;
 };
 
 struct BedSums {

@@ -11,6 +11,7 @@ constexpr double kAboveInner = 0.05, kAboveInnerMost = 0.35, kInnerGate = 0.09; 
 constexpr double kLevel = 0.15;    // a return over the opening in the plane of the tops: a lid
 constexpr double kUpright = 1.0;    // an upright surface within the opening, over the load or in it: soil lies flatter
 constexpr double kCabShare = 1.0;  // of the bed's evidence, at most
+constexpr double kTiltUsual = 0.03;  // rad, of a bed that stands on ground a truck can back up on: costs a ray
 constexpr double kOpenEnd = 12.0;  // for an end without a wall: a wall more would explain less
 
 constexpr double kWallSeen = 0.6;    // m below the top down to which every class has wall, a half pipe within the gate
@@ -32,6 +33,9 @@ inline double heap_margin(double over_tops) { return over_tops <= kHeapOver ? 0.
 // Returns on one outer face tell less the more there are: a cab, a container or a wall has as many.
 constexpr double kFaceFull = 200.0, kFaceBeyond = 0.3;
 inline double saturated(double face) { return face <= kFaceFull ? face : kFaceFull + kFaceBeyond * (face - kFaceFull); }
+
+// Of a bed that tilts, rad.
+inline double tilt_cost(double pitch, double roll) { return (pitch * pitch + roll * roll) / (kTiltUsual * kTiltUsual); }
 
 // Of a return so far off a predicted surface, within the gate.
 inline double fit(double off, double gate) { return 1.0 - off * off / (gate * gate); }

@@ -19,11 +19,11 @@ using Eigen::Vector2d;
 // The upright plane of a fan's returns; false when they spread too little.
 bool fit_plane(std::span<const FanReturn> returns, FanPlane& out) {
   Vector2d mean = Vector2d::Zero();
-  for (const FanReturn& r : returns) mean += r.at.head<2>();
+  for (const FanReturn& r : returns) mean += r.place.head<2>().cast<double>();
   mean /= static_cast<double>(returns.size());
   double xx = 0.0, xy = 0.0, yy = 0.0;
   for (const FanReturn& r : returns) {
-    const Vector2d d = r.at.head<2>() - mean;
+    const Vector2d d = r.place.head<2>().cast<double>() - mean;
     xx += d.x() * d.x();
     xy += d.x() * d.y();
     yy += d.y() * d.y();
@@ -41,17 +41,20 @@ Vector2d turned(const Vector2d& v, double angle) {
 
 // Of a fan whose returns and head stand in the sweep.
 void find_directions(FanSweep& sweep, std::size_t fan) {
-  const Eigen::Vector3d& head = sweep.heads[fan];
-  FanPlan plan{Vector2d::Zero(), 0.0};
-  double farthest = 0.0;  // the longest ray's direction is the fan's
-  for (std::size_t k = sweep.begin[fan]; k < sweep.begin[fan + 1]; ++k) {
-    const Eigen::Vector3d d = sweep.returns[k].at - head;
-    const double level = std::max(d.head<2>().norm(), 1e-9);
-    sweep.directions[k] = {d.head<2>() / level, d.z() / level};
-    if (level > farthest) farthest = level, plan.normal = {-sweep.directions[k].level.y(), sweep.directions[k].level.x()};
+  const Eigen::Vector3f head = sweep.heads[fan].cast<float>();
+  const std::size_t begin = sweep.begin[fan], end = sweep.begin[fan + 1];
+  FanDirections& to = sweep.directions;
+  float farthest = 0.0F;  // the longest ray's direction is the fan's
+  Eigen::Vector2f normal = Eigen::Vector2f::Zero();
+  for (std::size_t k = begin; k < end; ++k) {
+    const Eigen::Vector3f d = sweep.returns[k].place - head;
+    const float level = std::max(std::sqrt(d.x() * d.x() + d.y() * d.y()), 1e-9F), one = 1.0F / level;
+    to.x[k] = d.x() * one, to.y[k] = d.y() * one, to.slope[k] = d.z() * one;
+    if (level > farthest) farthest = level, normal = {-to.y[k], to.x[k]};
   }
-  for (std::size_t k = sweep.begin[fan]; k < sweep.begin[fan + 1]; ++k) plan.spread = std::max(plan.spread, std::abs(plan.normal.dot(sweep.directions[k].level)));
-  sweep.plans[fan] = plan;
+  float spread = 0.0F;
+  for (std::size_t k = begin; k < end; ++k) spread = std::max(spread, std::abs(normal.x() * to.x[k] + normal.y() * to.y[k]));
+  sweep.plans[fan] = {normal.cast<double>(), static_cast<double>(spread)};
 }
 
 }  // namespace
@@ -60,8 +63,8 @@ std::optional<FanPlane> append_fan(FanSweep& sweep, std::span<const ScanPoint> s
   if (scanline.empty()) return std::nullopt;
   const std::size_t first = sweep.returns.size();
   for (const ScanPoint& p : scanline) {
-    const Eigen::Vector3d at(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
-    if ((at - head).squaredNorm() < kRangeLimit * kRangeLimit) sweep.returns.push_back({at, static_cast<std::uint32_t>(sweep.heads.size())});
+    const FanReturn r{{p.x, p.y, p.z}};
+    if ((r.at() - head).squaredNorm() < kRangeLimit * kRangeLimit) sweep.returns.push_back(r);
   }
   FanPlane plane{Vector2d::Zero(), 0.0, 0.5 * (scanline.front().time_s + scanline.back().time_s)};
   const std::span<const FanReturn> own(sweep.returns.data() + first, sweep.returns.size() - first);
@@ -155,9 +158,13 @@ FanSweep make_fans(std::span<const ScanPoint> points, const std::array<double, 3
 std::size_t thinning(double step) { return static_cast<std::size_t>(std::max(1.0, std::round(kSearchStep / std::max(step, 1e-4)))); }
 
 void append_thinned(FanSweep& out, const FanSweep& sweep, std::size_t fan) {
-  for (const FanReturn& r : sweep.of(fan)) out.returns.push_back({r.at, static_cast<std::uint32_t>(out.heads.size())});
-  const auto begin = sweep.directions.begin() + static_cast<std::ptrdiff_t>(sweep.begin[fan]);
-  out.directions.insert(out.directions.end(), begin, begin + static_cast<std::ptrdiff_t>(sweep.begin[fan + 1] - sweep.begin[fan]));
+  for (const FanReturn& r : sweep.of(fan)) out.returns.push_back({r.place});
+  const auto first = static_cast<std::ptrdiff_t>(sweep.begin[fan]), end = static_cast<std::ptrdiff_t>(sweep.begin[fan + 1]);
+  for (std::vector<float> FanDirections::*of : {&FanDirections::x, &FanDirections::y, &FanDirections::slope}) {
+    const std::vector<float>& from = sweep.directions.*of;
+    std::vector<float>& to = out.directions.*of;
+    to.insert(to.end(), from.begin() + first, from.begin() + end);
+  }
   out.heads.push_back(sweep.heads[fan]);
   out.plans.push_back(sweep.plans[fan]);
   if (out.begin.empty()) out.begin.push_back(0);

@@ -14,16 +14,20 @@
 
 namespace berm::app {
 
+// As the scanner's points have it, in single precision: a sweep of some 40,000 returns is read again and again, and memory that is touched for the
+// first time costs more than what is done there.
 struct FanReturn {
-  Eigen::Vector3d at;
-  std::uint32_t fan;      // of FanSweep::heads
+  Eigen::Vector3f place;
   bool upright = false;   // of an upright segment (upright_regions)
+  [[nodiscard]] Eigen::Vector3d at() const { return place.cast<double>(); }
 };
 
-// Where a ray goes: its unit direction in plan, and how much it rises with every metre of that.
-struct FanDirection {
-  Eigen::Vector2d level;
-  double slope;
+// Where rays go: their unit directions in plan, and how much they rise with every metre of that. Of all returns, side by side for lanes.hpp.
+struct FanDirections {
+  std::vector<float> x, y, slope;
+  [[nodiscard]] std::size_t size() const { return slope.size(); }
+  void resize(std::size_t size) { x.resize(size), y.resize(size), slope.resize(size); }
+  void reserve(std::size_t size) { x.reserve(size), y.reserve(size), slope.reserve(size); }
 };
 
 // The upright plane in which the rays of a fan go: in plan its normal, unit, and the most that a ray's direction has along it.
@@ -37,7 +41,7 @@ struct FanSweep {
   std::vector<FanPlan> plans;            // of each fan
   std::vector<std::size_t> begin;        // of each fan in returns, and the end of the last
   std::vector<FanReturn> returns;        // in measuring order
-  std::vector<FanDirection> directions;  // of the rays to each return
+  FanDirections directions;              // of the rays to each return
   double swing_rate = 0.0;               // rad/s, as found
   double step = 0.0;                     // rad between neighbouring fans, the median
   std::string reason;                    // why the sweep cannot be used; empty when it can

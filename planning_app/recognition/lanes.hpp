@@ -1,6 +1,7 @@
-// Four floats at a time, by the compilers' own vector types (GCC, Clang; any processor). A length of 10 m is good to a micrometre here.
+// Eight floats at a time, by the compilers' own vector types (GCC, Clang; any processor). A length of 10 m is good to a micrometre here.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -12,60 +13,74 @@
 #define BERM_APP_LANES
 #endif
 
+// How registers of this width are handed to a function depends on the processor that it is compiled for, and GCC warns of it (-Wno-psabi in CMakeLists.txt):
+// what takes or returns them is inlined, always, and hands nothing over.
+#define BERM_APP_INLINE [[gnu::always_inline]] inline
+
 namespace berm::app {
 
-using Four = float __attribute__((vector_size(16)));
-using FourInt = std::int32_t __attribute__((vector_size(16)));  // of a comparison: all bits or none
+using Eight = float __attribute__((vector_size(32)));
+using EightInt = std::int32_t __attribute__((vector_size(32)));  // of a comparison: all bits or none
+constexpr std::size_t kLanes = 8;
 
-inline Four four(double v) {
+// Several of them in memory. Processors that have such registers want them to lie at multiples of 32 bytes, and a compiler for any processor lays them at
+// 16: what holds them says so itself.
+template <std::size_t count>
+struct alignas(32) Eights {
+  Eight of[count];
+  [[gnu::always_inline]] Eight& operator[](std::size_t k) { return of[k]; }
+  [[gnu::always_inline]] const Eight& operator[](std::size_t k) const { return of[k]; }
+};
+
+BERM_APP_INLINE Eight eight(double v) {
   const auto f = static_cast<float>(v);
-  return Four{f, f, f, f};
+  return Eight{f, f, f, f, f, f, f, f};
 }
-inline Four most4(Four a, Four b) { return a > b ? a : b; }
-inline Four least4(Four a, Four b) { return a < b ? a : b; }
-inline FourInt bits4(Four a) {
-  FourInt out;
+BERM_APP_INLINE Eight most8(Eight a, Eight b) { return a > b ? a : b; }
+BERM_APP_INLINE Eight least8(Eight a, Eight b) { return a < b ? a : b; }
+BERM_APP_INLINE EightInt bits8(Eight a) {
+  EightInt out;
   std::memcpy(&out, &a, sizeof out);
   return out;
 }
-inline Four floats4(FourInt a) {
-  Four out;
+BERM_APP_INLINE Eight floats8(EightInt a) {
+  Eight out;
   std::memcpy(&out, &a, sizeof out);
   return out;
 }
-inline Four magnitude4(Four a) { return floats4(bits4(a) & 0x7FFFFFFF); }
+BERM_APP_INLINE Eight magnitude8(Eight a) { return floats8(bits8(a) & 0x7FFFFFFF); }
 // Where the mask is set, 0 elsewhere.
-inline Four where4(FourInt mask, Four a) { return floats4(bits4(a) & mask); }
-inline Four choose4(FourInt mask, Four then, Four otherwise) { return floats4((bits4(then) & mask) | (bits4(otherwise) & ~mask)); }
-inline bool any4(FourInt mask) {
-  std::int64_t half[2];
-  std::memcpy(half, &mask, sizeof half);
-  return (half[0] | half[1]) != 0;
+BERM_APP_INLINE Eight where8(EightInt mask, Eight a) { return floats8(bits8(a) & mask); }
+BERM_APP_INLINE Eight choose8(EightInt mask, Eight then, Eight otherwise) { return floats8((bits8(then) & mask) | (bits8(otherwise) & ~mask)); }
+BERM_APP_INLINE bool any8(EightInt mask) {
+  std::int64_t quarter[4];
+  std::memcpy(quarter, &mask, sizeof quarter);
+  return ((quarter[0] | quarter[1]) | (quarter[2] | quarter[3])) != 0;
 }
-inline float sum4(Four a) { return (a[0] + a[1]) + (a[2] + a[3]); }
-inline int sum4(FourInt a) { return a[0] + a[1] + a[2] + a[3]; }
+BERM_APP_INLINE float sum8(Eight a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
+BERM_APP_INLINE int sum8(EightInt a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
 
 // To the nearest integer, for magnitudes below 2^22.
-inline FourInt rounded4(Four v) { return bits4(v + four(12582912.0)) - 0x4B400000; }  // 1.5 * 2^23: the last place is 1
+BERM_APP_INLINE EightInt rounded8(Eight v) { return bits8(v + eight(12582912.0)) - 0x4B400000; }  // 1.5 * 2^23: the last place is 1
 
 // Natural logarithm of normal numbers above 0, good to 2e-7 of it or of 1 (Cephes, logf).
-inline Four log4(Four x) {
-  const FourInt bits = bits4(x), halves = (bits - 0x3F3504F3) >> 23;  // so that the rest lies between the roots of 1/2 and 2
-  const Four exponent = __builtin_convertvector(halves, Four), f = floats4(bits - (halves << 23)) - four(1.0), z = f * f;
-  Four y = four(7.0376836292E-2);
-  for (const double c : {-1.1514610310E-1, 1.1676998740E-1, -1.2420140846E-1, 1.4249322787E-1, -1.6668057665E-1, 2.0000714765E-1, -2.4999993993E-1, 3.3333331174E-1}) y = y * f + four(c);
-  y = y * f * z - four(2.12194440E-4) * exponent - four(0.5) * z;
-  return f + y + four(0.693359375) * exponent;
+BERM_APP_INLINE Eight log8(Eight x) {
+  const EightInt bits = bits8(x), halves = (bits - 0x3F3504F3) >> 23;  // so that the rest lies between the roots of 1/2 and 2
+  const Eight exponent = __builtin_convertvector(halves, Eight), f = floats8(bits - (halves << 23)) - eight(1.0), z = f * f;
+  Eight y = eight(7.0376836292E-2);
+  for (const double c : {-1.1514610310E-1, 1.1676998740E-1, -1.2420140846E-1, 1.4249322787E-1, -1.6668057665E-1, 2.0000714765E-1, -2.4999993993E-1, 3.3333331174E-1}) y = y * f + eight(c);
+  y = y * f * z - eight(2.12194440E-4) * exponent - eight(0.5) * z;
+  return f + y + eight(0.693359375) * exponent;
 }
 // For magnitudes below 80, good to 2e-7 of it (Cephes, expf).
-inline Four exp4(Four x) {
-  const FourInt n = rounded4(x * four(1.44269504088896341));
-  const Four exponent = __builtin_convertvector(n, Four), rest = x - exponent * four(0.693359375) + exponent * four(2.12194440E-4);
-  Four y = four(1.9875691500E-4);
-  for (const double c : {1.3981999507E-3, 8.3334519073E-3, 4.1665795894E-2, 1.6666665459E-1, 5.0000001201E-1}) y = y * rest + four(c);
-  return floats4(bits4(y * rest * rest + rest + four(1.0)) + (n << 23));
+BERM_APP_INLINE Eight exp8(Eight x) {
+  const EightInt n = rounded8(x * eight(1.44269504088896341));
+  const Eight exponent = __builtin_convertvector(n, Eight), rest = x - exponent * eight(0.693359375) + exponent * eight(2.12194440E-4);
+  Eight y = eight(1.9875691500E-4);
+  for (const double c : {1.3981999507E-3, 8.3334519073E-3, 4.1665795894E-2, 1.6666665459E-1, 5.0000001201E-1}) y = y * rest + eight(c);
+  return floats8(bits8(y * rest * rest + rest + eight(1.0)) + (n << 23));
 }
 // log(1 + x) of x from 0 on.
-inline Four log1p4(Four x) { return choose4(x < 1e-3F, x * (1.0F - 0.5F * x), log4(1.0F + x)); }
+BERM_APP_INLINE Eight log1p8(Eight x) { return choose8(x < 1e-3F, x * (1.0F - 0.5F * x), log8(1.0F + x)); }
 
 }  // namespace berm::app

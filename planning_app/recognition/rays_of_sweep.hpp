@@ -2,8 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "recognition/bed_model.hpp"
@@ -11,37 +11,47 @@
 
 namespace berm::app {
 
-// Takes every return, by fan and by number, whose ray passes within radius of middle, in plan, and there comes between the heights low and high. Metres.
-template <typename Take>
-void visit_rays(const FanSweep& sweep, const Eigen::Vector2d& middle, double radius, double low, double high, const Take& take) {
-  for (std::size_t fan = 0; fan < sweep.heads.size(); ++fan) {
-    const Eigen::Vector3d& head = sweep.heads[fan];
-    const Eigen::Vector2d to = middle - head.head<2>();
-    const double square = to.squaredNorm();
-    const FanPlan& plan = sweep.plans[fan];
-    if (std::abs(plan.normal.dot(to)) > radius + plan.spread * std::sqrt(square) + 1e-6) continue;  // the whole fan passes it
-    for (std::size_t k = sweep.begin[fan]; k < sweep.begin[fan + 1]; ++k) {
-      const FanDirection& d = sweep.directions[k];
-      const double along = d.level.dot(to);
-      if (along <= 0.0 || square - along * along > radius * radius) continue;
-      const double near = head.z() + d.slope * (along - radius), far = head.z() + d.slope * (along + radius);
-      if (std::max(near, far) >= low && std::min(near, far) <= high) take(fan, k);
+// Upright, about a middle in plan, between two heights. Metres.
+struct Surroundings {
+  Eigen::Vector2d middle;
+  double radius, low, high;
+};
+
+// The returns, by rising number, whose rays pass through it.
+class PassingRays {
+ public:
+  PassingRays(const FanSweep& sweep, const Surroundings& place);
+  [[nodiscard]] std::size_t size() const { return count_; }
+  // Hands on fan and return of every stride-th.
+  template <typename Take>
+  void visit(std::size_t stride, const Take& take) const {
+    std::size_t fan = 0;
+    for (std::size_t i = 0; i < count_; i += stride) {
+      const std::size_t k = numbers_[i];
+      while (sweep_.begin[fan + 1] <= k) ++fan;
+      take(fan, k);
     }
   }
-}
+  [[nodiscard]] std::vector<Ray> rays(std::size_t stride) const;
 
-// Rays that pass within radius of middle, in plan, and there come between the heights low and high. Metres.
-std::vector<Ray> rays_round(const FanSweep& sweep, const Eigen::Vector2d& middle, double radius, double low, double high);
+ private:
+  const FanSweep& sweep_;
+  std::unique_ptr<std::uint32_t[]> numbers_;  // not set to anything: most are never used
+  std::size_t count_;
+};
 
-// Rays that come to within 0.6 m of the bed's walls or opening, down to so many metres below the walls' tops.
-std::vector<Ray> rays_near(const FanSweep& sweep, const BedPose& pose, double below = 1.1);
+// Where rays come to within 0.6 m of the bed's walls or opening, down to so many metres below the walls' tops.
+constexpr double kNearBelow = 1.1;
+Surroundings near_bed(const BedPose& pose, double below = kNearBelow);
+// Where rays may come to the bed, to what stands beyond its ends, or below it: within 7 m.
+Surroundings around_bed(const Eigen::Vector3d& middle);
 
-// The same for the rays of rays_around.
-constexpr double kAround = 7.0;                           // m: half of the longest bed and a cab
-constexpr double kAroundBelow = 2.2, kAroundAbove = 1.0;  // m of the walls' tops
+// Every stride-th of the rays near a bed.
+std::vector<Ray> rays_near(const FanSweep& sweep, const BedPose& pose, double below = kNearBelow, std::size_t stride = 1);
+
 template <typename Take>
 void visit_around(const FanSweep& sweep, const Eigen::Vector3d& middle, const Take& take) {
-  visit_rays(sweep, middle.head<2>(), kAround, middle.z() - kAroundBelow, middle.z() + kAroundAbove, take);
+  PassingRays(sweep, around_bed(middle)).visit(1, take);
 }
 
 // Every stride-th of the rays.
@@ -52,9 +62,6 @@ struct SomeRays {
   std::vector<Ray> rays;
   double share = 1.0;
 };
-SomeRays about(const std::vector<Ray>& rays, std::size_t most, std::size_t least = 1);
-
-// Rays that may come to the bed, to what stands beyond its ends, or below it: within 7 m.
-std::vector<Ray> rays_around(const FanSweep& sweep, const Eigen::Vector3d& middle);
+SomeRays about(const FanSweep& sweep, const Surroundings& place, std::size_t most, std::size_t least = 1);
 
 }  // namespace berm::app

@@ -1,6 +1,7 @@
 #include "recognition/region_strips.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace berm::app {
@@ -19,6 +20,8 @@ constexpr double kApartSlack = 0.10;    // m
 constexpr double kRollMost = 0.09;      // rad
 constexpr double kPairSlack = 0.06;     // m, of the height that two sides give
 constexpr double kLongRegion = 1.5;     // m: its slope tells the bed's pitch
+constexpr SizeRange kCabWidth{1.6, 2.8};  // m, of its front
+constexpr std::array<double, 3> kOverCab{-0.2, 0.0, 0.2};  // m, of a bed's tops over its cab's front
 constexpr double kAlongMost = 6.0;      // m between the middles of two regions of one bed
 
 // Segments of a region whose tops lie on one line: height = z + slope * x, x along the region.
@@ -106,6 +109,26 @@ std::vector<BedStrip> strips_of(const UprightRegion& region, const TruckRangeSet
   return out;
 }
 
+std::vector<BedStrip> strips_behind(const UprightRegion& region, const TruckRangeSet& ranges) {
+  if (const double wide = (region.last - region.first).norm(); wide < kCabWidth[0] || wide > kCabWidth[1]) return {};
+  const SizeRange widths = ranges.hull(&TruckRanges::inside_width), thick = ranges.hull(&TruckRanges::wall_thickness);
+  const Vector2d along(region.normal.y(), -region.normal.x()), middle = 0.5 * (region.first + region.last);
+  const std::vector<TopLine> tops = top_lines(region, along, middle);
+  if (tops.empty()) return {};
+  BedStrip strip;
+  strip.width = 0.5 * (widths[0] + widths[1]);
+  strip.thickness = 0.5 * (thick[0] + thick[1]);
+  strip.slack = kHeightSlack;
+  strip.from_cab = true;
+  strip.yaw = std::atan2(region.normal.y(), region.normal.x());
+  std::vector<BedStrip> out;
+  for (const double over : kOverCab) {
+    strip.middle << middle, tops.front().z + over;
+    out.push_back(strip);
+  }
+  return out;
+}
+
 std::vector<BedStrip> strips_of(const UprightRegion& a, const UprightRegion& b, const TruckRangeSet& ranges) {
   const double facing = a.normal.dot(b.normal);
   if (std::abs(facing) < std::cos(kParallel)) return {};
@@ -137,11 +160,13 @@ std::vector<BedStrip> strips_of(const UprightRegion& a, const UprightRegion& b, 
         const double at = 0.5 * (t.first + t.last);
         return t.z + t.slope * at - slope * at;
       };
-      const double rise = side_of_b * (high_at_centre(top_b) - high_at_centre(top_a)) / apart;  // to the left
-      if (std::abs(rise) > kRollMost) continue;
-      strip.middle = {centre.x(), centre.y(), 0.5 * (high_at_centre(top_a) + high_at_centre(top_b)) + kTopOverSegment};
+      const double high_a = high_at_centre(top_a), high_b = high_at_centre(top_b), rise = side_of_b * (high_b - high_a) / apart;  // to the left
+      // Of one side only a lower part may be in sight: then the other tells the height.
+      const bool both = std::abs(rise) <= kRollMost;
+      strip.middle = {centre.x(), centre.y(), (both ? 0.5 * (high_a + high_b) : std::max(high_a, high_b)) + kTopOverSegment};
+      strip.slack = both ? kPairSlack : kHeightSlack;
       strip.pitch = -std::atan(slope);
-      strip.roll = std::atan(rise);
+      strip.roll = both ? std::atan(rise) : 0.0;
       out.push_back(strip);
     }
   return out;

@@ -12,6 +12,10 @@ namespace berm::app {
 
 std::vector<BedStrip> strips_of(const UprightRegion& region, const TruckRangeSet& ranges);
 
+// Strips behind the region, taken for the front of a cab, of several heights: from there the cab hides the bed's end wall, and as that end it agrees with more rays
+// than a bed of which little is seen.
+std::vector<BedStrip> strips_behind(const UprightRegion& region, const TruckRangeSet& ranges);
+
 // Of two regions that may be both sides of one bed: the outer face of the near one and the inner face of the far one, or the inner faces of both. Their
 // distance is the width, their tops give height, roll and pitch.
 std::vector<BedStrip> strips_of(const UprightRegion& a, const UprightRegion& b, const TruckRangeSet& ranges);

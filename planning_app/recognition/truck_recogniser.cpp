@@ -9,6 +9,7 @@
 #include "recognition/bed_ground.hpp"
 #include "recognition/bed_height.hpp"
 #include "recognition/bed_refinement.hpp"
+#include "recognition/cab_profile.hpp"
 
 namespace berm::app {
 namespace {
@@ -16,6 +17,8 @@ namespace {
 constexpr double kScoreLeast = 80.0;  // evidence of a bed
 constexpr int kOuterLeast = 12, kInnerLeast = 17;  // returns on outer faces of its walls, on inner faces of its far ones (of 781 found beds: 19 at least)
 constexpr double kCabSeen = 100.0;     // evidence of a cab that leaves little doubt
+constexpr double kCabOwn = 40.0;       // evidence of a cab that the bed's sides, were they longer, would not explain
+constexpr double kCabShortest = 0.8, kCabLongest = 3.2;  // m beyond a bed's end
 constexpr double kCabFaint = 2.0;      // evidence of anything at all where the cab would stand
 constexpr double kCabLeast = -12.0;   // evidence of its cab
 constexpr int kInnerBeforeCab = 50, kInnerAlone = 150;  // returns on inner faces of a bed that shows no outer one, with its cab and without
@@ -27,7 +30,8 @@ constexpr double kBelowTops = 2.5;        // m, of rays that may tell the floor
 constexpr double kLengthUnsure = 0.5;  // m, standard deviation
 constexpr double kMuchBetter = 1.1;
 constexpr double kMovesGain = 1.6;      // of evidence, by moves of walls: hardly more; 1.25 lost two trucks in 300
-constexpr double kThroughFew = 5.0, kThroughShare = 0.03;  // rays through walls; of those on faces and tops: of 780 found beds one has more
+constexpr double kLidShare = 0.83;  // of the returns over an opening; of look-alikes with a lid 0.87 at least
+constexpr double kThroughFew = 8.0, kThroughShare = 0.04;  // rays through walls; of those on faces and tops: of 780 found beds one has more
 constexpr int kBeyondMost = 12;
 constexpr int kPasses = 2;              // where all that a pass found was refused, one looks at the rest
 constexpr double kPi = 3.14159265358979323846;
@@ -54,7 +58,7 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
   if (e.outer_face < kOuterLeast && (!inner_alone || e.inner_face < (i.cab_seen < kCabFaint ? kInnerAlone : kInnerBeforeCab)))
     return fmt::format("the bed has {} returns on outer faces of its walls, and needs {}", e.outer_face, kOuterLeast);
   const int over_opening = e.level_inside + e.below_inside + e.above_inside;
-  if (e.level_inside > 0.75 * over_opening && over_opening >= 30)
+  if (e.level_inside > kLidShare * over_opening && over_opening >= 30)
     return fmt::format("it is closed on top: {} of {} returns over its opening lie in the plane of the walls' tops", e.level_inside, over_opening);
   // A closed box, a lorry's board or a trench box matches as well from outside: the far walls' inside tells a bed.
   if (e.inner_face < kInnerLeast) return fmt::format("the bed has {} returns on inner faces of its far walls, and needs {}", e.inner_face, kInnerLeast);
@@ -66,6 +70,7 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
   const double ground = share_of_ground(sweep, p, over_ground);
   if (ground < kGroundLeast)
     return fmt::format("{:.1f} % of the returns beside it lie {:.2f} to {:.2f} m below the walls' tops, where the ground would be", 100 * ground, over_ground[0], over_ground[1]);
+  if (lies_in_level_ground(sweep, p, i.cab_end)) return "the ground beyond it lies level with its walls' tops: a pit";
   if (i.cab_seen < kCabSeen) {
     const double unsure = std::sqrt(fit.covariance(6, 6));
     if (i.cab_seen < kCabFaint && unsure > kLengthUnsure) return fmt::format("it has no cab, and its length is known to {:.2f} m only: an end of it is not seen", unsure);
@@ -121,6 +126,15 @@ bool same_place(const BedPose& a, const BedPose& b) {
   return across < 0.3 && 0.5 * (a.length + b.length) - along > 0.5 * std::min(a.length, b.length);
 }
 
+// Whether it goes on beyond the bed's cab end for as long as a cab, where there is evidence of one that the bed's own sides do not explain: bed and cab taken for one.
+bool is_bed_with_cab(const BedPose& longer, const BedInterpretation& i) {
+  if (i.cab < kCabOwn) return false;
+  const BedPose& p = i.pose;
+  const Eigen::Vector2d u(std::cos(p.yaw), std::sin(p.yaw));
+  const double middle = i.cab_end * u.dot(longer.middle.head<2>() - p.middle.head<2>()), further = middle + 0.5 * longer.length - 0.5 * p.length;
+  return further > kCabShortest && further < kCabLongest;
+}
+
 double with_own_cab(const BedInterpretation& i) { return with_cab(i.evidence.score, i.cab_seen); }
 
 // The bed with the most evidence; with none, of those refused the one most like a bed, whatever stands beyond its ends. A bed that is only a part of something that agrees with the rays
@@ -136,7 +150,7 @@ const Verified& choose(const std::vector<Verified>& all) {
   const Verified* whole = best;
   for (const Verified& v : all)
     if (!v.refusal.empty() && v.interpretation.evidence.score > kMuchBetter * with_own_cab(whole->interpretation) &&
-        same_place(v.interpretation.pose, best->interpretation.pose))
+        same_place(v.interpretation.pose, best->interpretation.pose) && !is_bed_with_cab(v.interpretation.pose, best->interpretation))
       whole = &v;
   return *whole;
 }

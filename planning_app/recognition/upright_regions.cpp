@@ -26,15 +26,17 @@ void upright_segments(FanSweep& sweep, std::size_t fan, std::vector<UprightSegme
   const std::span<const FanReturn> returns = sweep.of(fan);
   const Vector2d head = sweep.heads[fan].head<2>();
   for (std::size_t i = 0; i < returns.size();) {
-    double mean = (returns[i].at.head<2>() - head).norm();
-    Vector2d sum = returns[i].at.head<2>();
+    const auto in_plan = [&](std::size_t k) -> Vector2d { return returns[k].place.head<2>().cast<double>(); };
+    const auto height = [&](std::size_t k) { return static_cast<double>(returns[k].place.z()); };
+    Vector2d sum = in_plan(i);
+    double mean = (sum - head).norm();
     int count = 1;
     std::size_t end = i + 1;
-    double low = returns[i].at.z(), high = low;
+    double low = height(i), high = low;
     for (; end < returns.size(); ++end) {
-      const Vector2d at = returns[end].at.head<2>();
-      const double distance = (at - head).norm(), z = returns[end].at.z();
-      if (std::abs(distance - mean) > kAcross || std::abs(z - returns[end - 1].at.z()) > 0.5 || (at - sum / count).squaredNorm() > 0.25) break;
+      const Vector2d at = in_plan(end);
+      const double distance = (at - head).norm(), z = height(end);
+      if (std::abs(distance - mean) > kAcross || std::abs(z - height(end - 1)) > 0.5 || (at - sum / count).squaredNorm() > 0.25) break;
       mean += (distance - mean) / ++count;
       sum += at;
       low = std::min(low, z);

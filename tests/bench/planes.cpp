@@ -24,17 +24,17 @@ struct PlaneOptions {
   std::string name, json;
   bool list = false, every_setting = false;
   std::uint64_t seed = 1;
-  int scenes = 100, dense_scenes = 6;
+  int sparse_scenes = 100, scenes = 100, dense_scenes = 6;
 };
 
-constexpr std::array<int, 2> kSamples{kUsualSamples, 10 * kUsualSamples};
+constexpr std::array<int, 3> kSamples{kUsualSamples, 4 * kUsualSamples, 10 * kUsualSamples};  // the second, of some 36,000 returns, is the one that is held to goals
 constexpr std::array<const char*, 2> kStages{"planes", "recognition"};
 
-std::vector<std::string> workloads(int density) {
+std::vector<std::string> workloads(std::size_t density) {
   std::vector<std::string> out;
   for (const char* stage : kStages) {
     for (const char* what : {"speed", "recall", "angle_error", "angle_error_p95", "offset_error", "offset_error_p95", "bare_wall_offset_error"})
-      out.push_back(fmt::format("{}_{}_{}", stage, what, kSamples[static_cast<std::size_t>(density)]));
+      out.push_back(fmt::format("{}_{}_{}", stage, what, kSamples[density]));
     out.push_back(fmt::format("{}_scaling", stage));
   }
   return out;
@@ -80,23 +80,23 @@ Density measure(const PlaneOptions& o, int samples, int scenes) {
 }
 
 int measure_all(const PlaneOptions& o) {
-  std::array<Density, 2> measured;
+  std::array<Density, kSamples.size()> measured;
+  const std::array<int, kSamples.size()> scenes_of{o.sparse_scenes, o.scenes, o.dense_scenes};
   auto rows = nlohmann::json::array();
-  for (int d = 0; d < 2; ++d) {
-    const std::vector<std::string> names = workloads(d);
-    const int scenes = d == 0 ? o.scenes : o.dense_scenes;
+  for (std::size_t i = 0; i < kSamples.size(); ++i) {
+    const std::vector<std::string> names = workloads(i);
+    const int scenes = scenes_of[i];
     if (scenes == 0 || std::none_of(names.begin(), names.end(), [&](const std::string& n) { return n.find(o.name) != std::string::npos; })) continue;
-    const auto i = static_cast<std::size_t>(d);
     const Density& now = measured[i] = measure(o, kSamples[i], scenes);
     for (std::size_t stage = 0; stage < kStages.size(); ++stage)
       for (std::size_t k = kStages.size(); k < now.parties.size(); ++k)
         add_rows(rows, kStages[stage], kSamples[i], run::percentile_of(now.returns, 0.5), now.parties[stage], now.parties[k], o.name);
   }
-  if (!measured[0].parties.empty() && !measured[1].parties.empty()) {
-    const double returns = run::percentile_of(measured[1].returns, 0.5) / run::percentile_of(measured[0].returns, 0.5);
-    const auto both = [&](std::size_t k) { return std::array{measured[0].parties[k], measured[1].parties[k]}; };
+  if (!measured.front().parties.empty() && !measured.back().parties.empty()) {
+    const double returns = run::percentile_of(measured.back().returns, 0.5) / run::percentile_of(measured.front().returns, 0.5);
+    const auto both = [&](std::size_t k) { return std::array{measured.front().parties[k], measured.back().parties[k]}; };
     for (std::size_t stage = 0; stage < kStages.size(); ++stage)
-      for (std::size_t k = kStages.size(); k < measured[0].parties.size(); ++k)
+      for (std::size_t k = kStages.size(); k < measured.front().parties.size(); ++k)
         add_scaling_row(rows, kStages[stage], both(stage), both(k), returns, o.name);
   }
   if (!o.json.empty() && !(std::ofstream(o.json) << rows.dump(1) << "\n")) throw std::runtime_error(o.json + ": cannot be written");
@@ -112,14 +112,15 @@ int main(int argc, char** argv) {
   app.add_option("--json", o.json, "write the rows");
   app.add_flag("--list", o.list, "names of the workloads, and stop");
   app.add_option("--seed", o.seed, "seed of every draw")->capture_default_str();
-  app.add_option("--scenes", o.scenes, "sweeps of 36,000 samples")->check(CLI::Range(0, 100000))->capture_default_str();
+  app.add_option("--sparse-scenes", o.sparse_scenes, "sweeps of 36,000 samples")->check(CLI::Range(0, 100000))->capture_default_str();
+  app.add_option("--scenes", o.scenes, "sweeps of 144,000 samples")->check(CLI::Range(0, 100000))->capture_default_str();
   app.add_option("--dense-scenes", o.dense_scenes, "sweeps of 360,000 samples")->check(CLI::Range(0, 100000))->capture_default_str();
   app.add_flag("--every-setting", o.every_setting, "the peers with every setting that was tried, not with the best alone");
   CLI11_PARSE(app, argc, argv);
   if (o.list) {
     std::set<std::string> names;
-    for (int d = 0; d < 2; ++d)
-      for (const std::string& n : workloads(d)) names.insert(n);
+    for (std::size_t i = 0; i < kSamples.size(); ++i)
+      for (const std::string& n : workloads(i)) names.insert(n);
     for (const std::string& n : names) fmt::print("{}\n", n);
     return 0;
   }

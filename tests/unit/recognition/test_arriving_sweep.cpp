@@ -18,12 +18,12 @@ void expect_same(const FanSweep& a, const FanSweep& b) {
   EXPECT_EQ(a.step, b.step);
   EXPECT_EQ(a.swing_rate, b.swing_rate);
   for (std::size_t k = 0; k < a.returns.size(); ++k) {
-    ASSERT_EQ(a.returns[k].at, b.returns[k].at);
-    ASSERT_EQ(a.returns[k].fan, b.returns[k].fan);
+    ASSERT_EQ(a.returns[k].place, b.returns[k].place);
     ASSERT_EQ(a.returns[k].upright, b.returns[k].upright);
-    ASSERT_EQ(a.directions[k].level, b.directions[k].level);
-    ASSERT_EQ(a.directions[k].slope, b.directions[k].slope);
   }
+  EXPECT_EQ(a.directions.x, b.directions.x);
+  EXPECT_EQ(a.directions.y, b.directions.y);
+  EXPECT_EQ(a.directions.slope, b.directions.slope);
 }
 
 // Nothing truly looks like that, but its fans lie half as close. What lies behind the sensor is left out.

@@ -11,6 +11,11 @@ namespace {
 
 constexpr unsigned kDrawnRaysSeed = 20261;
 
+// Of places in the bed's frame.
+Ray ray_in(const BedPose& pose, const Eigen::Vector3d& head, const Eigen::Vector3d& at, bool upright) {
+  return {(pose.middle + pose.rotation() * head).cast<float>(), (pose.middle + pose.rotation() * at).cast<float>(), upright};
+}
+
 // From above and aside, to places on the bed's faces and tops, in it, and about it.
 class DrawnRays {
  public:
@@ -25,7 +30,7 @@ class DrawnRays {
     if (face == 2) at.z() = of(-0.2, 0.2);
     const double away = of(4.0, 12.0), bearing = of(-3.1, 3.1);
     const Eigen::Vector3d head(away * std::cos(bearing), away * std::sin(bearing), of(0.3, 4.0));
-    return {pose_.middle + pose_.rotation() * head, pose_.middle + pose_.rotation() * at, of(-1.0, 1.0) > 0.0};
+    return ray_in(pose_, head, at, of(-1.0, 1.0) > 0.0);
   }
 
  private:
@@ -78,7 +83,7 @@ TEST(BedEvidence, CountsWhatEachRayMeets) {
       const bool same = e.outer_face == is(Meeting::outer_face) && e.inner_face == is(Meeting::inner_face) && e.wall_top == is(Meeting::wall_top) &&
                         e.inside == (deep ? 0 : is(Meeting::inside)) && e.before == is(Meeting::before) && e.over == is(Meeting::over) && e.above_face == is(Meeting::above_face) &&
                         e.through == is(Meeting::through_face) + is(Meeting::through_inner) + is(Meeting::through_top) + (deep ? 1 : 0);
-      const double of_place = kAbove * e.above_inner + kUpright * e.not_soil + kLevel * e.level_inside + (open_end != 0 ? kOpenEnd : 0.0);
+      const double of_place = kAbove * e.above_inner + kUpright * e.not_soil + kLevel * e.level_inside + (open_end != 0 ? kOpenEnd : 0.0) + tilt_cost(pose.pitch, pose.roll);
       if (!same || std::abs(e.score + of_place - weight_of(m)) > 1e-3) ++differs;
     }
     EXPECT_LE(differs, 4) << "rays a micrometre from a limit; open end " << open_end << ", seed " << kDrawnRaysSeed;
@@ -91,12 +96,13 @@ TEST(BedEvidence, CountsWhatEachRayMeets) {
 // Of any number of rays, and of those alone that may meet the bed.
 TEST(BedEvidence, OfManyRaysIsTheSum) {
   const BedPose pose = level_bed(0);
+  const double tilt = tilt_cost(pose.pitch, pose.roll);  // of the bed, whatever the rays
   DrawnRays drawn(pose);
   std::vector<Ray> rays;
-  double sum = 0.0;
+  double sum = -tilt;
   for (int k = 0; k < 150; ++k) {
     rays.push_back(drawn.draw());
-    sum += weigh(pose, {rays.back()}).score;
+    sum += weigh(pose, {rays.back()}).score + tilt;
     const PackedRays packed(rays);
     ASSERT_NEAR(weigh(pose, packed).score, sum, 1e-3) << k;
     ASSERT_EQ(score_of(pose, packed), weigh(pose, packed).score);
@@ -104,15 +110,15 @@ TEST(BedEvidence, OfManyRaysIsTheSum) {
     near.middle.x() += 0.1, near.length += 0.1;
     ASSERT_NEAR(score_of(near, packed.meeting(pose, 0.25)), score_of(near, packed), 1e-3) << k;
   }
-  EXPECT_EQ(score_of(pose, PackedRays()), 0.0);
-  EXPECT_LT(PackedRays(rays).meeting(pose, 0.25).fours().size(), PackedRays(rays).fours().size());
+  EXPECT_EQ(score_of(pose, PackedRays()), -tilt);
+  EXPECT_LT(PackedRays(rays).meeting(pose, 0.25).eights().size(), PackedRays(rays).eights().size());
 }
 
 TEST(BedEvidence, ReturnsAboveAnInnerFaceCountAgainstTheBed) {
   const BedPose p = level_bed(0);
   const double face = p.width / 2;
   const auto at = [&](double v, double w) {
-    return std::vector<Ray>{{p.middle + p.rotation() * Eigen::Vector3d(0.0, 6.0, 3.0), p.middle + p.rotation() * Eigen::Vector3d(0.3, v, w), false}};
+    return std::vector<Ray>{ray_in(p, {0.0, 6.0, 3.0}, {0.3, v, w}, false)};
   };
   EXPECT_EQ(weigh(p, at(-face, 0.2)).above_inner, 1);
   EXPECT_EQ(weigh(p, at(-face, 0.5)).above_inner, 0) << "of something higher";
@@ -124,7 +130,7 @@ TEST(BedEvidence, ReturnsAboveAnInnerFaceCountAgainstTheBed) {
 TEST(BedEvidence, TellsSoilFromWhatIsTooSteep) {
   const BedPose p = level_bed(0);
   const auto at = [&](double v, double w, bool upright) {
-    return weigh(p, std::vector<Ray>{{p.middle + p.rotation() * Eigen::Vector3d(0.0, 6.0, 3.0), p.middle + p.rotation() * Eigen::Vector3d(0.3, v, w), upright}});
+    return weigh(p, std::vector<Ray>{ray_in(p, {0.0, 6.0, 3.0}, {0.3, v, w}, upright)});
   };
   EXPECT_EQ(at(0.0, 0.0, false).level_inside, 1);
   EXPECT_EQ(at(0.0, -0.3, false).below_inside, 1);

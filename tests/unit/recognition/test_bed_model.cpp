@@ -17,7 +17,8 @@ BedPose bed() {
 // From 6 m aside and 2 m up towards a place, ending there or beyond it by some metres.
 RayMeeting towards(const BedPose& pose, const Eigen::Vector3d& place, double beyond = 0.0) {
   const Eigen::Vector3d head(0.0, 6.0, 2.0);
-  return meet(pose, pose.rotation(), {head, place + beyond * (place - head).normalized()});
+  const Eigen::Vector3d at = place + beyond * (place - head).normalized();
+  return meet(pose, pose.rotation(), {head.cast<float>(), at.cast<float>()});
 }
 
 TEST(BedModel, NearWallIsMetOutside) {
@@ -38,7 +39,7 @@ TEST(BedModel, FarWallIsMetInside) {
 
 TEST(BedModel, OpenEndStopsNothing) {
   BedPose pose = bed();
-  const Ray out{{6.0, 0.0, 2.0}, {-4.5, 0.0, -1.0}};
+  const Ray out{{6.0F, 0.0F, 2.0F}, {-4.5F, 0.0F, -1.0F}};
   EXPECT_EQ(meet(pose, pose.rotation(), out).what, Meeting::through_inner);
   pose.open_end = -1;
   EXPECT_EQ(meet(pose, pose.rotation(), out).what, Meeting::over);
@@ -50,7 +51,7 @@ TEST(BedModel, OpenEndStopsNothing) {
 TEST(BedModel, OpenEndLetsIn) {
   BedPose pose = bed();
   pose.open_end = -1;
-  const auto from_behind = [&](const Eigen::Vector3d& at) { return meet(pose, pose.rotation(), {{-7.0, 0.0, 1.2}, at}); };
+  const auto from_behind = [&](const Eigen::Vector3d& at) { return meet(pose, pose.rotation(), {{-7.0F, 0.0F, 1.2F}, at.cast<float>()}); };
   const RayMeeting within = from_behind({-1.0, 0.2, -0.9});
   EXPECT_EQ(within.what, Meeting::inside);
   EXPECT_TRUE(within.by_open_end);

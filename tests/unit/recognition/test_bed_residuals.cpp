@@ -15,8 +15,8 @@ class DrawnStatements : public DrawnBeds {
   BedPlane plane(int axis) { return {axis, side(), axis < 2 && side() > 0}; }
   BedConstraint statement(const BedVector& values) {
     BedConstraint c;
-    c.head = {between(-1, 1), between(-1, 1), between(3, 4)};
-    c.at = values.head<3>() + Eigen::Vector3d(between(-3, 3), between(-3, 3), between(-1.5, 0.5));
+    c.head = Eigen::Vector3d(between(-1, 1), between(-1, 1), between(3, 4)).cast<float>();
+    c.at = (values.head<3>() + Eigen::Vector3d(between(-3, 3), between(-3, 3), between(-1.5, 0.5))).cast<float>();
     c.edge = side() > 0;
     const int axis = static_cast<int>(between(0.0, 2.999));
     c.plane = plane(axis);
@@ -54,18 +54,18 @@ TEST(BedResiduals, SlopesAreThoseOfTheResiduals) {
 // Half an edge's squared residual is the negative logarithm of the logistic function, far on either side too.
 TEST(BedResiduals, EdgesAreLogistic) {
   BedVector values;
-  values << 0, 0, 0, 0, 0, 0, 5, 2.4, 0.1;
-  // Straight down through the plane of the tops, inside the inner edge at y = 1.2.
+  values << 0, 0, 0, 0, 0, 0, 5, 2.5, 0.1;
+  // Straight down through the plane of the tops, about the inner edge at y = 1.25; places that single precision holds exactly.
   const auto passing = [&](double y) {
     BedConstraint c;
-    c.head = {0.0, y, 2.0}, c.at = {0.0, y, -1.0};
+    c.head = Eigen::Vector3d(0.0, y, 2.0).cast<float>(), c.at = Eigen::Vector3d(0.0, y, -1.0).cast<float>();
     c.edge = true, c.plane = {2, 1, false}, c.bound = {1, 1, false}, c.sense = 1, c.deviation = 0.01;
     return residual(c, BedAxes(values), values, 0, nullptr);
   };
-  EXPECT_NEAR(0.5 * std::pow(passing(1.2), 2), std::log(2.0), 1e-9);
-  EXPECT_NEAR(0.5 * std::pow(passing(1.25), 2), 5.0 + std::log1p(std::exp(-5.0)), 1e-9);
-  EXPECT_NEAR(0.5 * std::pow(passing(1.6), 2), 40.0, 1e-9);
-  EXPECT_EQ(passing(0.8), 0.0);
+  EXPECT_NEAR(0.5 * std::pow(passing(1.25), 2), std::log(2.0), 1e-9);
+  EXPECT_NEAR(0.5 * std::pow(passing(1.3125), 2), 6.25 + std::log1p(std::exp(-6.25)), 1e-9);
+  EXPECT_NEAR(0.5 * std::pow(passing(1.625), 2), 37.5, 1e-9);
+  EXPECT_EQ(passing(0.75), 0.0);
 }
 
 }  // namespace

@@ -35,8 +35,8 @@ class NearStatements : public DrawnBeds {
       on[c.bound.axis] = limit(c.bound) + between(-0.3, 0.3);
       from[axis] = limit(c.plane) + (side() > 0 ? 3.0 : -3.0);  // well across the plane
     }
-    c.head = pose.middle + pose.rotation() * from;
-    c.at = pose.middle + pose.rotation() * (c.edge ? Eigen::Vector3d(on + 0.3 * (on - from)) : on);
+    c.head = (pose.middle + pose.rotation() * from).cast<float>();
+    c.at = (pose.middle + pose.rotation() * (c.edge ? Eigen::Vector3d(on + 0.3 * (on - from)) : on)).cast<float>();
     return c;
   }
 };
@@ -86,9 +86,9 @@ TEST(BedSums, OfNothingAreNothing) {
 TEST(Lanes, LogarithmsAndExponentialsAreThose) {
   for (double x = -24.0; x <= 12.0; x += 0.0137) {
     const double e = std::exp(x);
-    EXPECT_NEAR(static_cast<double>(exp4(four(x))[2]), e, 3e-6 * e) << x;
-    EXPECT_NEAR(static_cast<double>(log4(four(e))[1]), x, 3e-7 * std::max(1.0, std::abs(x))) << x;
-    EXPECT_NEAR(static_cast<double>(log1p4(four(e))[3]), std::log1p(e), 1e-4 * std::log1p(e)) << x;
+    EXPECT_NEAR(static_cast<double>(exp8(eight(x))[2]), e, 3e-6 * e) << x;
+    EXPECT_NEAR(static_cast<double>(log8(eight(e))[1]), x, 3e-7 * std::max(1.0, std::abs(x))) << x;
+    EXPECT_NEAR(static_cast<double>(log1p8(eight(e))[3]), std::log1p(e), 1e-4 * std::log1p(e)) << x;
   }
 }
 

@@ -41,7 +41,7 @@ TEST(Fans, AreThinnedToADegree) {
   for (std::size_t fan = 0; fan < half.heads.size(); ++fan) {
     ASSERT_EQ(half.of(fan).size(), sweep.of(2 * fan).size());
     EXPECT_EQ(half.heads[fan], sweep.heads[2 * fan]);
-    EXPECT_EQ(half.of(fan).front().at, sweep.of(2 * fan).front().at);
+    EXPECT_EQ(half.of(fan).front().place, sweep.of(2 * fan).front().place);
   }
 }
 

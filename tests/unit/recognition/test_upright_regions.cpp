@@ -28,7 +28,7 @@ FanSweep sweep_over(const Vector3d& normal, const Vector3d& at) {
       const double range = normal.dot(at - head) / normal.dot(d) + (k % 2 == 0 ? 0.01 : -0.01);
       const Vector3d hit = head + range * d;
       if (hit.z() < 0.0 || hit.z() > 2.4) continue;
-      sweep.returns.push_back({hit, static_cast<std::uint32_t>(fan)});
+      sweep.returns.push_back({hit.cast<float>()});
     }
   }
   sweep.begin.push_back(sweep.returns.size());
@@ -63,7 +63,7 @@ TEST(UprightRegions, ReturnsOfSegmentsAreMarkedAndThoseOfTheGroundAreNot) {
   const auto marked = std::count_if(wall.returns.begin(), wall.returns.end(), [](const FanReturn& r) { return r.upright; });
   EXPECT_GT(static_cast<double>(marked), 0.9 * static_cast<double>(wall.returns.size()));
   ground.heads = {Vector3d(0.0, 0.0, 3.0)};
-  for (int k = 20; k < 80; ++k) ground.returns.push_back({Vector3d(3.0 / std::tan(0.9 * k * kDegree), 0.0, 0.0), 0});
+  for (int k = 20; k < 80; ++k) ground.returns.push_back({Vector3d(3.0 / std::tan(0.9 * k * kDegree), 0.0, 0.0).cast<float>()});
   ground.begin = {0, ground.returns.size()};
   EXPECT_TRUE(upright_segments(ground).empty());
 }
