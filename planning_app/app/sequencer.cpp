@@ -13,11 +13,8 @@ constexpr double script_period = 0.02;            // s; the paper has 0.1 (4.4),
 constexpr double skyline_period = 0.5;
 constexpr double arrived = radians(1.5);
 constexpr double still = radians(0.8);            // rad/s
-constexpr double poor_share = 0.1;                // a pass that brings less of its goal found nothing
-constexpr int most_poor_passes = 4;               // in a row; then there is nothing left to dig from here
 constexpr double most_brake_share = 0.9;          // of the largest acceleration of the swing: no landing is planned harder
 constexpr double horn_s = 1.0;
-constexpr double resting = radians(-165.0);       // bucket: before this tilt nothing slides
 constexpr double full_share = 0.975;              // of a heaped bucket: what passes are planned with
 
 const char* phase_name(std::uint16_t phase) {
@@ -29,7 +26,7 @@ const char* phase_name(std::uint16_t phase) {
 
 Sequencer::Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, const ScriptSet& scripts, TruckFinder& finder, const ProgressLog& log)
     : scripts_(scripts), machine_(machine), scale_(scale_of(machine)), heaped_kg_(machine.bucket_payload_kg), full_bucket_kg_(full_share * heaped_kg_), site_(site), log_(log), trucks_(trucks), ground_(site_), arm_(machine_), brakes_(most_brake_share * machine.joint[swing].acceleration_max), joint_watch_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_),
-      load_check_(scale_.load), fill_(site.place.target_kg, full_bucket_kg_) {
+      load_check_(scale_.load), fill_(site.place.target_kg, full_bucket_kg_), pour_(heaped_kg_) {
   scanners_.begin_full_sweep();
 }
 
@@ -211,104 +208,6 @@ Joints Sequencer::settle(const Observation& o) {
   const Joints goals = script_.goals();
   if (std::fabs(goals[swing] - o.angle[swing]) < arrived && std::fabs(o.velocity[swing]) < still) begin_dig(o);
   return arm_.toward(goals, script_.paces(), tempos(), o.angle, o.velocity);
-}
-
-// Of its load, what may still be in the bucket when the swing turns round: the rest runs out over the first degrees of the way back, where those are
-// over the bed.
-double Sequencer::share_that_may_trail() const {
-  constexpr double over_bed = 0.40, beyond = 0.20;
-  constexpr double trails = radians(8.0), lip_beyond = 0.9;  // m, of the opened bucket's lip beyond the dump point
-  if (sticking_.sticks()) return 0.0;  // what sticks lets go late and all at once
-  const double bearing = task_.truck_bearing + std::copysign(trails, task_.next_bearing - task_.truck_bearing), r = task_.dump_radius + lip_beyond * scale_.bucket;
-  const BedPoint there = to_bed(*site_.bed, r * std::cos(bearing), r * std::sin(bearing));
-  const double aside = 0.5 * bucket_width(machine_);
-  return std::fabs(there.u) + aside < 0.5 * site_.bed->length && std::fabs(there.v) < 0.5 * site_.bed->width ? over_bed : beyond;
-}
-
-std::uint32_t Sequencer::pass_events(const Observation& o) {
-  constexpr double open_at_least = 0.25, open_at_most = 2.0, empty_share = 0.05;
-  const bool opening = script_.of(bucket).reached(RuleMark::opens);
-  const std::uint32_t weighed = load_check_.weighed() ? event_weighed : event_none;
-  if (!opening || emptied_) return emptied_ ? event_emptied | event_empties | weighed : weighed;
-  if (load_check_.pours_part()) return weighed;
-  if (load_check_.keeps_rest()) {
-    emptied_ = true;
-    return event_emptied | event_empties | weighed;
-  }
-  if (open_since_s_ < 0.0 && o.angle[bucket] > poses_.dump[bucket] - radians(30.0)) open_since_s_ = o.time_s;
-  // More than half of what was in it is gone, and the bucket opens on: known only where it was weighed on the way.
-  const bool empties = o.payload_kg >= 0.0 && before_.known() && recent_.kg() < share_that_may_trail() * before_.kg();
-  const std::uint32_t so_far = empties ? event_empties | weighed : weighed;
-  if (open_since_s_ < 0.0) return so_far;
-  // The load needs an open bucket, not time: while the bucket is slowed on its way the clock is too.
-  const bool on_its_way = o.angle[bucket] < poses_.dump[bucket] - radians(8.0);
-  if (on_its_way) open_since_s_ += (1.0 - arm_.shares()[bucket] * tempos()[bucket]) * machine_.cycle;
-  const double open = o.time_s - open_since_s_;
-  const double stays_kg = sticking_.stays_kg(std::max(0.0, before_.kg()));
-  const bool light = o.payload_kg >= 0.0 && recent_.kg() < empty_share * full_bucket_kg_ + stays_kg;
-  emptied_ = (open > open_at_least && (light || o.payload_kg < 0.0)) || open > open_at_most;
-  return emptied_ ? event_emptied | event_empties | weighed : so_far;
-}
-
-Joints Sequencer::pass(const Observation& o) {
-  const bool over_bed = script_.of(bucket).reached(RuleMark::opens);
-  const double tilt = load_check_.step({o.time_s, o.payload_kg, forward(machine_, o.angle).bucket_attitude, over_bed, sticking_.stays_kg(std::max(0.0, o.payload_kg))}, fill_, log_);
-  Joints command = run_script(o, pass_events(o));
-  if (tilt >= 0.0) command[bucket] = tilt;
-  if (!script_.of(swing).reached(RuleMark::leaves)) enter_phase(BERM_PHASE_LIFT, o);
-  else if (script_.of(swing).reached(RuleMark::returns)) enter_phase(BERM_PHASE_SWING_TO_DIG, o);
-  else enter_phase(script_.of(bucket).reached(RuleMark::opens) ? BERM_PHASE_DUMP : BERM_PHASE_SWING_TO_TRUCK, o);
-  // Until the load slides, also when the bucket begins to open.
-  if (phase_ == BERM_PHASE_SWING_TO_TRUCK || (phase_ == BERM_PHASE_DUMP && forward(machine_, o.angle).bucket_attitude < resting)) before_.add(o.payload_kg);
-  if (emptied_ && !(load_check_.keeps_rest() && script_.of(swing).at_last())) after_.add(o.payload_kg);  // what it keeps it lets go over the dig
-  const Joints goals = script_.goals();
-  // The boom may be higher yet: the drag's way down begins from where it is.
-  constexpr Joints close{radians(4.0), radians(5.0), radians(4.0), radians(5.0)};
-  bool near = true;
-  for (std::size_t j = 0; j < joints; ++j) near = near && std::fabs(goals[j] - o.angle[j]) < close[j];
-  if (script_.at_last() && near) end_pass(o);
-  return command;
-}
-
-void Sequencer::end_pass(const Observation& o) {
-  const bool weighed = before_.known() && after_.known();
-  // A bucket that was not weighed in time is taken for no less than the dig's force says: else the truck would be overloaded.
-  const double unweighed_kg = filled_.known() ? std::max(goal_kg_, std::min(heaped_kg_, filled_.kg())) : goal_kg_;
-  const double before = weighed ? before_.kg() : unweighed_kg, after = weighed ? after_.kg() : 0.0;
-  const double had = fill_.loaded_kg();
-  fill_.add_pass(before, after);
-  const double payload = fill_.loaded_kg() - had;
-  if (weighed) {
-    const double lifted = std::max(before, load_check_.lifted_kg()), brought_along = sticking_.sticks() ? sticking_.in_bucket_kg() : 0.0;
-    learn_yield(lifted, brought_along);
-    filled_.learn(lifted - brought_along, heaped_kg_ - brought_along);
-    if (!load_check_.keeps_rest()) sticking_.learn(lifted, after);
-    if (sticking_.sticks())
-      log_.event("sticking", {{"time_s", o.time_s}, {"stays_kg", after}, {"share", sticking_.share()}, {"open_farther_deg", degrees(sticking_.open_farther())}});
-  }
-  poor_passes_ = payload < poor_share * goal_kg_ ? poor_passes_ + 1 : 0;
-  face_yield_.add(payload / goal_kg_);
-  loaded_here_kg_ += payload;
-  dumps_.push_back({landing(*site_.bed, dump_.at, payload, scale_), payload});
-  bed_->note_dump(dumps_.back().at, payload);
-  ++pass_;
-  log_.event("pass", {{"pass", pass_}, {"truck", truck_}, {"seconds", o.time_s - pass_began_s_}, {"payload_kg", payload}, {"loaded_kg", fill_.loaded_kg()},
-                      {"dump_u_m", dump_.at.u}, {"dump_v_m", dump_.at.v}, {"dig_bearing_deg", degrees(task_.lifted_from[swing])}, {"time_s", o.time_s}});
-  pass_began_s_ = o.time_s;
-  if ((poor_passes_ >= most_poor_passes || face_yield_.poor()) && !fill_.full()) {
-    part_filled_ = true;
-    begin_move_back(o, "the last passes found too little");
-    return;
-  }
-  if (!fill_.full() && more_fits(o)) {
-    if (task_.lower_at_end) enter(Stage::settle, o);
-    else begin_approach(o, true);  // it weighed less than expected
-    return;
-  }
-  log_.event("truck_full", {{"truck", truck_}, {"payload_kg", fill_.loaded_kg()}, {"target_kg", site_.place.target_kg}, {"passes", fill_.passes()},
-                            {"seconds", o.time_s - truck_began_s_}});
-  enter_phase(BERM_PHASE_WAIT, o);
-  enter(Stage::horn, o);
 }
 
 Joints Sequencer::plan(const Observation& o) {

@@ -8,6 +8,7 @@
 #include "app/joint_watch.hpp"
 #include "app/load_check.hpp"
 #include "app/observation.hpp"
+#include "app/pour_watch.hpp"
 #include "app/progress_log.hpp"
 #include "app/recovery.hpp"
 #include "app/slow_down.hpp"
@@ -86,6 +87,9 @@ private:
   void begin_pass_search(const Observation& o, const Joints& lifted_from);
   double share_that_may_trail() const;
   std::uint32_t pass_events(const Observation& o);
+  bool carries_level(const Observation& o) const;
+  void watch_pour(const Observation& o);
+  double lifted_kg() const;                   // what the bucket carried to the truck; 0 when nothing has weighed it
   void end_pass(const Observation& o);
   bool face_too_poor_for_a_truck();
   void begin_move_back(const Observation& o, const char* why);
@@ -157,6 +161,7 @@ private:
   double goal_kg_ = 0.0;
   double pass_began_s_ = 0.0, truck_began_s_ = 0.0, open_since_s_ = -1.0;
   bool emptied_ = false;
+  PourWatch pour_;
   RecentWeight recent_;
   MeanWeight before_, after_;
 };

@@ -244,6 +244,7 @@ Joints Sequencer::curl(const Observation& o) {
     open_since_s_ = -1.0;
     before_.reset();
     after_.reset();
+    pour_.begin();
     recent_ = {};  // of the empty bucket; the weighing is blind for a while yet
     load_check_.begin(o.time_s, fill_.must_weigh(heaped_kg_));
     log_.event("script", {{"swing_start_boom_deg", degrees(search_->thresholds().swing_start_boom)}, {"hover_offset_deg", degrees(search_->thresholds().hover_offset)}, {"hover_deg", degrees(poses_.hover[boom])}, {"brake_rad_s2", brakes_.known()}, {"lower_offset_deg", degrees(search_->thresholds().lower_offset)},

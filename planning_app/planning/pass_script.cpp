@@ -75,7 +75,9 @@ std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask&
   const auto spill = pose_near(machine, {task.dump_radius + spill_ahead * scale.bucket, pin_z}, attitude_spill);
   auto dump = pose_near(machine, {task.dump_radius - dump_behind * scale.bucket, pin_z}, attitude_open);
   for (double farther = task.open_farther; dump && farther > 0.0; farther -= radians(1.0)) {
-    const auto open = inverse_pin(machine, {task.dump_radius - dump_behind * scale.bucket, pin_z}, attitude_open + farther, range_guard);
+    // The lip stays where it is when the bucket opens no farther: else what sticks, and lets go last, falls beyond the far wall.
+    const double drawn_in = machine.bucket_length * (std::cos(attitude_open + farther) - std::cos(attitude_open));
+    const auto open = inverse_pin(machine, {task.dump_radius - dump_behind * scale.bucket - drawn_in, pin_z}, attitude_open + farther, range_guard);
     if (!open || (*open)[bucket] <= (*dump)[bucket]) continue;
     dump = open;
     break;

@@ -25,7 +25,7 @@ public:
   bool must_weigh(double heaped_kg) const;
 
   // Shares of the target: what is filled up to, when it is full, and what is kept back rather than loaded, a weighing's error below the target.
-  static constexpr double aim_share = 0.988, full_share = 0.98, most_share = 0.995;
+  static constexpr double aim_share = 0.988, full_share = 0.983, most_share = 0.995;
   static constexpr double worth_share = 0.06;    // of a full bucket; a pass for less is not worth its time
 
 private:

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
 #include "app_bench/bench_machine.hpp"
+#include "motion/bucket_weight.hpp"
 
 namespace berm::app {
 namespace {
@@ -55,6 +57,18 @@ TEST(ImplementWeight, IsLearnedFromAnEmptyBucketsWay) {
   ASSERT_TRUE(weight.known(dig));
   const Moments truth = held_by(machine, dig, {}, 0.0, {}), told = weight.of(dig);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(told[i], truth[i], 1500.0) << "pin " << i;
+}
+
+TEST(BucketWeight, IsWhatTheBucketHoldsInEveryPoseOfAPass) {
+  const MachineModel machine = app_bench::zx200();
+  const ImplementWeight weight = learned(machine, {}, 0.0, 1);
+  for (const double kg : {0.0, 60.0, 700.0, 1600.0})
+    for (const auto& [b, st, bu] : {std::array{39.0, -91.0, -126.0}, std::array{28.0, -56.0, -126.0}, std::array{30.0, -63.0, -20.0}}) {
+      const Joints q{0.0, radians(b), radians(st), radians(bu)};
+      EXPECT_NEAR(weight_in_bucket(machine, q, held_by(machine, q, {}, kg, {}), weight.of(q)), kg, 1.0) << "boom " << b << ", bucket " << bu;
+    }
+  const Joints steep{0.0, radians(80.0), radians(-60.0), radians(-100.0)};
+  EXPECT_LT(weight_in_bucket(machine, steep, held_by(machine, steep, {}, 800.0, {}), weight.of(steep)), 0.0) << "no lever to weigh with";
 }
 
 TEST(ImplementWeight, OnePoseSaysNothingOfOthers) {

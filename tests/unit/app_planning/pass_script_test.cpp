@@ -72,6 +72,30 @@ TEST(PassScript, TheBucketOpensEarlierWhereItIsHeldLevel) {
   EXPECT_NEAR(late, 6.0, 1e-9);
 }
 
+// What sticks lets go last, when the bucket is open farthest: it has to fall where the load fell, not beyond the far wall.
+TEST(PassScript, ABucketThatOpensFartherKeepsItsLipOverTheBed) {
+  const MachineModel m = berm::app_bench::zx200();
+  PassTask task;
+  task.truck_bearing = radians(96.0);
+  task.next_entry = {7.4, -1.6};
+  task.truck_top = task.wall_top = berm::app_bench::bench_bed().wall_top;
+  for (const double dump_radius : {6.2, 6.8, 7.2}) {
+    task.dump_radius = dump_radius;
+    task.open_farther = 0.0;
+    const auto usual = pass_poses(m, task);
+    ASSERT_TRUE(usual) << dump_radius;
+    for (const double farther : {13.0, 26.0, 38.0}) {
+      task.open_farther = radians(farther);
+      const auto opened = pass_poses(m, task);
+      ASSERT_TRUE(opened) << dump_radius;
+      const ArmPoints before = forward(m, usual->dump), now = forward(m, opened->dump);
+      EXPECT_GT(now.bucket_attitude, before.bucket_attitude + radians(5.0)) << dump_radius << " m, " << farther << " degrees farther";
+      EXPECT_NEAR(now.tip.r, before.tip.r, 1e-6) << dump_radius << " m, " << farther << " degrees farther";
+      EXPECT_NEAR(now.bucket_pin.z, before.bucket_pin.z, 1e-6);
+    }
+  }
+}
+
 // Mouth up at any attitude of the stick, as far as the bucket's range goes.
 TEST(PassScript, ALevelBucketIsAsLevelAsItsRangeAllows) {
   const MachineModel m = berm::app_bench::zx200();

@@ -9,7 +9,7 @@ using berm::app::TruckFill;
 constexpr double full_bucket = 1560.0;
 
 TEST(TruckFill, FullFromItsShareOn) {
-  TruckFill fill(18000.0, full_bucket);
+  TruckFill fill(18000.0, 1000.0);  // of a small bucket a handful is less than what is filled beyond that share
   for (int i = 0; i < 11; ++i) fill.add_pass(1600.0, 0.0);
   EXPECT_FALSE(fill.full());  // 17 600
   const double left = TruckFill::full_share * 18000.0 - 17600.0;

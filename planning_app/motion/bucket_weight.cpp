@@ -1,0 +1,16 @@
+#include "motion/bucket_weight.hpp"
+
+#include <algorithm>
+
+namespace berm::app {
+
+double weight_in_bucket(const MachineModel& machine, const Joints& angle, const Moments& held, const Moments& empty) {
+  constexpr double gravity = 9.81, least_share = 0.3, unknown = -1.0;
+  const ArmPoints arm = forward(machine, angle);
+  // A weight's moments about the boom's and the stick's pin differ by it times the way between them, wherever in the bucket it lies.
+  const double way = arm.stick_pin.r - arm.boom_pin.r;
+  if (way < least_share * machine.boom_length) return unknown;
+  return std::max(0.0, ((held[0] - empty[0]) - (held[1] - empty[1])) / (gravity * way));
+}
+
+}  // namespace berm::app

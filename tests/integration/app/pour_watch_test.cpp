@@ -1,0 +1,99 @@
+// What falls beside the bed while a bucket is carried over its wall and poured, from a weight that is noisy and comes in every cycle.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "app/pour_watch.hpp"
+#include "app_bench/bench_machine.hpp"
+#include "app_bench/bench_site.hpp"
+
+namespace {
+
+using namespace berm::app;
+
+constexpr double cycle = 0.01, full_kg = 1600.0;
+
+struct Pour {
+  double carried = 1600.0;
+  double rests_s = 2.0;     // level, on the way
+  double beside_s = 0.5;    // then it slides this long before the lip is over the bed; negative: so long before it slides the lip is there
+  double per_s = 200.0;     // kg that slide in a second
+  double noise_kg = 75.0;   // of one cycle's weight, evenly to either side
+};
+
+PourWatch watched(const Pour& pour, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> noise(-pour.noise_kg, pour.noise_kg);
+  PourWatch watch(full_kg);
+  watch.begin();
+  double kg = pour.carried;
+  for (double t = 0.0; t < pour.rests_s + 5.0; t += cycle) {
+    const bool rests = t < pour.rests_s, beside = t < pour.rests_s + pour.beside_s;
+    if (!rests) kg = std::max(0.0, kg - (beside ? pour.per_s : 800.0) * cycle);
+    watch.step({std::max(0.0, kg + noise(random)), rests, beside ? 1.0 : 0.0});
+  }
+  return watch;
+}
+
+TEST(PourWatch, CountsWhatLeftTheBucketBeforeItsLipWasOverTheBed) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const PourWatch watch = watched({}, seed);
+    ASSERT_TRUE(watch.carried_known());
+    EXPECT_NEAR(watch.carried_kg(), 1600.0, 15.0) << "seed " << seed;
+    EXPECT_NEAR(watch.beside_kg(), 100.0, 45.0) << "seed " << seed;
+  }
+}
+
+TEST(PourWatch, WhatFallsBeyondTheBedAtTheEndCountsToo) {
+  PourWatch watch(full_kg);
+  watch.begin();
+  double kg = 1500.0;
+  for (int k = 0; k < 600; ++k) {
+    if (k >= 200) kg = std::max(0.0, kg - 6.0);
+    watch.step({kg, k < 200, kg < 120.0 ? 1.0 : 0.0});
+  }
+  EXPECT_NEAR(watch.beside_kg(), 105.0, 15.0);
+}
+
+TEST(PourWatch, NoiseIsNoSpill) {
+  for (unsigned seed = 1; seed <= 50; ++seed) EXPECT_EQ(watched({.beside_s = -0.3}, seed).beside_kg(), 0.0) << "seed " << seed;
+}
+
+TEST(PourWatch, AnEmptyBucketAndOneThatWasNotSeenAtRestSayNothing) {
+  EXPECT_FALSE(watched({.carried = 0.0}, 1).carried_known());
+  const PourWatch unseen = watched({.rests_s = 0.3}, 1);
+  EXPECT_FALSE(unseen.carried_known());
+  EXPECT_EQ(unseen.beside_kg(), 0.0);
+  EXPECT_EQ(PourWatch(full_kg).beside_kg(), 0.0);
+}
+
+// What is lifted after a pour, as a bucket that keeps a rest, is not what was carried there.
+TEST(PourWatch, TheCarriedLoadIsThatBeforeTheFirstSlide) {
+  PourWatch watch(full_kg);
+  watch.begin();
+  for (int k = 0; k < 100; ++k) watch.step({1400.0, true, 0.0});
+  for (int k = 0; k < 100; ++k) watch.step({1400.0 - 5.0 * k, false, 0.0});
+  for (int k = 0; k < 200; ++k) watch.step({900.0, true, 1.0});
+  EXPECT_NEAR(watch.carried_kg(), 1400.0, 1e-9);
+  EXPECT_EQ(watch.beside_kg(), 0.0);
+}
+
+TEST(PourWatch, AStreamIsBesideTheBedShortOfTheWallAndBeyondIt) {
+  const MachineModel machine = berm::app_bench::zx200();
+  const TruckBed bed = berm::app_bench::bench_bed();
+  const double bearing = std::atan2(bed.centre_y, bed.centre_x), middle = std::hypot(bed.centre_x, bed.centre_y);
+  const auto share = [&](double r, double swing_angle) {
+    auto q = inverse_tip(machine, {r, 2.5}, radians(-120.0));
+    EXPECT_TRUE(q) << r;
+    if (!q) return -1.0;
+    (*q)[swing] = swing_angle;
+    return share_beside(machine, bed, *q, 0.5);
+  };
+  EXPECT_EQ(share(middle, bearing), 0.0);
+  EXPECT_EQ(share(middle - bed.width, bearing), 1.0);
+  EXPECT_EQ(share(middle, bearing - radians(70.0)), 1.0) << "on the way there";
+}
+
+}  // namespace
