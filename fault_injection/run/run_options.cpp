@@ -32,7 +32,7 @@ std::optional<int> read_options(int argc, char** argv, RunOptions& options) {
   app.add_option("--scenario", options.scenario, "a name (bench, person, ...) or a TOML file")->capture_default_str();
   app.add_option("--scripts", options.scripts, "folder of other scripts than the app's own (pass.script, approach.script)");
   app.add_option("--soil", options.soil, "another soil than the scenario's: sandy_clay, dry_sand, sticky_clay, frozen_crust, or a TOML file");
-  app.add_option("--trucks", options.trucks, "trucks to load")->capture_default_str()->check(CLI::Range(1, 100));
+  app.add_option("--trucks", options.trucks, "trucks to load")->capture_default_str()->check(CLI::Range(1, 1000));
   app.add_option("--seed", options.seed, "seed of every random draw")->capture_default_str();
   app.add_flag("--realtime", options.realtime, "run on the wall clock instead of as fast as the computer allows");
   app.add_option("--json", options.json, "write the result as one flat JSON object");
