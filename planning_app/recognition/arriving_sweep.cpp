@@ -67,11 +67,10 @@ ArrivingSweep::View ArrivingSweep::view() {
   if (!stands || swung_) place_heads(whole_, planes_, head_, swing);
   swung_ = !stands;
   if (!stands) swung_thinned_ = thin(whole_, stride_);
-  FanSweep& whole = whole_;
   Thinned& thinned = stands ? thinned_ : swung_thinned_;
-  whole.swing_rate = thinned.sweep.swing_rate = swing.rate;
-  thinned.sweep.step = static_cast<double>(stride_) * whole.step;
-  return {{}, whole, thinned.sweep, thinned.growth.regions(thinned.sweep)};
+  whole_.swing_rate = thinned.sweep.swing_rate = swing.rate;
+  thinned.sweep.step = static_cast<double>(stride_) * whole_.step;
+  return {{}, whole_, thinned.sweep, thinned.growth.regions(thinned.sweep)};
 }
 
 }  // namespace berm::app

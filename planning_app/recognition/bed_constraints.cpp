@@ -22,13 +22,8 @@ class Collector {
  public:
   Collector(const BedPose& pose, const std::vector<Ray>& rays) : pose_(pose), faces_(pose) {
     out.reserve(kStatementsExpected);
-    const Placing place(pose);
-    Eigen::Vector3f head(0.0F, 0.0F, 0.0F);
-    Eigen::Vector3d a = place.of(head);
-    for (const Ray& ray : rays) {
-      if (ray.head != head) head = ray.head, a = place.of(head);  // that of a whole fan
-      take({ray.head, ray.at, a, place.of(ray.at)});
-    }
+    RayPlacing place(pose);
+    for (const Ray& ray : rays) take({ray.head, ray.at, place.head(ray), place.end(ray)});
   }
   std::vector<BedConstraint> out;
 

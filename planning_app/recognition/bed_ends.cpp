@@ -20,6 +20,7 @@ constexpr double kMeanFit = 2.0 / 3.0;  // of fit over its gate
 constexpr int kEndsApart = 2;  // steps
 constexpr double kAsGood = 2.0;  // rays
 constexpr double kCabFront = 0.2;    // m, of a return from the plane of a cab's front
+constexpr SizeRange kBehindCabFront{1.3, 2.9};  // m from there to the bed's inside: the cab's length, the gap, the bed's front wall
 constexpr double kAboveTop = 0.1;  // m, of a return that lies above a wall's top
 
 double place_of(int end) { return -kEndReach + kEndStep * end; }
@@ -119,12 +120,10 @@ BedPose pose_of(const BedStrip& strip) {
 
 CabProfile cab_of(const BedStrip& strip, const std::vector<Ray>& rays) {
   CabProfile cab(strip.width / 2, strip.width / 2 + strip.thickness);
-  const Placing place(pose_of(strip));
-  Eigen::Vector3f head(0.0F, 0.0F, 0.0F);
-  Vector3d a = place.of(head);
+  RayPlacing place(pose_of(strip));
   for (const Ray& ray : rays) {
-    if (ray.head != head) head = ray.head, a = place.of(head);  // that of a whole fan
-    cab.take(a, place.of(ray.at) - a, ray.upright);
+    const Vector3d& a = place.head(ray);
+    cab.take(a, place.end(ray) - a, ray.upright);
   }
   cab.finish();
   return cab;
@@ -134,14 +133,11 @@ class Weighing {
  public:
   Weighing(const BedStrip& strip, const std::vector<Ray>& rays, const Steps& steps)
       : sums(steps), inner_(strip.width / 2), outer_(inner_ + strip.thickness), thickness_(strip.thickness), slack_(strip.slack) {
-    const Placing place(pose_of(strip));
-    Eigen::Vector3f head(0.0F, 0.0F, 0.0F);
-  Vector3d a = place.of(head);
+    RayPlacing place(pose_of(strip));
     for (const Ray& ray : rays) {
-      if (ray.head != head) head = ray.head, a = place.of(head);  // that of a whole fan
       StripRay r;
-      r.a = a;
-      r.d = place.of(ray.at) - a;
+      r.a = place.head(ray);
+      r.d = place.end(ray) - r.a;
       if (std::abs(r.a.y()) < outer_ + kSensorClear) sensor_first_ = std::min(sensor_first_, r.a.x()), sensor_last_ = std::max(sensor_last_, r.a.x());
       if (strip.from_cab && std::abs(r.u(1.0)) < kCabFront) continue;  // of the cab
       if (!enter(r)) continue;

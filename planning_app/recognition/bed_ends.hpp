@@ -20,7 +20,6 @@ struct BedStrip {
   bool from_cab = false;                             // u = 0 is the front of a cab, the bed behind it, towards -u
 };
 constexpr double kEndReach = 7.5;
-constexpr SizeRange kBehindCabFront{1.3, 2.9};        // m from a cab's front to the bed's inside: its length, the gap, the bed's front wall
 
 struct BedEnds {
   BedPose pose;

@@ -92,13 +92,8 @@ struct Placed { Vector3d from, end; };
 std::vector<Placed> placed(const BedPose& pose, const std::vector<Ray>& rays) {
   std::vector<Placed> out;
   out.reserve(rays.size());
-  const Placing place(pose);
-  Eigen::Vector3f head(0.0F, 0.0F, 0.0F);
-  Vector3d from = place.of(head);
-  for (const Ray& ray : rays) {
-    if (ray.head != head) head = ray.head, from = place.of(head);  // that of a whole fan
-    out.push_back({from, place.of(ray.at)});
-  }
+  RayPlacing place(pose);
+  for (const Ray& ray : rays) out.push_back({place.head(ray), place.end(ray)});
   return out;
 }
 

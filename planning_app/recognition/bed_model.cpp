@@ -130,14 +130,12 @@ RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray&
 std::vector<Ray> rays_meeting(const BedPose& pose, const std::vector<Ray>& rays, double within, double below) {
   const double u = pose.length / 2 + pose.thickness + within, v = pose.width / 2 + pose.thickness + within;
   const BedRectangle around{-u, u, v};
-  const Placing place(pose);
+  RayPlacing place(pose);
   std::vector<Ray> out;
   out.reserve(rays.size());
-  Eigen::Vector3f head(0.0F, 0.0F, 0.0F);
-  Eigen::Vector3d a = place.of(head);
   for (const Ray& ray : rays) {
-    if (ray.head != head) head = ray.head, a = place.of(head);  // that of a whole fan
-    const Eigen::Vector3d d = place.of(ray.at) - a;
+    const Eigen::Vector3d& a = place.head(ray);
+    const Eigen::Vector3d d = place.end(ray) - a;
     const Crossing crossing(a.x(), a.y(), one_by(d.x()), one_by(d.y()), around);
     const double from = std::max(crossing.in(), 0.0), to = crossing.out(), highest = a.z() + (d.z() < 0.0 ? from : to) * d.z();
     if (from < to && highest >= -kWallSeen - below) out.push_back(ray);

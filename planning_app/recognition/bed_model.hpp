@@ -39,6 +39,23 @@ struct Ray {
   bool upright = false;      // one of several returns one above the other
 };
 
+// Takes rays into a bed's frame. Rays that follow one another have the head of a whole fan: its place is kept.
+class RayPlacing {
+ public:
+  explicit RayPlacing(const BedPose& pose) : place_(pose), at_(place_.of(head_)) {}
+  // The returned place is that of the newest ray's head.
+  const Eigen::Vector3d& head(const Ray& ray) {
+    if (ray.head != head_) head_ = ray.head, at_ = place_.of(head_);
+    return at_;
+  }
+  [[nodiscard]] Eigen::Vector3d end(const Ray& ray) const { return place_.of(ray.at); }
+
+ private:
+  Placing place_;
+  Eigen::Vector3f head_ = Eigen::Vector3f::Zero();
+  Eigen::Vector3d at_;
+};
+
 // Of the returns, what the model says of them.
 enum class Meeting {
   none,          // the ray does not come to the bed, or below the walls

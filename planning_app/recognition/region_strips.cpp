@@ -72,16 +72,22 @@ std::vector<TopLine> top_lines(const UprightRegion& region, const Vector2d& alon
   return out;
 }
 
-}  // namespace
-
-std::vector<BedStrip> strips_of(const UprightRegion& region, const TruckRangeSet& ranges) {
+// Of a usual width and walls.
+BedStrip usual_strip(const TruckRangeSet& ranges) {
   const SizeRange widths = ranges.hull(&TruckRanges::inside_width), thick = ranges.hull(&TruckRanges::wall_thickness);
-  const Vector2d along(region.normal.y(), -region.normal.x());  // along x normal = up
-  const Vector2d middle = 0.5 * (region.first + region.last);
   BedStrip strip;
   strip.width = 0.5 * (widths[0] + widths[1]);
   strip.thickness = 0.5 * (thick[0] + thick[1]);
   strip.slack = kHeightSlack;
+  return strip;
+}
+
+}  // namespace
+
+std::vector<BedStrip> strips_of(const UprightRegion& region, const TruckRangeSet& ranges) {
+  const Vector2d along(region.normal.y(), -region.normal.x());  // along x normal = up
+  const Vector2d middle = 0.5 * (region.first + region.last);
+  BedStrip strip = usual_strip(ranges);
   const double outer = strip.width / 2 + strip.thickness;
   std::vector<BedStrip> out;
   for (const TopLine& top : top_lines(region, along, middle)) {
@@ -111,14 +117,10 @@ std::vector<BedStrip> strips_of(const UprightRegion& region, const TruckRangeSet
 
 std::vector<BedStrip> strips_behind(const UprightRegion& region, const TruckRangeSet& ranges) {
   if (const double wide = (region.last - region.first).norm(); wide < kCabWidth[0] || wide > kCabWidth[1]) return {};
-  const SizeRange widths = ranges.hull(&TruckRanges::inside_width), thick = ranges.hull(&TruckRanges::wall_thickness);
   const Vector2d along(region.normal.y(), -region.normal.x()), middle = 0.5 * (region.first + region.last);
   const std::vector<TopLine> tops = top_lines(region, along, middle);
   if (tops.empty()) return {};
-  BedStrip strip;
-  strip.width = 0.5 * (widths[0] + widths[1]);
-  strip.thickness = 0.5 * (thick[0] + thick[1]);
-  strip.slack = kHeightSlack;
+  BedStrip strip = usual_strip(ranges);
   strip.from_cab = true;
   strip.yaw = std::atan2(region.normal.y(), region.normal.x());
   std::vector<BedStrip> out;

@@ -31,7 +31,7 @@ constexpr double kLengthUnsure = 0.5;  // m, standard deviation
 constexpr double kMuchBetter = 1.1;
 constexpr double kMovesGain = 1.6;      // of evidence, by moves of walls: hardly more; 1.25 lost two trucks in 300
 constexpr double kLidShare = 0.83;  // of the returns over an opening; of look-alikes with a lid 0.87 at least
-constexpr double kThroughFew = 8.0, kThroughShare = 0.04;  // rays through walls; of those on faces and tops: of 780 found beds one has more
+constexpr double kThroughFew = 8.0, kThroughShare = 0.04;  // rays through walls; of those on faces and tops: of look-alikes that nothing else refuses first 1.4 times as many at least
 constexpr int kBeyondMost = 12;
 constexpr int kPasses = 2;              // where all that a pass found was refused, one looks at the rest
 constexpr double kPi = 3.14159265358979323846;
@@ -60,6 +60,10 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
   const int over_opening = e.level_inside + e.below_inside + e.above_inside;
   if (e.level_inside > kLidShare * over_opening && over_opening >= 30)
     return fmt::format("it is closed on top: {} of {} returns over its opening lie in the plane of the walls' tops", e.level_inside, over_opening);
+  const double unsure = std::sqrt(fit.covariance(6, 6));
+  if (i.cab_seen < kCabFaint && unsure > kLengthUnsure) return fmt::format("it has no cab, and its length is known to {:.2f} m only: an end of it is not seen", unsure);
+  if (ranges.find(p.length, p.width, p.open_end != 0) == nullptr)
+    return fmt::format("its opening of {:.2f} by {:.2f} m is outside every class of trucks", p.length, p.width);
   // A closed box, a lorry's board or a trench box matches as well from outside: the far walls' inside tells a bed.
   if (e.inner_face < kInnerLeast) return fmt::format("the bed has {} returns on inner faces of its far walls, and needs {}", e.inner_face, kInnerLeast);
   const int explained = e.outer_face + e.inner_face + e.wall_top;
@@ -72,14 +76,10 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
     return fmt::format("{:.1f} % of the returns beside it lie {:.2f} to {:.2f} m below the walls' tops, where the ground would be", 100 * ground, over_ground[0], over_ground[1]);
   if (lies_in_level_ground(sweep, p, i.cab_end)) return "the ground beyond it lies level with its walls' tops: a pit";
   if (i.cab_seen < kCabSeen) {
-    const double unsure = std::sqrt(fit.covariance(6, 6));
-    if (i.cab_seen < kCabFaint && unsure > kLengthUnsure) return fmt::format("it has no cab, and its length is known to {:.2f} m only: an end of it is not seen", unsure);
     // Without a cab, what goes on beyond the lengths of trucks' beds is a container.
     const double further = longer_length(sweep, p, ranges, i.cab_seen);
     if (further > 0.0) return fmt::format("it goes on for {:.2f} m, longer than every class of trucks", further);
   }
-  if (ranges.find(p.length, p.width, p.open_end != 0) == nullptr)
-    return fmt::format("its opening of {:.2f} by {:.2f} m is outside every class of trucks", p.length, p.width);
   return {};
 }
 

@@ -1,7 +1,6 @@
 #include <cmath>
 
 #include "planes_parties.hpp"
-#include "recognition/region_planes.hpp"
 #include "recognition/truck_recogniser.hpp"
 
 namespace berm::bench {
@@ -18,8 +17,7 @@ PlanesFound upright_planes(const SweepPoints& sweep) {
   PlanesFound out;
   for (const app::UprightRegion& r : app::upright_regions(fans, app::upright_segments(fans))) {
     const Vector3d first(r.first.x(), r.first.y(), r.low), last(r.last.x(), r.last.y(), r.high);
-    const app::RegionPlane leaning = app::plane_of(fans, r);
-    FoundPlane plane{leaning.normal, leaning.at, Eigen::AlignedBox3d(first)};
+    FoundPlane plane{{r.normal.x(), r.normal.y(), 0.0}, first, Eigen::AlignedBox3d(first)};
     plane.box.extend(last);
     out.planes.push_back(plane);
   }

@@ -114,6 +114,16 @@ TEST(BedEvidence, OfManyRaysIsTheSum) {
   EXPECT_LT(PackedRays(rays).meeting(pose, 0.25).eights().size(), PackedRays(rays).eights().size());
 }
 
+TEST(BedEvidence, ATiltCostsMoreTheFartherItGoes) {
+  BedPose p = level_bed(0);
+  p.pitch = p.roll = 0.0;
+  EXPECT_EQ(score_of(p, PackedRays()), 0.0);
+  p.pitch = kTiltUsual;
+  EXPECT_NEAR(score_of(p, PackedRays()), -1.0, 1e-9);
+  p.roll = -2.0 * kTiltUsual;
+  EXPECT_NEAR(score_of(p, PackedRays()), -5.0, 1e-9);
+}
+
 TEST(BedEvidence, ReturnsAboveAnInnerFaceCountAgainstTheBed) {
   const BedPose p = level_bed(0);
   const double face = p.width / 2;
