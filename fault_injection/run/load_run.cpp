@@ -134,7 +134,13 @@ class LoadRun {
     std::error_code error;
     std::filesystem::create_directories(out_, error);
     if (error) throw std::runtime_error(fmt::format("{}: {}", out_, error.message()));
+    if (options_.out.empty()) return;
+    events_file_.open(events_path() + ".part");
+    if (!events_file_) throw std::runtime_error(events_path() + ".part: cannot write");
   }
+
+  // As they come, so that a run that is cut off leaves what the app told until then.
+  [[nodiscard]] std::string events_path() const { return out_ + "/app.jsonl"; }
 
   void start_processes(const std::string& scenario) {
     const std::string parameters = folder_.file("kernel.params");
@@ -336,6 +342,7 @@ class LoadRun {
       } else if (name == "resumed" || name == "released") {
         say(fmt::format("{:7.1f} s  moving again", recorder_.time_s()));
       }
+      if (events_file_.is_open()) events_file_ << event.dump() << std::endl;
       result_.app_events.push_back(std::move(event));
     }
   }
@@ -394,9 +401,9 @@ class LoadRun {
   void write_out() {
     if (options_.picture) write_picture();
     config::write_whole_file(out_ + "/result.json", flat_json(result_).dump(2) + "\n");
-    std::string events;
-    for (const json& event : result_.app_events) events += event.dump() + "\n";
-    config::write_whole_file(out_ + "/app.jsonl", events);
+    events_file_.close();
+    if (!events_file_) throw std::runtime_error(events_path() + ".part: not all could be written");
+    std::filesystem::rename(events_path() + ".part", events_path());
     result_.notes.push_back(fmt::format("trace.csv, truth.json,{} app.jsonl,{} and result.json are in {}", options_.journal ? " journal.mcap," : "", options_.picture ? " site.svg" : "", out_));
   }
 
@@ -430,6 +437,7 @@ class LoadRun {
   Recorder recorder_;
   RunResult result_;
   MemoryWatch memory_;
+  std::ofstream events_file_;
   int trucks_away_ = 0, passes_ = 0, bench_moves_ = 0;
   double next_progress_s_ = 0.0;
   bool injected_ = false, init_told_ = false;

@@ -27,7 +27,8 @@ struct Observation {
   Joints permitted_low{}, permitted_high{};
   double blocked_bearing = 0.0; // at which the arm points when the blocking link is over the blocking cell, for the ground's stop reasons
   double blocked_x = 0.0, blocked_y = 0.0, blocked_height = 0.0;
-  bool truck_parked = false;
+  bool truck_parked = false;    // the spotter's: it stands ready ...
+  bool truck_leaves = false;    // ... or drives off
   bool run_switch = false;      // the operator's
 
   // Whether blocked_x and blocked_y are those of a cell.

@@ -35,6 +35,11 @@ bool by_place(std::uint8_t reason) {
   return by_ground(reason) || reason == BERM_STOP_INTRUDER || reason == BERM_STOP_SEPARATION || reason == BERM_STOP_DUST;
 }
 
+nlohmann::ordered_json with_place(const Observation& o, nlohmann::ordered_json fields) {
+  if (o.has_place()) fields.update({{"x_m", o.blocked_x}, {"y_m", o.blocked_y}, {"height_m", o.blocked_height}});
+  return fields;
+}
+
 const char* advice_for(const Observation& o) {
   switch (o.stop_reason) {
     case BERM_STOP_TAIL: return "send away who stands behind the machine, look all round it, beside the tracks too, then press reset";
@@ -86,7 +91,7 @@ bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
   if (called_ != Called::no || !(o.latched || (by_place(o.stop_reason) && o.time_s - since_s_ > call_after))) return false;
   called_ = o.latched ? Called::for_latched : Called::for_held;
   nlohmann::ordered_json fields{{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}, {"stopped_s", o.time_s - since_s_}};
-  if (!o.latched && BERM_STOP_HAS_CELL(o.stop_reason)) fields.update({{"x_m", o.blocked_x}, {"y_m", o.blocked_y}, {"height_m", o.blocked_height}});
+  if (!o.latched) fields = with_place(o, std::move(fields));
   fields["advice"] = advice_for(o);
   log.event("operator_needed", fields);
   return true;
@@ -117,7 +122,7 @@ void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
   back_ = Back::none;
   handed_back_ = false;
   if (o.kernel_state == BERM_STATE_STOPPING || o.kernel_state == BERM_STATE_STOPPED || o.kernel_state == BERM_STATE_FAULT)
-    log.event("stopped", {{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}});
+    log.event("stopped", with_place(o, {{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}}));
 }
 
 // Away from what blocked, then a look from there. True while it goes on.

@@ -14,7 +14,6 @@ constexpr double skyline_period = 0.5;
 constexpr double arrived = radians(1.5);
 constexpr double still = radians(0.8);            // rad/s
 constexpr double most_brake_share = 0.9;          // of the largest acceleration of the swing: no landing is planned harder
-constexpr double horn_s = 1.0;
 constexpr double full_share = 0.975;              // of a heaped bucket: what passes are planned with
 
 const char* phase_name(std::uint16_t phase) {
@@ -31,6 +30,7 @@ Sequencer::Sequencer(const MachineModel& machine, const SiteModel& site, int tru
 }
 
 void Sequencer::enter(Stage stage, const Observation& o) {
+  called_for_truck_ = false;
   stage_ = stage;
   stage_s_ = o.time_s;
 }
@@ -59,7 +59,7 @@ void Sequencer::begin_approach(const Observation& o, bool lower) {
   plan_next_dig(o);
   std::optional<PlanePoint> entry;
   if (lower) entry = PlanePoint{dig_.drag.front().r, dig_.drag.front().z};
-  const auto script = approach_script(scripts_, machine_, {o.angle, dig_.bearing, site_.bed->wall_top, entry});
+  const auto script = approach_script(scripts_, machine_, {o.angle, dig_.bearing, site_.bed->wall_top, entry, brings_load_});
   if (!script) {
     log_.event("unreachable", {{"time_s", o.time_s}, {"what", "start of the dig"}});
     return;
@@ -67,77 +67,6 @@ void Sequencer::begin_approach(const Observation& o, bool lower) {
   begin_script(*script);
   task_.next_bearing = dig_.bearing;
   enter(Stage::approach, o);
-}
-
-std::optional<Script> Sequencer::raised(const Observation& o, double bearing) const {
-  constexpr double over_heaps = 0.4;  // z, on the ground that it stands on
-  return approach_script(scripts_, machine_, {o.angle, bearing, over_heaps, std::nullopt});
-}
-
-// Raised, to where the scanner on the truck's side sees the whole place.
-void Sequencer::begin_look(const Observation& o) {
-  const auto script = raised(o, look_.bearing());
-  if (!script) {
-    log_.event("unreachable", {{"time_s", o.time_s}, {"what", "where the truck is looked for"}});
-    return;
-  }
-  begin_script(*script);
-  enter(Stage::go_look, o);
-}
-
-// Between two trucks: a bucket that stays low hides the ground round it until that is too old to move over.
-void Sequencer::wait_raised(const Observation& o) {
-  const auto script = raised(o, o.angle[swing]);
-  waits_raised_ = script.has_value();
-  if (script) begin_script(*script);
-  enter(Stage::wait_truck, o);
-}
-
-Joints Sequencer::go_look(const Observation& o) {
-  enter_phase(BERM_PHASE_WAIT, o);
-  if (!o.truck_parked) {
-    enter(Stage::wait_truck, o);
-    return {};
-  }
-  const Joints command = run_script(o, event_none);
-  if (script_.at_last() && std::fabs(script_.goals()[swing] - o.angle[swing]) < arrived && std::fabs(o.velocity[swing]) < still) {
-    look_.begin(o, scanners_);
-    enter(Stage::look, o);
-  }
-  return command;
-}
-
-Joints Sequencer::look_for_truck(const Observation& o) {
-  if (!o.truck_parked) {
-    look_.stop(scanners_);
-    enter(Stage::wait_truck, o);
-    return {};
-  }
-  if (const auto bed = look_.step(o, scanners_, truck_, log_)) begin_truck(o, *bed);
-  return {};
-}
-
-void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
-  site_.bed = bed;
-  bed_.emplace(bed, scale_);
-  const std::vector<ScanPoint>& seen = look_.sweep().points();
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    const ScanPoint& p = seen[i];
-    if (!look_.sweep().flagged(i)) bed_->insert(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), p.time_s);
-  }
-  skyline_.reset();
-  look(o);
-  if (part_filled_) {
-    for (const Dump& dump : dumps_) bed_->note_dump(dump.at, dump.kg);
-  } else {
-    fill_ = TruckFill(site_.place.target_kg, full_bucket_kg_);
-    dumps_.clear();
-    pass_ = 0;
-    truck_began_s_ = o.time_s;
-  }
-  part_filled_ = false;
-  pass_began_s_ = o.time_s;
-  begin_approach(o, true);
 }
 
 void Sequencer::hear(const Observation& o) {
@@ -219,6 +148,7 @@ Joints Sequencer::plan(const Observation& o) {
       if (o.truck_parked) {
         log_.event("truck", {{"truck", truck_}, {"time_s", o.time_s}});
         waits_raised_ = false;
+        presence_.begin();
         begin_look(o);
         return {};
       }
@@ -231,24 +161,9 @@ Joints Sequencer::plan(const Observation& o) {
     case Stage::curl: return curl(o);
     case Stage::pass: return pass(o);
     case Stage::horn:
-      if (o.time_s - stage_s_ >= horn_s) {
-        if (truck_ == trucks_) {
-          log_.event("finished", {{"time_s", o.time_s}, {"trucks", trucks_}});
-          enter(Stage::finished, o);
-        } else {
-          enter(Stage::wait_leave, o);
-        }
-      }
+      if (horn_done(o)) end_horn(o);
       return {};
-    case Stage::wait_leave:
-      if (!o.truck_parked) {
-        site_.bed.reset();
-        bed_.reset();
-        ++truck_;
-        if (face_too_poor_for_a_truck()) begin_move_back(o, "what is left within reach does not fill the next truck");
-        else wait_raised(o);
-      }
-      return {};
+    case Stage::wait_leave: return {};  // follow_truck
     case Stage::raise_for_move: return raise_for_move(o);
     case Stage::ask_move:
     case Stage::being_moved:  // await_move
@@ -294,6 +209,7 @@ Answer Sequencer::step(const Observation& o) {
   hear(o);
   feel(o);
   plan_landing(o);
+  follow_truck(o);
   Answer answer;
   if (stage_ == Stage::ask_move || stage_ == Stage::being_moved) await_move(o);
   // While the operator trams the machine its stops are his.
@@ -317,7 +233,7 @@ Answer Sequencer::step(const Observation& o) {
   const bool lifts_soon = stage_ == Stage::curl || (stage_ == Stage::dig && follower_.progress() > 0.6);
   answer.pan = scanners_.step(lifts_soon ? std::uint16_t{BERM_PHASE_LIFT} : phase_, task_.next_bearing, truck_bearing, o.angle[swing], o.velocity[swing], o.pan);
   answer.phase = phase_;
-  answer.horn = stage_ == Stage::horn || (stage_ == Stage::ask_move && sounds_move_back(o.time_s - stage_s_, back_m_));
+  answer.horn = sounds_full(o) || (stage_ == Stage::ask_move && sounds_move_back(o.time_s - stage_s_, back_m_));
   return answer;
 }
 

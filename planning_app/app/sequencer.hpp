@@ -13,6 +13,7 @@
 #include "app/recovery.hpp"
 #include "app/slow_down.hpp"
 #include "app/truck_look.hpp"
+#include "app/truck_presence.hpp"
 #include "app/weighing.hpp"
 #include "motion/dig_path.hpp"
 #include "motion/soil_force.hpp"
@@ -76,6 +77,14 @@ private:
   std::optional<Script> raised(const Observation& o, double bearing) const;  // to that bearing, the implements up
   void begin_look(const Observation& o);
   void wait_raised(const Observation& o);
+  void follow_truck(const Observation& o);    // trucks come and go while the kernel keeps the machine, too
+  void next_truck(const Observation& o);
+  void finish(const Observation& o);
+  void leave_truck(const Observation& o);     // it left before it was full
+  void call_for_truck(const Observation& o);  // when none comes, or the full one does not leave
+  bool horn_done(const Observation& o) const;
+  void end_horn(const Observation& o);
+  bool sounds_full(const Observation& o) const;
   Joints go_look(const Observation& o);
   Joints look_for_truck(const Observation& o);
   void begin_truck(const Observation& o, const TruckBed& bed);
@@ -90,6 +99,7 @@ private:
   bool carries_level(const Observation& o) const;
   void watch_pour(const Observation& o);
   double lifted_kg() const;                   // what the bucket carried to the truck; 0 when nothing has weighed it
+  void book_pass(const Observation& o);
   void end_pass(const Observation& o);
   bool face_too_poor_for_a_truck();
   void begin_move_back(const Observation& o, const char* why);
@@ -150,6 +160,9 @@ private:
   int vain_moves_ = 0;                        // in a row
   bool saw_run_ = false, part_filled_ = false;  // part_filled_: this truck was left in the middle for a move
   bool waits_raised_ = false;                 // for the next truck
+  TruckPresence presence_;                    // of the truck that is looked at, loaded or full
+  bool called_for_truck_ = false;             // in this stage
+  bool brings_load_ = false;                  // the bucket still holds what was meant for a truck that is gone
   LoadCheck load_check_;
   DumpPoint dump_;
   struct Dump { BedPoint at; double kg; };

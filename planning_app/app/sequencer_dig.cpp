@@ -92,6 +92,7 @@ void Sequencer::begin_dig(const Observation& o) {
   follower_.begin(std::move(*path));
   filled_.begin();
   holds_nothing_ = false;
+  brings_load_ = false;  // it opened over the dig
   pass_began_s_ = pass_ == 0 || pass_began_s_ == 0.0 ? o.time_s : pass_began_s_;
   enter_phase(BERM_PHASE_DIG, o);
   enter(Stage::dig, o);

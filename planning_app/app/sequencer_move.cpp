@@ -71,6 +71,7 @@ void Sequencer::await_move(const Observation& o) {
 // The machine stands elsewhere: nothing that was known of the ground holds, but what is in the truck does.
 void Sequencer::begin_anew(const Observation& o) {
   log_.event("moved", {{"time_s", o.time_s}, {"truck", truck_}, {"distance_m", back_m_}});
+  presence_.begin();  // the truck made way, and comes back
   terrain_ = TerrainMap();
   ground_ = DigGround(site_);
   kernel_map_ = KernelMap();

@@ -93,7 +93,8 @@ Joints Sequencer::pass(const Observation& o) {
   return command;
 }
 
-void Sequencer::end_pass(const Observation& o) {
+// What this pass brought, into the truck's books.
+void Sequencer::book_pass(const Observation& o) {
   const double carried = lifted_kg();
   const bool weighed = carried > 0.0 && after_.known();
   // A bucket that nothing has weighed is taken for no less than the dig's force says: else the truck would be overloaded.
@@ -121,6 +122,10 @@ void Sequencer::end_pass(const Observation& o) {
   log_.event("pass", {{"pass", pass_}, {"truck", truck_}, {"seconds", o.time_s - pass_began_s_}, {"payload_kg", payload}, {"loaded_kg", fill_.loaded_kg()}, {"carried_kg", carried}, {"beside_kg", beside_kg},
                       {"dump_u_m", dump_.at.u}, {"dump_v_m", dump_.at.v}, {"dig_bearing_deg", degrees(task_.lifted_from[swing])}, {"time_s", o.time_s}});
   pass_began_s_ = o.time_s;
+}
+
+void Sequencer::end_pass(const Observation& o) {
+  book_pass(o);
   if ((poor_passes_ >= most_poor_passes || face_yield_.poor()) && !fill_.full()) {
     part_filled_ = true;
     begin_move_back(o, "the last passes found too little");

@@ -134,7 +134,7 @@ std::vector<ScriptAngle> approach_angles(const ApproachTask& task, const Approac
 
 std::optional<Script> approach_script(const ScriptSet& scripts, const MachineModel& machine, const ApproachTask& task) {
   const ImplementScale scale = scale_of(machine);
-  const auto back = pose_near(machine, {back_radius * scale.arm, task.top + pin_over_top(scale)}, attitude_back);
+  const auto back = pose_near(machine, {back_radius * scale.arm, task.top + pin_over_top(scale)}, task.keeps_load ? attitude_carry : attitude_back);
   const auto dig = task.entry ? tip_pose_near(machine, {task.entry->r, task.entry->z + dig_above}, attitude_dig) : back;
   if (!back || !dig) return std::nullopt;
   return scripts.approach.bind(values_of(approach_angles(task, {*back, *dig})), task.bearing >= task.from[swing] ? 1.0 : -1.0);

@@ -59,6 +59,7 @@ struct ApproachTask {
   double bearing = 0.0;             // swing angle
   double top = 0.0;                 // z of what is passed over
   std::optional<PlanePoint> entry;  // where the drag begins; without: stay high
+  bool keeps_load = false;          // the bucket stays level on the way
 };
 // Where the implements are over the way, and at its end. Swing entries are not used.
 struct ApproachPoses { Joints back{}, end{}; };

@@ -6,45 +6,18 @@
 #include <cmath>
 #include <sstream>
 
+#include "app_bench/events.hpp"
 #include "app_bench/loading.hpp"
 
 namespace {
 
 using namespace berm;
 using namespace berm::app;
+using app_bench::Events;
 using app_bench::Loading;
 using app_bench::start_pose;
 
 bool moves(const Answer& answer) { return std::any_of(answer.velocity.begin(), answer.velocity.end(), [](double v) { return v != 0.0; }); }
-
-// The app's events, as a reader of its standard output has them.
-class Events {
-public:
-  Events() {
-    int pair[2];
-    EXPECT_EQ(::pipe(pair), 0);
-    read_ = pair[0], write_ = pair[1];
-  }
-  ~Events() { ::close(read_), ::close(write_); }
-  Events(const Events&) = delete;
-  Events& operator=(const Events&) = delete;
-  int fd() const { return write_; }
-  std::vector<nlohmann::json> named(const std::string& name) {
-    char buffer[65536];
-    ::write(write_, "\n", 1);  // never empty
-    const ssize_t n = ::read(read_, buffer, sizeof buffer);
-    std::istringstream lines(std::string(buffer, static_cast<std::size_t>(std::max<ssize_t>(n, 0))));
-    for (std::string line; std::getline(lines, line);)
-      if (!line.empty()) all_.push_back(nlohmann::json::parse(line));
-    std::vector<nlohmann::json> out;
-    std::copy_if(all_.begin(), all_.end(), std::back_inserter(out), [&](const nlohmann::json& e) { return e.at("event") == name; });
-    return out;
-  }
-
-private:
-  int read_ = -1, write_ = -1;
-  std::vector<nlohmann::json> all_;
-};
 
 TEST(TruckLook, AsksWithOneSweepOverTheWholePlaceFromWhereTheMachineStands) {
   Loading run(1, start_pose());

@@ -296,7 +296,7 @@ void BenchMachine::publish() {
   state.stop_category = kernel_runs ? 255 : 2;
   for (int rows = 0; rows < 4; ++rows, next_row_ = (next_row_ + 1) % kernel_side)
     for (int ix = 0; ix < kernel_side; ++ix) publish_cell(ix, next_row_);
-  state.panel = BERM_PANEL_OPERATOR_RUN | (truck_parked ? BERM_PANEL_TRUCK_PARKED : 0u);
+  state.panel = BERM_PANEL_OPERATOR_RUN | (truck_parked ? BERM_PANEL_TRUCK_PARKED : 0u) | (truck_leaves ? BERM_PANEL_TRUCK_LEAVING : 0u);
   ++segment_->state_guard;
   berm_decision& decision = segment_->decision[segment_->decision_head % BERM_DECISION_RING];
   decision = {};

@@ -49,7 +49,7 @@ public:
   double payload_kg() const { return payload_; }
   const app::Joints& angle() const { return angle_; }
 
-  bool truck_parked = true;
+  bool truck_parked = true, truck_leaves = false;
   bool kernel_runs = true;        // false: STOPPED, for collision_reason, nothing moves but at creep speeds
   std::uint8_t stop_reason = BERM_STOP_COLLISION_PREDICTED;
   bool weighs = true;             // false: the on-board weighing says nothing

@@ -11,8 +11,8 @@
 namespace berm::app_bench {
 
 struct Loading {
-  Loading(int trucks, const app::Joints& start, int log_fd = std::getenv("BERM_TEST_VERBOSE") ? 1 : -1)
-      : machine(zx200()), plant(machine, start, 7), log(log_fd), scripts(shipped_scripts()), sequencer(machine, bench(), trucks, scripts, finder, log), intake(machine) {}
+  Loading(int trucks, const app::Joints& start, int log_fd = std::getenv("BERM_TEST_VERBOSE") ? 1 : -1, const app::SiteModel& site = bench())
+      : machine(zx200()), plant(machine, start, 7), log(log_fd), scripts(shipped_scripts()), sequencer(machine, site, trucks, scripts, finder, log), intake(machine) {}
 
   void step() {
     const app::Observation o = app::observe(plant.state());

@@ -1,0 +1,172 @@
+// The sequencer and the trucks: waiting for one, looking where it stands and how large it is, and what follows when it leaves, full or not.
+#include <algorithm>
+#include <cmath>
+
+#include "app/sequencer.hpp"
+
+namespace berm::app {
+
+namespace {
+
+constexpr double arrived = radians(1.5);
+constexpr double still = radians(0.8);            // rad/s
+constexpr double horn_s = 1.0, horn_again_s = 30.0;
+constexpr double full_leaves_within_s = 90.0, next_comes_within_s = 300.0;  // then the operator is told
+
+}  // namespace
+
+std::optional<Script> Sequencer::raised(const Observation& o, double bearing) const {
+  constexpr double over_heaps = 0.4;  // z, on the ground that it stands on
+  return approach_script(scripts_, machine_, {o.angle, bearing, over_heaps, std::nullopt, brings_load_});
+}
+
+// Raised, to where the scanner on the truck's side sees the whole place.
+void Sequencer::begin_look(const Observation& o) {
+  const auto script = raised(o, look_.bearing());
+  if (!script) {
+    log_.event("unreachable", {{"time_s", o.time_s}, {"what", "where the truck is looked for"}});
+    return;
+  }
+  begin_script(*script);
+  enter(Stage::go_look, o);
+}
+
+// Between two trucks: a bucket that stays low hides the ground round it until that is too old to move over.
+void Sequencer::wait_raised(const Observation& o) {
+  const auto script = raised(o, o.angle[swing]);
+  waits_raised_ = script.has_value();
+  if (script) begin_script(*script);
+  enter(Stage::wait_truck, o);
+}
+
+Joints Sequencer::go_look(const Observation& o) {
+  enter_phase(BERM_PHASE_WAIT, o);
+  const Joints command = run_script(o, event_none);
+  if (script_.at_last() && std::fabs(script_.goals()[swing] - o.angle[swing]) < arrived && std::fabs(o.velocity[swing]) < still) {
+    look_.begin(o, scanners_);
+    enter(Stage::look, o);
+  }
+  return command;
+}
+
+Joints Sequencer::look_for_truck(const Observation& o) {
+  if (const auto bed = look_.step(o, scanners_, truck_, log_)) begin_truck(o, *bed);
+  return {};
+}
+
+void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
+  site_.bed = bed;
+  bed_.emplace(bed, scale_);
+  const std::vector<ScanPoint>& seen = look_.sweep().points();
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const ScanPoint& p = seen[i];
+    if (!look_.sweep().flagged(i)) bed_->insert(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), p.time_s);
+  }
+  skyline_.reset();
+  look(o);
+  if (part_filled_) {
+    for (const Dump& dump : dumps_) bed_->note_dump(dump.at, dump.kg);
+  } else {
+    fill_ = TruckFill(site_.place.target_kg, full_bucket_kg_);
+    dumps_.clear();
+    pass_ = 0;
+    truck_began_s_ = o.time_s;
+  }
+  part_filled_ = false;
+  pass_began_s_ = o.time_s;
+  begin_approach(o, true);
+}
+
+bool Sequencer::horn_done(const Observation& o) const { return o.time_s - stage_s_ >= horn_s; }
+
+// Again while the full truck stands there: a driver may not have heard it, or could not leave then.
+bool Sequencer::sounds_full(const Observation& o) const {
+  if (stage_ == Stage::horn) return !horn_done(o);
+  const double since_s = o.time_s - stage_s_;
+  return stage_ == Stage::wait_leave && since_s >= horn_again_s && std::fmod(since_s, horn_again_s) < horn_s;
+}
+
+void Sequencer::end_horn(const Observation& o) {
+  if (truck_ == trucks_) finish(o);
+  else enter(Stage::wait_leave, o);
+}
+
+void Sequencer::finish(const Observation& o) {
+  log_.event("finished", {{"time_s", o.time_s}, {"trucks", trucks_}});
+  enter(Stage::finished, o);
+}
+
+void Sequencer::next_truck(const Observation& o) {
+  site_.bed.reset();
+  bed_.reset();
+  part_filled_ = false;
+  ++truck_;
+  if (face_too_poor_for_a_truck()) begin_move_back(o, "what is left within reach does not fill the next truck");
+  else wait_raised(o);
+}
+
+// What is in the bucket goes back to the face. A truck that is no longer admitted but was not seen to leave is looked at again, and its books go on.
+void Sequencer::leave_truck(const Observation& o) {
+  const bool left = presence_.gone() == TruckPresence::Gone::left;
+  log_.event("truck_lost", {{"time_s", o.time_s}, {"truck", truck_}, {"why", left ? "left" : "no longer admitted"}, {"loaded_kg", fill_.loaded_kg()}, {"target_kg", site_.place.target_kg}});
+  if (stage_ == Stage::pass && script_.of(bucket).reached(RuleMark::opens)) book_pass(o);  // at least a part is in the truck
+  enter_phase(BERM_PHASE_WAIT, o);
+  brings_load_ = brings_load_ || (!holds_nothing_ && (stage_ == Stage::dig || stage_ == Stage::curl || stage_ == Stage::pass));
+  search_.reset();
+  if (left && truck_ == trucks_) {
+    finish(o);
+  } else if (left) {
+    next_truck(o);
+  } else {
+    part_filled_ = true;
+    site_.bed.reset();
+    bed_.reset();
+    wait_raised(o);
+  }
+}
+
+void Sequencer::follow_truck(const Observation& o) {
+  presence_.step(o);
+  call_for_truck(o);
+  const bool looks = stage_ == Stage::go_look || stage_ == Stage::look;  // nothing of this truck is known yet
+  if (presence_.gone() == TruckPresence::Gone::no && !(looks && !o.truck_parked)) return;
+  const bool left = presence_.gone() == TruckPresence::Gone::left;
+  switch (stage_) {
+    case Stage::go_look:
+    case Stage::look:
+      look_.stop(scanners_);
+      if (left && part_filled_) leave_truck(o);
+      else enter(Stage::wait_truck, o);
+      return;
+    case Stage::wait_truck:  // that is admitted no longer, and now said to have left
+      if (left && part_filled_) leave_truck(o);
+      return;
+    case Stage::approach:
+    case Stage::settle:
+    case Stage::dig:
+    case Stage::curl:
+    case Stage::pass: leave_truck(o); return;
+    case Stage::horn:
+      if (horn_done(o)) end_horn(o);
+      return;
+    case Stage::wait_leave: next_truck(o); return;
+    case Stage::survey:
+    case Stage::raise_for_move:
+    case Stage::ask_move:
+    case Stage::being_moved:
+    case Stage::exhausted:
+    case Stage::finished: return;
+  }
+}
+
+void Sequencer::call_for_truck(const Observation& o) {
+  const double since_s = o.time_s - stage_s_;
+  const bool stays = stage_ == Stage::wait_leave && since_s > full_leaves_within_s, none = stage_ == Stage::wait_truck && since_s > next_comes_within_s;
+  if (called_for_truck_ || !(stays || none)) return;
+  called_for_truck_ = true;
+  log_.event("operator_needed", {{"time_s", o.time_s}, {"reason", stays ? "truck stays" : "no truck comes"}, {"stopped_s", since_s},
+                                 {"advice", stays ? "the truck is full: send it off, and have the spotter say that it leaves"
+                                                  : "have a truck come, and the spotter say that it stands there"}});
+}
+
+}  // namespace berm::app

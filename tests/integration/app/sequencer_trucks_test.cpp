@@ -1,0 +1,159 @@
+// Trucks that come and go otherwise than the cycle would have it: while the kernel keeps the machine, not at all, too early.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "app_bench/events.hpp"
+#include "app_bench/loading.hpp"
+
+namespace {
+
+using namespace berm;
+using namespace berm::app;
+using app_bench::Loading;
+using app_bench::start_pose;
+
+class SequencerTrucks : public ::testing::Test {
+protected:
+  // Calls for the operator with that reason.
+  long calls(const std::string& reason) const {
+    const auto all = events_.named("operator_needed");
+    return std::count_if(all.begin(), all.end(), [&](const auto& e) { return e.at("reason") == reason; });
+  }
+  // The face has soil for two of these.
+  static SiteModel small_trucks() {
+    SiteModel site = app_bench::bench();
+    site.place.target_kg = 6000.0;
+    return site;
+  }
+  static void go(Loading& run, double seconds) {
+    for (const double end = run.seconds + seconds; run.seconds < end;) run.step();
+  }
+  static void fill(Loading& run) {
+    while (!run.last.horn && run.seconds < 600.0) run.step();
+    ASSERT_TRUE(run.last.horn) << "the truck is not full after " << run.seconds << " s";
+  }
+  static void carry_a_bucket_to_the_truck(Loading& run) {
+    while (run.last.phase != BERM_PHASE_SWING_TO_TRUCK && run.seconds < 120.0) run.step();
+    ASSERT_LT(run.seconds, 120.0);
+    go(run, 1.0);
+    ASSERT_GT(run.plant.payload_kg(), 500.0);
+  }
+  // The spotter's truck drives off.
+  static void leave(Loading& run) {
+    run.plant.truck_parked = false;
+    run.plant.truck_leaves = true;
+    go(run, 8.0);
+    run.plant.truck_leaves = false;
+  }
+  static void come(Loading& run) {
+    run.plant.site().new_truck();
+    run.plant.truck_parked = true;
+  }
+
+  app_bench::Events events_;
+};
+
+TEST_F(SequencerTrucks, AreExchangedWhileTheKernelKeepsTheMachine) {
+  Loading run(2, start_pose(), events_.fd(), small_trucks());
+  fill(run);
+  go(run, 0.4);  // in the middle of the horn
+  run.plant.stop_reason = BERM_STOP_INTRUDER;
+  run.plant.kernel_runs = false;
+  go(run, 1.0);
+  EXPECT_FALSE(run.last.horn) << "one blast, though the kernel keeps the machine";
+  leave(run);
+  go(run, 8.0);
+  const std::size_t looks = run.finder.looks.size();
+  come(run);
+  go(run, 5.0);
+  run.plant.kernel_runs = true;
+  go(run, 60.0);
+  EXPECT_GT(run.finder.looks.size(), looks) << "the second truck was taken for the first";
+  EXPECT_GT(run.plant.site().bed_mass(), 500.0) << "and is not loaded";
+}
+
+TEST_F(SequencerTrucks, AFullOneThatStaysHearsTheHornAgainAndTheOperatorIsTold) {
+  Loading run(2, start_pose(), events_.fd(), small_trucks());
+  fill(run);
+  while (run.last.horn) run.step();
+  int blasts = 0;
+  for (bool before = false; run.seconds < 600.0 && blasts < 3;) {
+    run.step();
+    blasts += run.last.horn && !before;
+    before = run.last.horn;
+  }
+  EXPECT_EQ(blasts, 3);
+  go(run, 1.0);
+  EXPECT_EQ(calls("truck stays"), 1);
+  leave(run);
+  const std::size_t looks = run.finder.looks.size();
+  come(run);
+  go(run, 60.0);
+  EXPECT_GT(run.finder.looks.size(), looks);
+}
+
+TEST_F(SequencerTrucks, TheOperatorIsToldOnceThatNoneComes) {
+  Loading run(1, start_pose(), events_.fd());
+  run.plant.truck_parked = false;
+  go(run, 280.0);
+  EXPECT_EQ(calls("no truck comes"), 0);
+  go(run, 400.0);
+  EXPECT_EQ(calls("no truck comes"), 1);
+}
+
+TEST_F(SequencerTrucks, WhatWasMeantForOneThatLeftEarlyGoesBackToTheFace) {
+  Loading run(2, start_pose(), events_.fd());
+  carry_a_bucket_to_the_truck(run);
+  const double carried = run.plant.payload_kg(), spilled = run.plant.site().spilled_mass();
+  leave(run);
+  ASSERT_EQ(events_.named("truck_lost").size(), 1u);
+  EXPECT_EQ(events_.named("truck_lost").front().at("why"), "left");
+  go(run, 30.0);
+  EXPECT_NEAR(run.plant.payload_kg(), carried, 0.05 * carried) << "poured where no truck stands";
+  EXPECT_NEAR(run.plant.site().spilled_mass(), spilled, 0.05 * carried);
+  for (const double v : run.last.velocity) EXPECT_NEAR(v, 0.0, 0.01);
+  const std::size_t looks = run.finder.looks.size();
+  come(run);
+  while (run.last.phase != BERM_PHASE_DIG && run.seconds < 300.0) run.step();
+  EXPECT_GT(run.finder.looks.size(), looks);
+  EXPECT_EQ(run.plant.site().bed_mass(), 0.0) << "it digs anew first";
+  while (!run.sequencer.finished() && run.seconds < 900.0) run.step();
+  ASSERT_TRUE(run.sequencer.finished());
+  EXPECT_EQ(run.plant.findings().wall_contacts, 0);
+  EXPECT_EQ(run.plant.findings().ground_contacts, 0);
+  EXPECT_GE(run.plant.site().bed_mass(), 0.96 * app_bench::bench().place.target_kg);
+  EXPECT_LE(run.plant.site().bed_mass(), 1.04 * app_bench::bench().place.target_kg);
+}
+
+// A spotter who falls silent has not said that another truck stands there: what was put into this one is not forgotten.
+TEST_F(SequencerTrucks, OneThatIsAdmittedAgainIsNotOverloaded) {
+  Loading run(1, start_pose(), events_.fd());
+  while (run.plant.site().bed_mass() < 6000.0 && run.seconds < 400.0) run.step();
+  const double had = run.plant.site().bed_mass();
+  ASSERT_GE(had, 6000.0);
+  run.plant.truck_parked = false;
+  go(run, 20.0);
+  ASSERT_EQ(events_.named("truck_lost").size(), 1u);
+  EXPECT_EQ(events_.named("truck_lost").front().at("why"), "no longer admitted");
+  run.plant.truck_parked = true;
+  while (!run.sequencer.finished() && run.seconds < 900.0) run.step();
+  ASSERT_TRUE(run.sequencer.finished());
+  EXPECT_GE(run.plant.site().bed_mass(), 0.96 * app_bench::bench().place.target_kg);
+  EXPECT_LE(run.plant.site().bed_mass(), 1.04 * app_bench::bench().place.target_kg);
+}
+
+TEST_F(SequencerTrucks, AShortSilenceOfTheSpotterChangesNothing) {
+  Loading run(1, start_pose(), events_.fd());
+  carry_a_bucket_to_the_truck(run);
+  run.plant.truck_parked = false;
+  go(run, 1.0);
+  run.plant.truck_parked = true;
+  go(run, 20.0);
+  EXPECT_TRUE(events_.named("truck_lost").empty());
+  EXPECT_EQ(run.finder.looks.size(), 1u);
+  EXPECT_GT(run.plant.site().bed_mass(), 500.0);
+}
+
+}  // namespace
