@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -24,20 +25,50 @@ constexpr uid_t kAppUid = 64601;
 constexpr uid_t kJournalUid = 64602;
 constexpr int kReadyDescriptor = 10;  // number in the kernel's process
 constexpr int kReadyPatienceMs = 20000;
+constexpr const char* kFolder = "berm-run-";
+constexpr const char* kAlive = "/alive";
+
+// Only what this user's runs left: folders under /tmp may be anybody's.
+bool is_left_over(const std::string& folder) {
+  const int fd = open((folder + kAlive).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (fd < 0) return false;
+  struct stat about{};
+  const bool free = fstat(fd, &about) == 0 && S_ISREG(about.st_mode) && about.st_uid == geteuid() && flock(fd, LOCK_EX | LOCK_NB) == 0;
+  close(fd);
+  return free;
+}
+
+void remove_left_over(const std::string& base) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(base, std::filesystem::directory_options::skip_permission_denied, ignored))
+    if (entry.path().filename().string().starts_with(kFolder) && is_left_over(entry.path())) std::filesystem::remove_all(entry.path(), ignored);
+}
+
+// Under its name only when it is locked: else who cleans up would take it for left over.
+int locked_file(const std::string& path) {
+  const std::string early = path + ".part";
+  const int fd = open(early.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0600);
+  if (fd < 0 || flock(fd, LOCK_EX | LOCK_NB) != 0 || rename(early.c_str(), path.c_str()) != 0) throw std::system_error(errno, std::generic_category(), path);
+  return fd;
+}
 
 }  // namespace
 
 RunFolder::RunFolder() {
-  const char* base = std::getenv("TMPDIR");
-  std::string pattern = std::string(base != nullptr && *base != '\0' ? base : "/tmp") + "/berm-run-XXXXXX";
+  const char* named = std::getenv("TMPDIR");
+  const std::string base = named != nullptr && *named != '\0' ? named : "/tmp";
+  remove_left_over(base);
+  std::string pattern = base + "/" + kFolder + "XXXXXX";
   if (mkdtemp(pattern.data()) == nullptr) throw std::system_error(errno, std::generic_category(), pattern);
   path_ = pattern;
   chmod(path_.c_str(), 0755);
+  alive_ = locked_file(path_ + kAlive);
 }
 
 RunFolder::~RunFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
+  if (alive_ >= 0) close(alive_);
 }
 
 void RunFolder::give_to(uid_t uid) const {

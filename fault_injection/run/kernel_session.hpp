@@ -10,6 +10,8 @@
 namespace berm::run {
 
 // A private folder under TMPDIR, removed with all it holds.
+// A folder of its own under TMPDIR for one run, gone with it. What runs that were killed have left is removed when the next begins: the lock on its file
+// `alive` is free then.
 class RunFolder {
  public:
   RunFolder();
@@ -22,6 +24,7 @@ class RunFolder {
 
  private:
   std::string path_;
+  int alive_ = -1;
 };
 
 // Run as root, kernel and app get uids of their own; otherwise all share the caller's.

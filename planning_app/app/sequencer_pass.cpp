@@ -136,7 +136,7 @@ void Sequencer::end_pass(const Observation& o) {
     else begin_approach(o, true);  // it weighed less than expected
     return;
   }
-  log_.event("truck_full", {{"truck", truck_}, {"payload_kg", fill_.loaded_kg()}, {"target_kg", site_.place.target_kg}, {"passes", fill_.passes()},
+  log_.event("truck_full", {{"time_s", o.time_s}, {"truck", truck_}, {"payload_kg", fill_.loaded_kg()}, {"target_kg", site_.place.target_kg}, {"passes", fill_.passes()},
                             {"seconds", o.time_s - truck_began_s_}});
   enter_phase(BERM_PHASE_WAIT, o);
   enter(Stage::horn, o);

@@ -1,0 +1,78 @@
+// A run's folder goes with it, and what a killed run has left goes with the next.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "run/kernel_session.hpp"
+#include "scratch.hpp"
+
+namespace {
+
+using berm::run::RunFolder;
+
+class RunFolders : public ::testing::Test {
+ protected:
+  void SetUp() override { setenv("TMPDIR", base_.folder().c_str(), 1); }
+  void TearDown() override { unsetenv("TMPDIR"); }
+  std::size_t folders() const { return base_.names().size(); }
+
+  berm::test::Scratch base_;
+};
+
+TEST_F(RunFolders, GoWithTheirRun) {
+  std::string path;
+  {
+    const RunFolder folder;
+    path = folder.path();
+    std::ofstream(folder.file("some")) << "thing";
+    EXPECT_TRUE(std::filesystem::exists(path));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST_F(RunFolders, OfOtherRunsAtWorkStay) {
+  const RunFolder first;
+  std::ofstream(first.file("some")) << "thing";
+  const RunFolder second;
+  EXPECT_TRUE(std::filesystem::exists(first.file("some")));
+  EXPECT_EQ(folders(), 2u);
+}
+
+TEST_F(RunFolders, OfKilledRunsAreRemovedByTheNext) {
+  int ready[2];
+  ASSERT_EQ(pipe(ready), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    const RunFolder folder;
+    std::ofstream(folder.file("some")) << "thing";
+    [[maybe_unused]] const ssize_t told = write(ready[1], "r", 1);
+    for (;;) pause();
+  }
+  char byte = 0;
+  ASSERT_EQ(read(ready[0], &byte, 1), 1);
+  EXPECT_EQ(folders(), 1u);
+  { const RunFolder while_it_runs; }
+  EXPECT_EQ(folders(), 1u) << "it is at work";
+  kill(child, SIGKILL);
+  ASSERT_EQ(waitpid(child, nullptr, 0), child);
+  EXPECT_EQ(folders(), 1u);
+  { const RunFolder next; }
+  EXPECT_EQ(folders(), 0u);
+  close(ready[0]);
+  close(ready[1]);
+}
+
+TEST_F(RunFolders, OfOtherProgramsStay) {
+  std::filesystem::create_directory(base_.path("berm-run-of-old"));  // no file tells whether its run lives
+  std::filesystem::create_directory(base_.path("other"));
+  base_.write("other/alive", "");
+  { const RunFolder folder; }
+  EXPECT_EQ(folders(), 2u);
+}
+
+}  // namespace
