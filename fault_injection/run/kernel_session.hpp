@@ -9,9 +9,7 @@
 
 namespace berm::run {
 
-// A private folder under TMPDIR, removed with all it holds.
-// A folder of its own under TMPDIR for one run, gone with it. What runs that were killed have left is removed when the next begins: the lock on its file
-// `alive` is free then.
+// A private folder under TMPDIR, removed with all it holds; that of a run that was killed by the next run, for the lock on its file `alive` is free then.
 class RunFolder {
  public:
   RunFolder();

@@ -139,7 +139,6 @@ class LoadRun {
     if (!events_file_) throw std::runtime_error(events_path() + ".part: cannot write");
   }
 
-  // As they come, so that a run that is cut off leaves what the app told until then.
   [[nodiscard]] std::string events_path() const { return out_ + "/app.jsonl"; }
 
   void start_processes(const std::string& scenario) {
@@ -437,7 +436,7 @@ class LoadRun {
   Recorder recorder_;
   RunResult result_;
   MemoryWatch memory_;
-  std::ofstream events_file_;
+  std::ofstream events_file_;  // the app's events as they come, so that a run that is cut off leaves them
   int trucks_away_ = 0, passes_ = 0, bench_moves_ = 0;
   double next_progress_s_ = 0.0;
   bool injected_ = false, init_told_ = false;

@@ -11,8 +11,6 @@ namespace {
 
 constexpr double script_period = 0.02;            // s; the paper has 0.1 (4.4), and each rule that waits for a crossing then comes half of that late
 constexpr double skyline_period = 0.5;
-constexpr double arrived = radians(1.5);
-constexpr double still = radians(0.8);            // rad/s
 constexpr double most_brake_share = 0.9;          // of the largest acceleration of the swing: no landing is planned harder
 constexpr double full_share = 0.975;              // of a heaped bucket: what passes are planned with
 
@@ -124,6 +122,11 @@ Joints Sequencer::pass_goals() const {
   return goals;
 }
 
+bool Sequencer::swing_stands_at_goal(const Observation& o) const {
+  constexpr double arrived = radians(1.5), still = radians(0.8);  // rad/s
+  return std::fabs(script_.goals()[swing] - o.angle[swing]) < arrived && std::fabs(o.velocity[swing]) < still;
+}
+
 Joints Sequencer::approach(const Observation& o) {
   enter_phase(BERM_PHASE_SWING_TO_DIG, o);
   const Joints command = run_script(o, event_none);
@@ -135,7 +138,7 @@ Joints Sequencer::approach(const Observation& o) {
 
 Joints Sequencer::settle(const Observation& o) {
   const Joints goals = script_.goals();
-  if (std::fabs(goals[swing] - o.angle[swing]) < arrived && std::fabs(o.velocity[swing]) < still) begin_dig(o);
+  if (swing_stands_at_goal(o)) begin_dig(o);
   return arm_.toward(goals, script_.paces(), tempos(), o.angle, o.velocity);
 }
 
@@ -161,8 +164,6 @@ Joints Sequencer::plan(const Observation& o) {
     case Stage::curl: return curl(o);
     case Stage::pass: return pass(o);
     case Stage::horn:
-      if (horn_done(o)) end_horn(o);
-      return {};
     case Stage::wait_leave: return {};  // follow_truck
     case Stage::raise_for_move: return raise_for_move(o);
     case Stage::ask_move:

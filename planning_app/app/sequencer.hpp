@@ -60,6 +60,7 @@ private:
   Joints run_script(const Observation& o, std::uint32_t events);
   Joints approach(const Observation& o);
   Joints settle(const Observation& o);
+  bool swing_stands_at_goal(const Observation& o) const;
   Joints dig(const Observation& o);
   Joints curl(const Observation& o);
   Joints pass(const Observation& o);
@@ -79,11 +80,10 @@ private:
   void wait_raised(const Observation& o);
   void follow_truck(const Observation& o);    // trucks come and go while the kernel keeps the machine, too
   void next_truck(const Observation& o);
+  void forget_bed();
   void finish(const Observation& o);
   void leave_truck(const Observation& o);     // it left before it was full
   void call_for_truck(const Observation& o);  // when none comes, or the full one does not leave
-  bool horn_done(const Observation& o) const;
-  void end_horn(const Observation& o);
   bool sounds_full(const Observation& o) const;
   Joints go_look(const Observation& o);
   Joints look_for_truck(const Observation& o);

@@ -79,8 +79,7 @@ void Sequencer::begin_anew(const Observation& o) {
   cut_.reset();
   search_.reset();
   look(o);
-  site_.bed.reset();
-  bed_.reset();
+  forget_bed();
   poor_passes_ = 0;
   face_yield_.clear();
   yield_ = 1.0;  // what was learned last was of loose soil at the foot of the old face

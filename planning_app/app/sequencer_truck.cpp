@@ -8,8 +8,6 @@ namespace berm::app {
 
 namespace {
 
-constexpr double arrived = radians(1.5);
-constexpr double still = radians(0.8);            // rad/s
 constexpr double horn_s = 1.0, horn_again_s = 30.0;
 constexpr double full_leaves_within_s = 90.0, next_comes_within_s = 300.0;  // then the operator is told
 
@@ -42,7 +40,7 @@ void Sequencer::wait_raised(const Observation& o) {
 Joints Sequencer::go_look(const Observation& o) {
   enter_phase(BERM_PHASE_WAIT, o);
   const Joints command = run_script(o, event_none);
-  if (script_.at_last() && std::fabs(script_.goals()[swing] - o.angle[swing]) < arrived && std::fabs(o.velocity[swing]) < still) {
+  if (script_.at_last() && swing_stands_at_goal(o)) {
     look_.begin(o, scanners_);
     enter(Stage::look, o);
   }
@@ -77,18 +75,11 @@ void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
   begin_approach(o, true);
 }
 
-bool Sequencer::horn_done(const Observation& o) const { return o.time_s - stage_s_ >= horn_s; }
-
 // Again while the full truck stands there: a driver may not have heard it, or could not leave then.
 bool Sequencer::sounds_full(const Observation& o) const {
-  if (stage_ == Stage::horn) return !horn_done(o);
   const double since_s = o.time_s - stage_s_;
+  if (stage_ == Stage::horn) return since_s < horn_s;
   return stage_ == Stage::wait_leave && since_s >= horn_again_s && std::fmod(since_s, horn_again_s) < horn_s;
-}
-
-void Sequencer::end_horn(const Observation& o) {
-  if (truck_ == trucks_) finish(o);
-  else enter(Stage::wait_leave, o);
 }
 
 void Sequencer::finish(const Observation& o) {
@@ -96,9 +87,13 @@ void Sequencer::finish(const Observation& o) {
   enter(Stage::finished, o);
 }
 
-void Sequencer::next_truck(const Observation& o) {
+void Sequencer::forget_bed() {
   site_.bed.reset();
   bed_.reset();
+}
+
+void Sequencer::next_truck(const Observation& o) {
+  forget_bed();
   part_filled_ = false;
   ++truck_;
   if (face_too_poor_for_a_truck()) begin_move_back(o, "what is left within reach does not fill the next truck");
@@ -108,8 +103,8 @@ void Sequencer::next_truck(const Observation& o) {
 // What is in the bucket goes back to the face. A truck that is no longer admitted but was not seen to leave is looked at again, and its books go on.
 void Sequencer::leave_truck(const Observation& o) {
   const bool left = presence_.gone() == TruckPresence::Gone::left;
-  log_.event("truck_lost", {{"time_s", o.time_s}, {"truck", truck_}, {"why", left ? "left" : "no longer admitted"}, {"loaded_kg", fill_.loaded_kg()}, {"target_kg", site_.place.target_kg}});
   if (stage_ == Stage::pass && script_.of(bucket).reached(RuleMark::opens)) book_pass(o);  // at least a part is in the truck
+  log_.event("truck_lost", {{"time_s", o.time_s}, {"truck", truck_}, {"why", left ? "left" : "no longer admitted"}, {"loaded_kg", fill_.loaded_kg()}, {"target_kg", site_.place.target_kg}});
   enter_phase(BERM_PHASE_WAIT, o);
   brings_load_ = brings_load_ || (!holds_nothing_ && (stage_ == Stage::dig || stage_ == Stage::curl || stage_ == Stage::pass));
   search_.reset();
@@ -119,8 +114,7 @@ void Sequencer::leave_truck(const Observation& o) {
     next_truck(o);
   } else {
     part_filled_ = true;
-    site_.bed.reset();
-    bed_.reset();
+    forget_bed();
     wait_raised(o);
   }
 }
@@ -128,28 +122,33 @@ void Sequencer::leave_truck(const Observation& o) {
 void Sequencer::follow_truck(const Observation& o) {
   presence_.step(o);
   call_for_truck(o);
-  const bool looks = stage_ == Stage::go_look || stage_ == Stage::look;  // nothing of this truck is known yet
-  if (presence_.gone() == TruckPresence::Gone::no && !(looks && !o.truck_parked)) return;
-  const bool left = presence_.gone() == TruckPresence::Gone::left;
+  const bool gone = presence_.gone() != TruckPresence::Gone::no, left = presence_.gone() == TruckPresence::Gone::left;
   switch (stage_) {
     case Stage::go_look:
     case Stage::look:
+      if (!gone && o.truck_parked) return;  // nothing is known of it yet: any silence ends the look
       look_.stop(scanners_);
       if (left && part_filled_) leave_truck(o);
       else enter(Stage::wait_truck, o);
       return;
-    case Stage::wait_truck:  // that is admitted no longer, and now said to have left
+    case Stage::wait_truck:  // one that is admitted no longer, and now said to have left
       if (left && part_filled_) leave_truck(o);
       return;
     case Stage::approach:
     case Stage::settle:
     case Stage::dig:
     case Stage::curl:
-    case Stage::pass: leave_truck(o); return;
-    case Stage::horn:
-      if (horn_done(o)) end_horn(o);
+    case Stage::pass:
+      if (gone) leave_truck(o);
       return;
-    case Stage::wait_leave: next_truck(o); return;
+    case Stage::horn:
+      if (o.time_s - stage_s_ < horn_s) return;
+      if (truck_ == trucks_) finish(o);
+      else enter(Stage::wait_leave, o);
+      return;
+    case Stage::wait_leave:
+      if (gone) next_truck(o);
+      return;
     case Stage::survey:
     case Stage::raise_for_move:
     case Stage::ask_move:
