@@ -1,5 +1,6 @@
 #include "app/recognition_thread.hpp"
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -94,10 +95,17 @@ void RecognitionThread::work() {
         break;
       case Task::What::end: answer = Answer{recognition->ask(), task.cycle}; break;
     }
+    const bool done = answer.has_value();
     lock.lock();
     at_work_.reset();
     if (sweep == sweep_ && !answered_) answer_ = std::move(answer);
     changed_.notify_all();
+    if (!done) continue;
+    // What a truck took is given back: left to itself the allocator keeps it in this thread's arena, and the arena grew with the largest of the trucks.
+    lock.unlock();
+    recognition.reset();
+    malloc_trim(0);
+    lock.lock();
   }
 }
 
