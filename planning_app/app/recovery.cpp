@@ -20,6 +20,7 @@ constexpr double back_by = radians(20.0), back_speed = radians(8.0), back_longes
 constexpr double back_looks = 9.5;      // s: two sweeps, for the kernel's map forgets with the second
 constexpr double shortest_pause = 0.5, longest_pause = 4.0;  // s between attempts
 constexpr double retreat_for = 1.0;     // s
+constexpr double wavering = 1.0;        // s in which standing was permitted; less puts a retreat off no longer
 constexpr double creep_share = 0.9;
 constexpr double farther = radians(5.0);     // than a joint sags or creeps while it should stand
 constexpr double range_room = radians(8.0);
@@ -86,10 +87,12 @@ bool Recovery::retreating(const Observation& o) const {
   return !handed_back_ && back_ == Back::none && moved_ && o.time_s - running_s_ < retreat_for;
 }
 
-// What a person must do, once a trouble. True when the call was made just now.
+// What a person must do, each advice once a trouble: what keeps the machine may become another thing meanwhile. True when the call was made just now.
 bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
-  if (called_ != Called::no || !(o.latched || (by_place(o.stop_reason) && o.time_s - since_s_ > call_after))) return false;
-  called_ = o.latched ? Called::for_latched : Called::for_held;
+  if (!(o.latched || (by_place(o.stop_reason) && o.time_s - since_s_ > call_after))) return false;
+  if (std::find(told_.begin(), told_.end(), advice_for(o)) != told_.end()) return false;
+  told_.emplace_back(advice_for(o));
+  waits_for_reset_ = o.latched;
   nlohmann::ordered_json fields{{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}, {"stopped_s", o.time_s - since_s_}};
   if (!o.latched) fields = with_place(o, std::move(fields));
   fields["advice"] = advice_for(o);
@@ -101,8 +104,10 @@ bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
 void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
   const bool here = o.has_place() && std::hypot(o.blocked_x - blocked_x_, o.blocked_y - blocked_y_) < same_place;
   const bool again = since_s_ >= 0.0 && (!handed_back_ || o.time_s - handed_back_s_ < (here ? same_within : again_within));
+  const bool retreat_stopped = retreating(o) && retreat_ != Joints{};
+  const bool wavers = !handed_back_ && !retreat_stopped && o.time_s - running_s_ < wavering;
   stopped_ = true;
-  stop_s_ = o.time_s;
+  if (!wavers) stop_s_ = o.time_s;
   stopped_at_ = o.angle;
   if (retreating(o)) retreat_ = o.stop_reason == BERM_STOP_JOINT_RANGE ? retreat(o, 0.0) : Joints{};  // it led nowhere: not the same again
   pause_s_ = again ? std::clamp(2.0 * pause_s_, shortest_pause, longest_pause) : 0.0;
@@ -110,7 +115,8 @@ void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
     since_s_ = o.time_s;
     next_rescan_s_ = since_s_ + rescan_after;
     next_back_s_ = since_s_ + back_after;
-    called_ = Called::no;
+    told_.clear();
+    waits_for_reset_ = false;
     moved_ = false;
     back_way_ = 0.0;
   }
@@ -181,13 +187,14 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
   advice.in_charge = true;
   if (!stopped_) begin_stop(o, log);
   if (o.kernel_state == BERM_STATE_STOPPING) stopped_at_ = o.angle;
-  if (called_ == Called::for_latched && !o.latched) {  // he has reset, and what keeps the machine now is another trouble
-    called_ = Called::no;
+  if (waits_for_reset_ && !o.latched) {  // he has reset, and what keeps the machine now is another trouble
+    told_.clear();
+    waits_for_reset_ = false;
     since_s_ = o.time_s;
   }
   advice.operator_called = call_operator(o, log);
   if (!by_place(o.stop_reason)) return advice;
-  const double blocked = o.time_s - stop_s_;  // without a moment in which standing was permitted
+  const double blocked = o.time_s - stop_s_;  // with no more than moments in which standing was permitted
   if (o.time_s > next_rescan_s_) {
     advice.rescan = true;
     next_rescan_s_ = o.time_s + rescan_every;

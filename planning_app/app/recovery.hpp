@@ -4,6 +4,9 @@
 // keeps what it once held there, and the scanners look from there. What none of this mends is the operator's: who is told once what to do.
 #pragma once
 
+#include <string_view>
+#include <vector>
+
 #include "app/observation.hpp"
 #include "app/progress_log.hpp"
 
@@ -36,7 +39,8 @@ private:
   bool stopped_ = false;
   bool handed_back_ = true;      // the plan is in charge
   bool moved_ = false;
-  enum class Called { no, for_held, for_latched } called_ = Called::no;  // the operator, for this trouble
+  std::vector<std::string_view> told_;  // advices that the operator was given in this trouble
+  bool waits_for_reset_ = false;        // the newest of them was for a stop that latches
   Joints stopped_at_{};          // rad
   double since_s_ = -1.0;        // begin of the trouble: a stop and those soon after it; negative: none yet
   double stop_s_ = 0.0, running_s_ = 0.0, handed_back_s_ = 0.0;

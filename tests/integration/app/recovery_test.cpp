@@ -1,6 +1,8 @@
 // What the app does while the kernel does not permit motion.
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "app/recovery.hpp"
 #include "app_bench/bench_machine.hpp"
 
@@ -262,6 +264,28 @@ TEST(Recovery, CallsAgainWhenTheGroundKeepsWhatWasReset) {
   EXPECT_NEAR(last, 40.0, 0.5) << "after looking and creeping did not help";
 }
 
+// Dust settles, and what keeps the machine then is something else: he waits for ever if he is told of the dust alone.
+TEST(Recovery, CallsAgainWhenAnotherThingKeepsTheMachine) {
+  Recovery recovery(berm::app_bench::zx200());
+  const ProgressLog log(-1);
+  std::vector<double> calls;
+  const auto for_seconds = [&](double from, double to, std::uint8_t reason, bool latched = false) {
+    for (double t = from; t < to; t += 0.1) {
+      Observation o = stopped(t, reason);
+      o.latched = latched;
+      if (recovery.step(o, log).operator_called) calls.push_back(t);
+    }
+  };
+  for_seconds(0.0, 42.0, BERM_STOP_DUST);
+  for_seconds(42.0, 60.0, BERM_STOP_INTRUDER);
+  for_seconds(60.0, 70.0, BERM_STOP_DUST);
+  for_seconds(70.0, 80.0, BERM_STOP_SENSOR_BLOCKED, true);
+  ASSERT_EQ(calls.size(), 3U) << "each once";
+  EXPECT_NEAR(calls[0], 30.0, 0.2);
+  EXPECT_NEAR(calls[1], 42.0, 0.2);
+  EXPECT_NEAR(calls[2], 70.0, 0.2) << "it latches: at once";
+}
+
 // The bucket, curled in on a retreat, comes to its range's end: it is not curled on whenever the kernel permits standing.
 TEST(Recovery, ARetreatThatIsStoppedItselfIsNotTriedAgain) {
   const MachineModel m = berm::app_bench::zx200();
@@ -283,6 +307,32 @@ TEST(Recovery, ARetreatThatIsStoppedItselfIsNotTriedAgain) {
   }
   EXPECT_EQ(curled, 0.0);
   EXPECT_GT(opened, 0.0) << "back into its range";
+}
+
+// Standing is permitted for a moment now and then, for the joints' noise decides whether the bucket is over a cell that nothing has seen: 300 stops in five
+// minutes, for each put the retreat off by its patience.
+TEST(Recovery, AKernelThatWaversPutsARetreatOffNoLonger) {
+  Recovery recovery(berm::app_bench::zx200());
+  const ProgressLog log(-1);
+  double raised_s = -1.0;
+  for (int k = 0; k < 1000 && raised_s < 0.0; ++k) {
+    const double t = 0.01 * k;
+    const bool permits = k % 15 >= 10;
+    const auto advice = recovery.step(permits ? permitted(t) : stopped(t, BERM_STOP_UNKNOWN_GROUND), log);
+    if (permits && advice.velocity[boom] > 0.0) raised_s = t;
+    if (t < 2.5) {
+      ASSERT_EQ(advice.velocity, Joints{}) << t;
+    }
+  }
+  EXPECT_GT(raised_s, 2.5);
+  EXPECT_LT(raised_s, 3.0);
+  // That is stopped as well: not the same again at once.
+  int tried = 0;
+  for (int k = 0; k < 240; ++k) {
+    const double t = raised_s + 0.01 * (k + 1);
+    tried += recovery.step(k % 15 >= 10 ? permitted(t) : stopped(t, BERM_STOP_UNKNOWN_GROUND), log).velocity[boom] > 0.0;
+  }
+  EXPECT_EQ(tried, 0);
 }
 
 TEST(Recovery, AfterGoodMotionAStopIsANewOne) {
