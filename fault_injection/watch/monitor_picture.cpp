@@ -105,7 +105,7 @@ void draw_truth(SvgPanel& panel, const MonitorPictureInput& in) {
   }
   for (const Alarm& a : in.alarms) {
     panel.circle(a.x, a.y, 0.6, a.nearest.empty() ? "fill:none;stroke:#7c3aed;stroke-width:3" : "fill:none;stroke:#111;stroke-width:2.5");
-    panel.text(a.x + 0.7, a.y + 0.4, fmt::format("{:.1f} s", a.time_s), "font-size:11px");
+    panel.text(a.x + 0.7, a.y - 0.9, fmt::format("{:.1f} s", a.time_s), "font-size:11px");  // under the names, which begin at the height of their ways
   }
   panel.circle(0, 0, 0.2, "fill:#fff;stroke:#111");
 }

@@ -47,30 +47,55 @@ static int32_t sk_seen_from(const sk_monitor_histogram *h, int32_t iy, int32_t i
   return seen;
 }
 
-/*@ requires \valid_read(known) && sk_in_map(iy, ix) && sk_in_bins(low);
+/*@ requires \valid_read(h) && sk_in_map(iy, ix);
   @ assigns \nothing;
-  @ ensures \result == true <==> sk_known_lower(known, iy, ix, low);
+  @ ensures \result == true <==> sk_believed(h, iy, ix);
   @*/
-static bool sk_is_known_lower(const sk_monitor_histogram *known, int32_t iy, int32_t ix, int32_t low)
+static bool sk_is_believed(const sk_monitor_histogram *h, int32_t iy, int32_t ix)
 {
-  if (known->state[iy][ix] == SK_CELL_LEARNING || known->observed[iy][ix] < SK_HISTOGRAM_ENOUGH) { return false; }
-  return sk_seen_from(known, iy, ix, low) < 2;
+  return h->state[iy][ix] != SK_CELL_LEARNING && h->observed[iy][ix] >= SK_HISTOGRAM_ENOUGH;
 }
 
-/*@ requires \valid_read(h) && \valid_read(known) && \valid_read(r) && sk_in_map(iy, ix);
+int32_t sk_histogram_known(const sk_monitor_histogram *h, int32_t iy, int32_t ix)
+{
+  int32_t seen = 0;
+  int32_t b;
+  if (!sk_is_in_map(iy, ix) || !sk_is_believed(h, iy, ix)) { return SK_NOBODY_KNOWS; }
+  /*@ loop invariant -1 <= b < SK_HISTOGRAM_BINS && 0 <= seen <= 1;
+    @ loop invariant not_twice: !sk_seen_twice_in(h, iy, ix, b + 1, SK_HISTOGRAM_BINS);
+    @ loop invariant one: seen == 1 <==> sk_seen_in(h, iy, ix, b + 1, SK_HISTOGRAM_BINS);
+    @ loop assigns b, seen;
+    @ loop variant b;
+    @*/
+  for (b = SK_HISTOGRAM_BINS - 1; b >= 0; b--) {
+    if (h->seen[iy][ix][b] == 0U) { continue; }
+    if (h->seen[iy][ix][b] > 1U || seen > 0) { return b; }
+    seen = 1;
+  }
+  return SK_NOBODY_KNOWS;
+}
+
+/*@ assigns \nothing;
+  @ ensures \result == true <==> sk_known_lower(known, low);
+  @*/
+static bool sk_is_known_lower(int32_t known, int32_t low) { return known >= 0 && known < low; }
+
+/*@ requires \valid_read(h) && \valid_read(r) && sk_in_map(iy, ix);
   @ assigns \nothing;
   @ ensures \result == true <==> sk_departs(h, known, r, iy, ix, z_mm);
   @*/
-static bool sk_is_departing(const sk_monitor_histogram *h, const sk_monitor_histogram *known, const sk_monitor_rules *r, int32_t iy, int32_t ix,
-                            int32_t z_mm)
+static bool sk_is_departing(const sk_monitor_histogram *h, int32_t known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm)
 {
   int32_t low = sk_lowest_bin_of(z_mm, r->height_threshold_mm);
   /*@ assert only: \forall integer k; sk_lowest_bin(k, z_mm, r->height_threshold_mm) ==> k == low; */
   if (h->state[iy][ix] == SK_CELL_LEARNING) { return false; }
-  if (h->observed[iy][ix] >= SK_HISTOGRAM_ENOUGH) { return sk_seen_from(h, iy, ix, low) < 2; }
+  if (h->observed[iy][ix] >= SK_HISTOGRAM_ENOUGH) {
+    if (h->observed[iy][ix] < SK_HISTOGRAM_WELL && known >= low) { return false; }
+    return sk_seen_from(h, iy, ix, low) < 2;
+  }
   if (sk_seen_from(h, iy, ix, low) > 0) { return false; }
   if (h->lines[iy][ix] >= SK_LINES_ENOUGH && (int64_t)z_mm - h->line_mm[iy][ix] > r->height_threshold_mm) { return true; }
-  return sk_is_known_lower(known, iy, ix, low);
+  return sk_is_known_lower(known, low);
 }
 
 /*@ requires now_us >= 0;
@@ -162,8 +187,7 @@ static void sk_see_ground_again(sk_monitor_histogram *h, const sk_monitor_rules 
   @*/
 static bool sk_is_raising(const sk_monitor_histogram *h, int32_t iy, int32_t ix, int32_t b)
 {
-  if (h->state[iy][ix] == SK_CELL_LEARNING || h->observed[iy][ix] < SK_HISTOGRAM_ENOUGH) { return false; }
-  return sk_seen_from(h, iy, ix, b) < 2;
+  return sk_is_believed(h, iy, ix) && sk_seen_from(h, iy, ix, b) < 2;
 }
 
 /*@ requires \valid_read(h) && \valid_read(r) && sk_in_map(iy, ix) && now_us >= 0;
@@ -177,27 +201,26 @@ static bool sk_is_raise_due(const sk_monitor_histogram *h, const sk_monitor_rule
   return now_us - (int64_t)h->ground_us[iy][ix] > 2 * (int64_t)r->period_us;
 }
 
-/*@ requires \valid_read(h) && \valid_read(known) && sk_in_map(iy, ix) && sk_in_bins(b);
+/*@ requires \valid_read(h) && sk_in_map(iy, ix) && sk_in_bins(b);
   @ assigns \nothing;
   @ ensures \result == true <==> sk_above_ground(h, known, iy, ix, b);
   @*/
-static bool sk_is_above_ground(const sk_monitor_histogram *h, const sk_monitor_histogram *known, int32_t iy, int32_t ix, int32_t b)
+static bool sk_is_above_ground(const sk_monitor_histogram *h, int32_t known, int32_t iy, int32_t ix, int32_t b)
 {
   if (h->state[iy][ix] == SK_CELL_LEARNING || h->observed[iy][ix] >= SK_HISTOGRAM_ENOUGH) { return false; }
   if (h->lines[iy][ix] >= SK_LINES_ENOUGH && SK_HISTOGRAM_BIN_MM * b + SK_HISTOGRAM_FLOOR_MM > h->line_mm[iy][ix]) { return true; }
-  return sk_is_known_lower(known, iy, ix, b);
+  return sk_is_known_lower(known, b);
 }
 
 /* A point in bin b that does not depart. */
-/*@ requires \valid(h) && \valid_read(known) && \valid_read(r) && \separated(h, r) && sk_in_map(iy, ix) && sk_in_bins(b) && now_us >= 0;
+/*@ requires \valid(h) && \valid_read(r) && \separated(h, r) && sk_in_map(iy, ix) && sk_in_bins(b) && now_us >= 0;
   @ assigns h->seen[iy][ix][0 .. SK_HISTOGRAM_BINS - 1], h->observed[iy][ix], h->ground_us[iy][ix];
   @ ensures counted: sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==> sk_counted{Pre, Post}(h, iy, ix, b) && sk_observed{Pre, Post}(h, iy, ix);
   @ ensures kept: !sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==>
   @   sk_bins_kept{Pre, Post}(h, iy, ix) && h->observed[iy][ix] == \old(h->observed[iy][ix]);
   @ ensures time: h->ground_us[iy][ix] == \old(h->ground_us[iy][ix]) || (h->ground_us[iy][ix] == now_us && h->state[iy][ix] == SK_CELL_CLEAR);
   @*/
-static void sk_count_ground(sk_monitor_histogram *h, const sk_monitor_histogram *known, const sk_monitor_rules *r, int32_t iy, int32_t ix,
-                            int32_t b, int64_t now_us)
+static void sk_count_ground(sk_monitor_histogram *h, int32_t known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t b, int64_t now_us)
 {
   if (sk_is_above_ground(h, known, iy, ix, b)) { return; }
   if (sk_is_raising(h, iy, ix, b)) {
@@ -205,10 +228,10 @@ static void sk_count_ground(sk_monitor_histogram *h, const sk_monitor_histogram 
     h->ground_us[iy][ix] = (uint64_t)now_us;
   }
   sk_count_point(h, iy, ix, b);
-  if (h->observed[iy][ix] < SK_HISTOGRAM_ENOUGH) { h->observed[iy][ix] = h->observed[iy][ix] + 1U; }
+  if (h->observed[iy][ix] < SK_HISTOGRAM_WELL) { h->observed[iy][ix] = h->observed[iy][ix] + 1U; }
 }
 
-/*@ requires \valid(h) && \valid_read(known) && \valid_read(r) && \separated(h, r) && sk_in_map(iy, ix) && now_us >= 0;
+/*@ requires \valid(h) && \valid_read(r) && \separated(h, r) && sk_in_map(iy, ix) && now_us >= 0;
   @ assigns h->seen[iy][ix][0 .. SK_HISTOGRAM_BINS - 1], h->observed[iy][ix], h->state[iy][ix], h->ground_us[iy][ix];
   @ ensures counted: \exists integer b; sk_is_bin(b, z_mm) && (sk_counts{Pre}(h, known, r, now_us, iy, ix, b) ==>
   @     sk_counted{Pre, Post}(h, iy, ix, b) && sk_observed{Pre, Post}(h, iy, ix)) &&
@@ -216,8 +239,7 @@ static void sk_count_ground(sk_monitor_histogram *h, const sk_monitor_histogram 
   @ ensures stays: sk_somebody_at{Pre}(h, iy, ix) && !sk_ground_is_back{Pre}(h, r, now_us, iy, ix) ==> sk_somebody_at(h, iy, ix);
   @ ensures nobody: !sk_somebody_at{Pre}(h, iy, ix) ==> h->state[iy][ix] == \old(h->state[iy][ix]);
   @*/
-static void sk_take_ground(sk_monitor_histogram *h, const sk_monitor_histogram *known, const sk_monitor_rules *r, int32_t iy, int32_t ix,
-                           int32_t z_mm, int64_t now_us)
+static void sk_take_ground(sk_monitor_histogram *h, int32_t known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us)
 {
   sk_count_ground(h, known, r, iy, ix, sk_bin_of(z_mm), now_us);
   sk_see_ground_again(h, r, iy, ix, now_us);
@@ -259,8 +281,7 @@ static void sk_take_departing(sk_monitor_histogram *h, const sk_monitor_rules *r
   h->ground_us[iy][ix] = SK_NO_GROUND;
 }
 
-bool sk_histogram_insert(sk_monitor_histogram *h, const sk_monitor_histogram *known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm,
-                         int64_t now_us)
+bool sk_histogram_insert(sk_monitor_histogram *h, int32_t known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us)
 {
   if (now_us < 0 || z_mm >= SK_HISTOGRAM_TOP_MM || !sk_is_in_map(iy, ix)) { return false; }
   if (!sk_is_departing(h, known, r, iy, ix, z_mm)) {

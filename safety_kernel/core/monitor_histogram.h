@@ -13,12 +13,14 @@ SK_BEGIN
 #define SK_HISTOGRAM_FLOOR_MM (-5100) /* low side of the lowest bin; what is lower is in it */
 #define SK_HISTOGRAM_TOP_MM 4500      /* high side of the highest: what is there or higher is nobody, and counts for nothing */
 #define SK_HISTOGRAM_ENOUGH 8         /* points after which a cell's histogram is believed */
+#define SK_HISTOGRAM_WELL 255         /* points up to which they may be of one moment and one pose: what others saw as high explains a height too */
 #define SK_HISTOGRAM_OTHERS 2         /* departing points, in a cell and beside it, that make somebody of the next: three in all */
 #define SK_HISTOGRAM_FULL 255
 #define SK_LINE_NEAR_MM 150 /* lines so near each other agree */
 #define SK_LINES_ENOUGH 3   /* lines that agree, less those that do not, after which they are believed */
 #define SK_LINES_MOST 8
 #define SK_NO_GROUND 0xFFFFFFFFFFFFFFFFU /* later than any time */
+#define SK_NOBODY_KNOWS (-1)             /* no bin: of a cell of which too little was seen */
 
 /* Any two differ in four bits. What is none of them is like SOMEBODY. */
 enum { SK_CELL_LEARNING = 0x0F, SK_CELL_CLEAR = 0x33, SK_CELL_SOMEBODY = 0x55 };
@@ -27,7 +29,7 @@ enum { SK_CELL_LEARNING = 0x0F, SK_CELL_CLEAR = 0x33, SK_CELL_SOMEBODY = 0x55 };
 typedef struct sk_monitor_histogram {
   uint8_t seen[SK_MAP_CELLS][SK_MAP_CELLS][SK_HISTOGRAM_BINS]; /* points; when one is full all of the cell are halved, which keeps their proportion */
   uint16_t state[SK_MAP_CELLS][SK_MAP_CELLS];
-  uint32_t observed[SK_MAP_CELLS][SK_MAP_CELLS];               /* points, as far as SK_HISTOGRAM_ENOUGH */
+  uint32_t observed[SK_MAP_CELLS][SK_MAP_CELLS];               /* points, as far as SK_HISTOGRAM_WELL */
   int32_t line_mm[SK_MAP_CELLS][SK_MAP_CELLS];                 /* what most interpolated heights agree on; the ground of a cell with too few points */
   int8_t lines[SK_MAP_CELLS][SK_MAP_CELLS];                    /* that agree, less the others: one to a spurious return crosses many cells */
   int16_t departed_mm[SK_MAP_CELLS][SK_MAP_CELLS];             /* of the newest departing point */
@@ -48,20 +50,23 @@ typedef struct sk_monitor_histogram {
   @ predicate sk_seen_twice_in{L}(sk_monitor_histogram *h, integer iy, integer ix, integer low, integer high) =
   @   (\exists integer b; low <= b < high && \at(h->seen[iy][ix][b], L) > 1) ||
   @   (\exists integer b, c; low <= b < c < high && \at(h->seen[iy][ix][b], L) > 0 && \at(h->seen[iy][ix][c], L) > 0);
-  @ // those who saw enough of the cell saw nothing, or one point, from bin `low` on
-  @ predicate sk_known_lower{L}(sk_monitor_histogram *known, integer iy, integer ix, integer low) =
-  @   \at(known->state[iy][ix], L) != SK_CELL_LEARNING && \at(known->observed[iy][ix], L) >= SK_HISTOGRAM_ENOUGH &&
-  @   !sk_seen_twice_in{L}(known, iy, ix, low, SK_HISTOGRAM_BINS);
-  @ // by bins from `low` on: a stray point counts where so few were seen that the ground is known by lines or from others alone
-  @ predicate sk_departs_from{L}(sk_monitor_histogram *h, sk_monitor_histogram *known, integer iy, integer ix, integer z, integer rise,
-  @   integer low) = \at(h->state[iy][ix], L) != SK_CELL_LEARNING &&
-  @   (\at(h->observed[iy][ix], L) >= SK_HISTOGRAM_ENOUGH ==> !sk_seen_twice_in{L}(h, iy, ix, low, SK_HISTOGRAM_BINS)) &&
+  @ predicate sk_believed{L}(sk_monitor_histogram *h, integer iy, integer ix) =
+  @   \at(h->state[iy][ix], L) != SK_CELL_LEARNING && \at(h->observed[iy][ix], L) >= SK_HISTOGRAM_ENOUGH;
+  @ // `known`: the highest bin from which on those who saw enough of the cell saw two points, or SK_NOBODY_KNOWS
+  @ predicate sk_known_lower(integer known, integer low) = 0 <= known < low;
+  @ predicate sk_known_as_high(integer known, integer low) = known >= 0 && known >= low;
+  @ // by bins from `low` on: a stray point counts where so few were seen that the ground is known by lines or from others alone; and where many
+  @ // were not yet seen, what others know explains
+  @ predicate sk_departs_from{L}(sk_monitor_histogram *h, integer known, integer iy, integer ix, integer z, integer rise, integer low) =
+  @   \at(h->state[iy][ix], L) != SK_CELL_LEARNING &&
+  @   (\at(h->observed[iy][ix], L) >= SK_HISTOGRAM_ENOUGH ==> !sk_seen_twice_in{L}(h, iy, ix, low, SK_HISTOGRAM_BINS) &&
+  @     (\at(h->observed[iy][ix], L) < SK_HISTOGRAM_WELL ==> !sk_known_as_high(known, low))) &&
   @   (\at(h->observed[iy][ix], L) < SK_HISTOGRAM_ENOUGH ==> !sk_seen_in{L}(h, iy, ix, low, SK_HISTOGRAM_BINS) &&
-  @     ((\at(h->lines[iy][ix], L) >= SK_LINES_ENOUGH && z - \at(h->line_mm[iy][ix], L) > rise) || sk_known_lower{L}(known, iy, ix, low)));
+  @     ((\at(h->lines[iy][ix], L) >= SK_LINES_ENOUGH && z - \at(h->line_mm[iy][ix], L) > rise) || sk_known_lower(known, low)));
   @ // `low` is the lowest bin that explains z
   @ predicate sk_lowest_bin(integer low, integer z, integer rise) = sk_in_bins(low) &&
   @   \forall integer b; sk_in_bins(b) ==> (b >= low <==> sk_bin_explains(b, z, rise));
-  @ predicate sk_departs{L}(sk_monitor_histogram *h, sk_monitor_histogram *known, sk_monitor_rules *r, integer iy, integer ix, integer z) =
+  @ predicate sk_departs{L}(sk_monitor_histogram *h, integer known, sk_monitor_rules *r, integer iy, integer ix, integer z) =
   @   \exists integer low; sk_lowest_bin(low, z, \at(r->height_threshold_mm, L)) &&
   @     sk_departs_from{L}(h, known, iy, ix, z, \at(r->height_threshold_mm, L), low);
   @
@@ -93,17 +98,17 @@ typedef struct sk_monitor_histogram {
   @
   @ // where too little was seen, a bin wholly above the lines, or above what others know: nothing there is counted, or who stands there would be
   @ // his own ground
-  @ predicate sk_above_ground{L}(sk_monitor_histogram *h, sk_monitor_histogram *known, integer iy, integer ix, integer b) =
+  @ predicate sk_above_ground{L}(sk_monitor_histogram *h, integer known, integer iy, integer ix, integer b) =
   @   \at(h->state[iy][ix], L) != SK_CELL_LEARNING && \at(h->observed[iy][ix], L) < SK_HISTOGRAM_ENOUGH &&
-  @   ((\at(h->lines[iy][ix], L) >= SK_LINES_ENOUGH && sk_bin_low(b) > \at(h->line_mm[iy][ix], L)) || sk_known_lower{L}(known, iy, ix, b));
+  @   ((\at(h->lines[iy][ix], L) >= SK_LINES_ENOUGH && sk_bin_low(b) > \at(h->line_mm[iy][ix], L)) || sk_known_lower(known, b));
   @ // higher than what has been seen twice, if not by so much that it departs. Within a window one such point is counted: somebody who is scanned
   @ // from the feet upwards would else be his own ground
   @ predicate sk_raises{L}(sk_monitor_histogram *h, integer iy, integer ix, integer b) = \at(h->state[iy][ix], L) != SK_CELL_LEARNING &&
   @   \at(h->observed[iy][ix], L) >= SK_HISTOGRAM_ENOUGH && !sk_seen_twice_in{L}(h, iy, ix, b, SK_HISTOGRAM_BINS);
   @ predicate sk_may_raise{L}(sk_monitor_histogram *h, sk_monitor_rules *r, integer now, integer iy, integer ix) =
   @   \at(h->state[iy][ix], L) == SK_CELL_CLEAR && (\at(h->ground_us[iy][ix], L) > now || now - \at(h->ground_us[iy][ix], L) > sk_window{L}(r));
-  @ predicate sk_counts{L}(sk_monitor_histogram *h, sk_monitor_histogram *known, sk_monitor_rules *r, integer now, integer iy, integer ix,
-  @   integer b) = !sk_above_ground{L}(h, known, iy, ix, b) && (sk_raises{L}(h, iy, ix, b) ==> sk_may_raise{L}(h, r, now, iy, ix));
+  @ predicate sk_counts{L}(sk_monitor_histogram *h, integer known, sk_monitor_rules *r, integer now, integer iy, integer ix, integer b) =
+  @   !sk_above_ground{L}(h, known, iy, ix, b) && (sk_raises{L}(h, iy, ix, b) ==> sk_may_raise{L}(h, r, now, iy, ix));
   @
   @ predicate sk_bins_kept{A, B}(sk_monitor_histogram *h, integer iy, integer ix) =
   @   \forall integer b; sk_in_bins(b) ==> \at(h->seen[iy][ix][b], A) == \at(h->seen[iy][ix][b], B);
@@ -123,8 +128,8 @@ typedef struct sk_monitor_histogram {
   @   (\at(h->seen[iy][ix][b], A) == SK_HISTOGRAM_FULL ==> \at(h->seen[iy][ix][b], B) == SK_HISTOGRAM_FULL / 2 + 1 &&
   @     \forall integer c; sk_in_bins(c) && c != b ==> \at(h->seen[iy][ix][c], B) == \at(h->seen[iy][ix][c], A) / 2);
   @ predicate sk_observed{A, B}(sk_monitor_histogram *h, integer iy, integer ix) =
-  @   (\at(h->observed[iy][ix], A) < SK_HISTOGRAM_ENOUGH ==> \at(h->observed[iy][ix], B) == \at(h->observed[iy][ix], A) + 1) &&
-  @   (\at(h->observed[iy][ix], A) >= SK_HISTOGRAM_ENOUGH ==> \at(h->observed[iy][ix], B) == \at(h->observed[iy][ix], A));
+  @   (\at(h->observed[iy][ix], A) < SK_HISTOGRAM_WELL ==> \at(h->observed[iy][ix], B) == \at(h->observed[iy][ix], A) + 1) &&
+  @   (\at(h->observed[iy][ix], A) >= SK_HISTOGRAM_WELL ==> \at(h->observed[iy][ix], B) == \at(h->observed[iy][ix], A));
   @ // the height that more lines than not agree on outlives those that do not, and follows those that do
   @ predicate sk_lines_agree(integer line, integer z) = -SK_LINE_NEAR_MM <= z - line <= SK_LINE_NEAR_MM;
   @ predicate sk_line_taken(integer line, integer lines, integer z, integer line2, integer lines2) =
@@ -147,10 +152,21 @@ typedef struct sk_monitor_histogram {
   @*/
 void sk_histogram_begin(sk_monitor_histogram *h);
 
+/* What is known of a cell: the highest bin from which on two points were seen, or SK_NOBODY_KNOWS outside the map, while it is learning, and where
+ * too little was seen. */
+/*@ requires \valid_read(h);
+  @ assigns \nothing;
+  @ ensures range: SK_NOBODY_KNOWS <= \result < SK_HISTOGRAM_BINS;
+  @ ensures known: \result >= 0 ==> sk_in_map(iy, ix) && sk_believed(h, iy, ix) && sk_seen_twice_in(h, iy, ix, \result, SK_HISTOGRAM_BINS) &&
+  @   !sk_seen_twice_in(h, iy, ix, \result + 1, SK_HISTOGRAM_BINS);
+  @ ensures unknown: \result < 0 ==> !sk_in_map(iy, ix) || !sk_believed(h, iy, ix) || !sk_seen_twice_in(h, iy, ix, 0, SK_HISTOGRAM_BINS);
+  @*/
+int32_t sk_histogram_known(const sk_monitor_histogram *h, int32_t iy, int32_t ix);
+
 /* A measured point over cell (iy, ix). Returns whether it departs from what was seen there: such a point is never counted, so that nobody becomes the
- * ground by standing. Where too little was seen of the cell, what `known` has seen of it counts: the histograms of other sensors, or h itself.
- * Outside the map, too high, or with now_us < 0, nothing changes. */
-/*@ requires \valid(h) && \valid_read(known) && \valid_read(r) && \separated(h, r);
+ * ground by standing. `known`: of the other sensors' sk_histogram_known the highest. Where too little was seen of the cell that counts in its place; where
+ * so little that it may all be of one moment, what is as high departs from nothing. Outside the map, too high, or with now_us < 0, nothing changes. */
+/*@ requires \valid(h) && \valid_read(r) && \separated(h, r);
   @ assigns h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->departed_mm[..][..], h->departed_us[..][..][..], h->ground_us[..][..];
   @ ensures departs: \result == true <==> sk_in_map(iy, ix) && now_us >= 0 && z_mm < SK_HISTOGRAM_TOP_MM &&
   @   sk_departs{Pre}(h, known, r, iy, ix, z_mm);
@@ -172,8 +188,7 @@ void sk_histogram_begin(sk_monitor_histogram *h);
   @ ensures others: \forall integer j, i; sk_in_map(j, i) && (now_us < 0 || z_mm >= SK_HISTOGRAM_TOP_MM || !(j == iy && i == ix)) ==>
   @   sk_cell_kept{Pre, Post}(h, j, i);
   @*/
-bool sk_histogram_insert(sk_monitor_histogram *h, const sk_monitor_histogram *known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm,
-                         int64_t now_us);
+bool sk_histogram_insert(sk_monitor_histogram *h, int32_t known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us);
 
 /* An interpolated height over cell (iy, ix). It is no observation; while those are too few, what most lines agree on is taken for the ground. */
 /*@ requires \valid(h);

@@ -97,7 +97,7 @@ bool LidarWatch::counts(const Column& column, int channel, const Column* before,
 // What lasers above each other meet of something upright goes into one cell, or errors of a few centimetres would share it out among two and give
 // each another height at every turn: that of the lowest return, a little farther into what it met, so that what only just reaches into a cell does
 // not fill it. Its highest return is no spurious one, there being another below it, so it is not the one to discard.
-void LidarWatch::insert(const Column& column, const bool (&counting)[kVlp16Channels], const MonitorWatch* others, std::int64_t now_us) {
+void LidarWatch::insert(const Column& column, const bool (&counting)[kVlp16Channels], const MonitorWatch::Others& others, std::int64_t now_us) {
   for (int c = 0; c < kVlp16Channels;) {
     const int lowest = c++;
     if (!counting[lowest]) continue;
@@ -120,7 +120,7 @@ void LidarWatch::note(const Column& column, const bool (&counting)[kVlp16Channel
     if (counting[channel] && returns_.count < LidarReturns::kCapacity) returns_.hit[returns_.count++] = {column.head, column.point[channel], lined};
 }
 
-void LidarWatch::finish(const Column& column, const Column* before, const Column* after, const MonitorWatch* others, std::int64_t now_us) {
+void LidarWatch::finish(const Column& column, const Column* before, const Column* after, const MonitorWatch::Others& others, std::int64_t now_us) {
   bool counting[kVlp16Channels];
   for (int c = 0; c < kVlp16Channels; ++c) counting[c] = column.met[c] == Met::kThing && counts(column, c, before, after);
   insert(column, counting, others, now_us);
@@ -158,7 +158,7 @@ void LidarWatch::draw_line(const sk_point& from, const sk_point& to, std::int64_
   monitor_.interpolate(from, clipped(from, to), MonitorWatch::Over::kUnmeasured, now_us);
 }
 
-void LidarWatch::take(const Vlp16Packet& packet, const JointAngles& joints, std::int64_t now_us, const MonitorWatch* others) {
+void LidarWatch::take(const Vlp16Packet& packet, const JointAngles& joints, std::int64_t now_us, const MonitorWatch::Others& others) {
   Pose pose{self_.pose(joints), std::cos(joints.swing), std::sin(joints.swing), {}};
   pose.head = lidar_base_point(mount_.place, pose.cosine, pose.sine);
   returns_.count = 0;

@@ -48,8 +48,7 @@ class LidarWatch {
 
   void begin();
   // joints: at the time of the packet, which lasts 1.3 ms: at 50 degrees/s the swing turns by 0.07 degrees in it, 17 mm at 15 m.
-  // others: of the scanners (MonitorWatch::insert).
-  void take(const Vlp16Packet& packet, const JointAngles& joints, std::int64_t now_us, const MonitorWatch* others = nullptr);
+  void take(const Vlp16Packet& packet, const JointAngles& joints, std::int64_t now_us, const MonitorWatch::Others& others);
 
   // Of the newest packet taken, the last firing of the one before it for the last of its own.
   const LidarReturns& returns() const { return returns_; }
@@ -74,9 +73,9 @@ class LidarWatch {
   bool draws_lines(std::uint32_t azimuth_mdeg);
   void see(const Vlp16Return* hit, int count, const Pose& pose, Column& column) const;
   bool counts(const Column& column, int channel, const Column* before, const Column* after) const;
-  void insert(const Column& column, const bool (&counting)[kVlp16Channels], const MonitorWatch* others, std::int64_t now_us);
+  void insert(const Column& column, const bool (&counting)[kVlp16Channels], const MonitorWatch::Others& others, std::int64_t now_us);
   void note(const Column& column, const bool (&counting)[kVlp16Channels], bool lined);
-  void finish(const Column& column, const Column* before, const Column* after, const MonitorWatch* others, std::int64_t now_us);
+  void finish(const Column& column, const Column* before, const Column* after, const MonitorWatch::Others& others, std::int64_t now_us);
   void draw(const Column& column, std::int64_t now_us);
   void draw_nearest(const sk_point& head, const sk_point& nearest, std::int64_t now_us);
   void draw_line(const sk_point& from, const sk_point& to, std::int64_t now_us);

@@ -36,7 +36,7 @@ class Along {
 }  // namespace
 
 MonitorWatch::MonitorWatch(const berm_parameters& parameters, std::int32_t wait_us, std::int32_t period_us)
-    : histogram_(parameters.workspace_histogram != 0 ? 1 : 0) {
+    : histogram_(parameters.workspace_histogram != 0 ? 1 : 0), learned_anew_(SK_MAP_CELLS * SK_MAP_CELLS) {
   rules_.height_threshold_mm = parameters.workspace_rise_mm;
   rules_.neighbour_threshold_mm = parameters.workspace_neighbour_mm;
   rules_.slope_threshold_mm = parameters.workspace_slope_mm;
@@ -45,7 +45,17 @@ MonitorWatch::MonitorWatch(const berm_parameters& parameters, std::int32_t wait_
   rules_.dwell_us = parameters.workspace_dwell_us;
   rules_.continuous = parameters.workspace_follows != 0;
   watch_region(parameters, true);
+  for (int i = 0; i < parameters.lanes; ++i)
+    note_learned_anew(parameters.lane[i].x_low_mm, parameters.lane[i].y_low_mm, parameters.lane[i].x_high_mm, parameters.lane[i].y_high_mm);
+  for (int i = 0; i < parameters.dig_zones; ++i)
+    note_learned_anew(parameters.dig_zone[i].x_low_mm, parameters.dig_zone[i].y_low_mm, parameters.dig_zone[i].x_high_mm, parameters.dig_zone[i].y_high_mm);
   begin();
+}
+
+void MonitorWatch::note_learned_anew(std::int32_t x_low_mm, std::int32_t y_low_mm, std::int32_t x_high_mm, std::int32_t y_high_mm) {
+  for (std::int32_t iy = 0; iy < SK_MAP_CELLS; ++iy)
+    for (std::int32_t ix = 0; ix < SK_MAP_CELLS; ++ix)
+      if (sk_is_touched(iy, ix, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) learned_anew_[static_cast<std::size_t>(iy * SK_MAP_CELLS + ix)] = 1;
 }
 
 // With histograms of the dig zones too: dig() has what the machine itself changes in them.
@@ -62,14 +72,25 @@ void MonitorWatch::begin() {
   newest_us_ = -1;
 }
 
-void MonitorWatch::insert(const sk_point& point, std::int64_t now_us, const MonitorWatch* others) {
+std::int32_t MonitorWatch::known_elsewhere(std::int32_t iy, std::int32_t ix, const Others& others) const {
+  std::int32_t known = SK_NOBODY_KNOWS;
+  if (!sk_is_in_map(iy, ix)) return known;
+  const std::uint32_t observed = histogram_.front().observed[iy][ix];
+  if (learned_anew_[static_cast<std::size_t>(iy * SK_MAP_CELLS + ix)] != 0)
+    return observed < SK_HISTOGRAM_ENOUGH && others.scanners != nullptr ? sk_histogram_known(others.scanners->histogram(), iy, ix) : known;
+  if (observed >= SK_HISTOGRAM_WELL) return known;
+  for (int i = 0; i < others.count; ++i) known = std::max(known, sk_histogram_known(others.monitor[i]->histogram(), iy, ix));
+  return known;
+}
+
+void MonitorWatch::insert(const sk_point& point, std::int64_t now_us, const Others& others) {
   newest_us_ = now_us;
   const std::int32_t iy = sk_map_index(point.y_mm), ix = sk_map_index(point.x_mm);
   if (histogram_.empty()) {
     sk_monitor_insert(&monitor_, iy, ix, point.z_mm, false, now_us);
     return;
   }
-  sk_histogram_insert(histogram_.data(), (others != nullptr ? *others : *this).histogram(), &rules_, iy, ix, point.z_mm, now_us);
+  sk_histogram_insert(histogram_.data(), known_elsewhere(iy, ix, others), &rules_, iy, ix, point.z_mm, now_us);
   learn_beside(point, now_us);
 }
 
@@ -80,7 +101,7 @@ void MonitorWatch::learn_beside(const sk_point& point, std::int64_t now_us) {
   for (std::int32_t iy = sk_map_index(point.y_mm - kBesideMm); iy <= last_y; ++iy)
     for (std::int32_t ix = first_x; ix <= last_x; ++ix) {
       const bool learns = sk_is_in_map(iy, ix) && h.state[iy][ix] == SK_CELL_LEARNING;
-      if (learns && (iy != own_y || ix != own_x)) sk_histogram_insert(&h, &h, &rules_, iy, ix, point.z_mm, now_us);
+      if (learns && (iy != own_y || ix != own_x)) sk_histogram_insert(&h, SK_NOBODY_KNOWS, &rules_, iy, ix, point.z_mm, now_us);
     }
 }
 

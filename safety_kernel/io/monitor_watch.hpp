@@ -18,8 +18,15 @@ class MonitorWatch {
   MonitorWatch(const berm_parameters& parameters, std::int32_t wait_us, std::int32_t period_us);
 
   void begin();
-  // A return, base frame. others: with histograms, whose knowledge stands for what this one has not seen of a cell.
-  void insert(const sk_point& point, std::int64_t now_us, const MonitorWatch* others = nullptr);
+  // The other sensors' monitors: with histograms, what they know stands for what this one has seen too little of (SK-WM-68, 71).
+  struct Others {
+    const MonitorWatch* monitor[BERM_LIDARS] = {};
+    int count = 0;
+    const MonitorWatch* scanners = nullptr;  // the one among them; null of the scanners' own
+  };
+  // A return, base frame.
+  void insert(const sk_point& point, std::int64_t now_us, const Others& others);
+  void insert(const sk_point& point, std::int64_t now_us) { insert(point, now_us, Others()); }
   enum class Over { kEverything, kUnmeasured };  // kUnmeasured: not where the accumulated map has a measured height
   // The line from one return to the next, in steps of half a cell: what a corner of it cuts off stays EMPTY. It counts in EMPTY cells only.
   void interpolate(const sk_point& from, const sk_point& to, Over over, std::int64_t now_us);
@@ -44,12 +51,17 @@ class MonitorWatch {
   static constexpr std::int64_t kStepsMost = 250;  // across the whole map
 
   void watch_region(const berm_parameters& parameters, bool lanes_open);
+  void note_learned_anew(std::int32_t x_low_mm, std::int32_t y_low_mm, std::int32_t x_high_mm, std::int32_t y_high_mm);
+  // With histograms: sk_histogram_known of the others, where this one may have to ask. Where cells are learned anew while somebody may be about, in lanes
+  // and dig zones, one sensor may have learned him: there his height explains nothing to another, and the scanners are asked alone.
+  std::int32_t known_elsewhere(std::int32_t iy, std::int32_t ix, const Others& others) const;
   // With histograms: what is measured nearer to a cell than half a cell counts for it too, while it is learning.
   void learn_beside(const sk_point& point, std::int64_t now_us);
 
   sk_monitor_rules rules_{};
   sk_monitor monitor_;                           // the accumulated map's heights (leger-1998, section 3.2)
   std::vector<sk_monitor_histogram> histogram_;  // or a histogram per cell (4.2): one, or none; from the start, so that no cycle allocates
+  std::vector<std::uint8_t> learned_anew_;       // of each cell, row by row: it touches a lane or a dig zone
   sk_monitor_cell where_{-1, -1};
   std::int64_t newest_us_ = -1;
 };

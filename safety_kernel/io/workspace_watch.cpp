@@ -27,6 +27,14 @@ void WorkspaceWatch::begin() {
   learned_us_ = lane_learned_us_ = kNotLearning;
 }
 
+MonitorWatch::Others WorkspaceWatch::others_of(int number) const {
+  MonitorWatch::Others others;
+  for (int other = 0; other < monitors(); ++other)
+    if (other != number) others.monitor[others.count++] = &of(other);
+  if (number != kScanners) others.scanners = &scanners_;
+  return others;
+}
+
 sk_point WorkspaceWatch::head(int scanner, std::int64_t time_us, const JointHistory& joints) const {
   const berm_scanner_mount& mount = parameters_.scanner[scanner];
   const double swing = joints.at(time_us).angles.swing, cosine = std::cos(swing), sine = std::sin(swing);
@@ -43,6 +51,7 @@ bool WorkspaceWatch::learning(const sk_point& point) const {
 
 void WorkspaceWatch::take(const ScanBlocks& blocks, const JointHistory& joints, std::int64_t now_us) {
   if (!watched()) return;
+  const MonitorWatch::Others others = others_of(kScanners);
   for (int b = 0; b < blocks.count; ++b) {
     const berm_scan_block& block = blocks.block[b];
     Last& last = last_[block.scanner % BERM_SCANNERS];
@@ -53,7 +62,7 @@ void WorkspaceWatch::take(const ScanBlocks& blocks, const JointHistory& joints, 
       if (block.used[i] == 0) continue;
       const bool follows = last.scanline == block.scanline && last.index + 1 == index;
       if (follows) scanners_.interpolate(last.point, point, MonitorWatch::Over::kEverything, now_us);
-      scanners_.insert(point, now_us);
+      scanners_.insert(point, now_us, others);
       if (space_.kept()) space_.take(from, point, learning(point));
       last = {block.scanline, index, point};
     }
@@ -62,7 +71,7 @@ void WorkspaceWatch::take(const ScanBlocks& blocks, const JointHistory& joints, 
 
 void WorkspaceWatch::take(int lidar, const Vlp16Packet& packet, const JointAngles& joints, std::int64_t now_us) {
   if (!watched() || lidar < 0 || lidar >= lidars_) return;
-  lidar_[lidar].take(packet, joints, now_us, &scanners_);
+  lidar_[lidar].take(packet, joints, now_us, others_of(lidar + 1));
   const LidarReturns& returns = lidar_[lidar].returns();
   for (int i = 0; space_.kept() && i < returns.count; ++i) {
     const LidarReturns::Return& r = returns.hit[i];

@@ -1,7 +1,7 @@
 // The Workspace Monitor in the kernel's cycle (SG-6): the sensors' returns into its maps, the trucks' lanes, and whether the machine must stand.
 //
 // The panning scanners have one monitor, each lidar on the upper body has its own: they see from other places and again after another time, and what
-// one of them sees of a cell explains or excuses nothing that another sees.
+// one of them sees of a cell explains or excuses nothing that another sees, but for histograms in which there is too little of it (SK-WM-68, 71).
 #pragma once
 
 #include <cstdint>
@@ -61,6 +61,7 @@ class WorkspaceWatch {
     std::int32_t index = -2;
     sk_point point{};
   };
+  MonitorWatch::Others others_of(int number) const;
   MonitorWatch& of(int number) { return number == kScanners ? scanners_ : lidar_[number - 1].monitor(); }
   const MonitorWatch& of(int number) const { return number == kScanners ? scanners_ : lidar_[number - 1].monitor(); }
   sk_point head(int scanner, std::int64_t time_us, const JointHistory& joints) const;

@@ -7,7 +7,7 @@
 namespace berm::core_test {
 
 namespace {
-constexpr int kBins = 64, kEnough = 8;
+constexpr int kBins = 64, kEnough = 8, kWell = 255;
 constexpr double kBin = 150.0, kFloor = -5100.0;
 
 bool believed(const ReferenceHistogram::Cell& c) { return c.state != ReferenceHistogram::State::kLearning && c.observed >= kEnough; }
@@ -37,7 +37,8 @@ bool ReferenceHistogram::departs(const ReferenceRules& r, const Cell& c, const C
         heights.insert(heights.end(), static_cast<std::size_t>(points), bin);
     return heights.size();
   };
-  if (c.observed >= kEnough) return as_high(c) <= 1;
+  const bool excused = c.observed < kWell && believed(known) && as_high(known) >= 2;
+  if (c.observed >= kEnough) return as_high(c) <= 1 && !excused;
   const bool over_lines = c.votes >= 3 && z > c.line + r.rise, over_known = believed(known) && as_high(known) <= 1;
   return as_high(c) == 0 && (over_lines || over_known);
 }
@@ -85,7 +86,7 @@ bool ReferenceHistogram::insert(const ReferenceRules& r, const ReferenceHistogra
     for (auto& entry : c.seen) entry.second /= 2;
   ++points;
   for (auto i = c.seen.begin(); i != c.seen.end();) i = i->second == 0 ? c.seen.erase(i) : std::next(i);
-  c.observed = std::min(c.observed + 1, kEnough);
+  c.observed = std::min(c.observed + 1, kWell);
   return false;
 }
 

@@ -22,7 +22,7 @@ class MonitorHistogram : public testing::Test {
   MonitorHistogram() { sk_histogram_begin(h.get()); }
   bool see(int iy, int ix, std::int32_t z_mm, int points = 1) {
     bool departs = false;
-    for (int i = 0; i < points; ++i) departs = sk_histogram_insert(h.get(), h.get(), rules.get(), iy, ix, z_mm, now_us);
+    for (int i = 0; i < points; ++i) departs = sk_histogram_insert(h.get(), SK_NOBODY_KNOWS, rules.get(), iy, ix, z_mm, now_us);
     return departs;
   }
   void ground(std::int32_t z_mm = 0) {
@@ -198,10 +198,12 @@ TEST_F(MonitorHistogram, TheRiseIsOverTheLowSideOfWhatWasSeen) {
 // verifies: SK-WM-68
 TEST_F(MonitorHistogram, WhereTooLittleWasSeenWhatOthersKnowCounts) {
   const auto others = std::make_unique<sk_monitor_histogram>();
-  const auto departs = [&](std::int32_t z_mm) { return sk_histogram_insert(h.get(), others.get(), rules.get(), 50, 50, z_mm, now_us); };
+  const auto departs = [&](std::int32_t z_mm) {
+    return sk_histogram_insert(h.get(), sk_histogram_known(others.get(), 50, 50), rules.get(), 50, 50, z_mm, now_us);
+  };
   sk_histogram_begin(others.get());
   settle();
-  for (int i = 0; i < SK_HISTOGRAM_ENOUGH; ++i) sk_histogram_insert(others.get(), others.get(), rules.get(), 50, 50, 0, now_us);
+  for (int i = 0; i < SK_HISTOGRAM_ENOUGH; ++i) sk_histogram_insert(others.get(), SK_NOBODY_KNOWS, rules.get(), 50, 50, 0, now_us);
   EXPECT_FALSE(departs(900)) << "the others are learning";
   sk_histogram_begin(h.get());
   settle();
@@ -219,6 +221,48 @@ TEST_F(MonitorHistogram, WhereTooLittleWasSeenWhatOthersKnowCounts) {
   see(50, 50, 1000, SK_HISTOGRAM_ENOUGH);
   settle();
   EXPECT_FALSE(departs(1000)) << "enough of its own";
+}
+
+// Nine points of one beam that met the foot of a slope, and one of its top, were all that was known of a cell; the next at its top were somebody.
+// verifies: SK-WM-71
+TEST_F(MonitorHistogram, WhereNotManyWereSeenWhatOthersKnowExplains) {
+  settle();
+  see(50, 50, -1500, 9);
+  const int high = 4;  // bin of -4500
+  const auto bin_of = [](std::int32_t z_mm) { return (z_mm - SK_HISTOGRAM_FLOOR_MM) / SK_HISTOGRAM_BIN_MM; };
+  const auto departs = [&](std::int32_t z_mm, std::int32_t known) { return sk_histogram_insert(h.get(), known, rules.get(), 50, 50, z_mm, now_us); };
+  EXPECT_TRUE(departs(-800, SK_NOBODY_KNOWS));
+  EXPECT_TRUE(departs(-800, high)) << "known lower";
+  EXPECT_TRUE(departs(-800, bin_of(-800 - kHeightThreshold))) << "its bin begins lower than a rise below the point";
+  EXPECT_FALSE(departs(-800, bin_of(-800 - kHeightThreshold) + 1));
+  EXPECT_FALSE(departs(-800, bin_of(-300)));
+  EXPECT_TRUE(departs(600, bin_of(-300))) << "higher than any of them knows";
+  see(50, 50, -1500, SK_HISTOGRAM_WELL);
+  EXPECT_EQ(h->observed[50][50], static_cast<std::uint32_t>(SK_HISTOGRAM_WELL));
+  EXPECT_TRUE(departs(-800, bin_of(-300))) << "many of its own";
+}
+
+// verifies: SK-WM-71
+TEST_F(MonitorHistogram, WhatIsKnownOfACellIsTheSecondHighest) {
+  const auto known = [this](int iy = 50, int ix = 50) { return sk_histogram_known(h.get(), iy, ix); };
+  settle();
+  see(50, 50, 0, SK_HISTOGRAM_ENOUGH - 1);
+  EXPECT_EQ(known(), SK_NOBODY_KNOWS) << "too little";
+  see(50, 50, 0);
+  EXPECT_EQ(known(), 34);
+  sk_histogram_begin(h.get());
+  see(50, 50, 0, SK_HISTOGRAM_ENOUGH);
+  see(50, 50, 1500);
+  EXPECT_EQ(known(), SK_NOBODY_KNOWS) << "learning";
+  settle();
+  EXPECT_EQ(known(), 34) << "a stray one above it";
+  sk_histogram_begin(h.get());
+  see(50, 50, 0, SK_HISTOGRAM_ENOUGH);
+  see(50, 50, 1500);
+  see(50, 50, 900);
+  settle();
+  EXPECT_EQ(known(), 40);
+  for (const auto& [iy, ix] : {std::pair{-1, 50}, {50, -1}, {SK_MAP_CELLS, 50}, {50, SK_MAP_CELLS}}) EXPECT_EQ(known(iy, ix), SK_NOBODY_KNOWS);
 }
 
 // verifies: SK-WM-62, SK-WM-63
@@ -358,7 +402,7 @@ void expect_same(const sk_monitor_histogram& h, const ReferenceHistogram& refere
 
 bool lower_half(ReferenceHistogram::Place at) { return at.first < 52; }
 
-// verifies: SK-WM-60, SK-WM-61, SK-WM-62, SK-WM-63, SK-WM-64, SK-WM-65, SK-WM-68
+// verifies: SK-WM-60, SK-WM-61, SK-WM-62, SK-WM-63, SK-WM-64, SK-WM-65, SK-WM-68, SK-WM-71
 TEST_F(MonitorHistogram, RandomSequencesAreAsTheReferenceHasThem) {
   std::printf("seed %llu\n", static_cast<unsigned long long>(kSeed));
   std::mt19937_64 random(kSeed);
@@ -402,7 +446,7 @@ TEST_F(MonitorHistogram, RandomSequencesAreAsTheReferenceHasThem) {
         if (below(300) == 0) z = below(2) == 0 ? -6000 : 7000;
         if (below(3000) == 0) z = below(2) == 0 ? std::numeric_limits<std::int32_t>::min() : std::numeric_limits<std::int32_t>::max();
         if (sequence % 2 == 0 && below(3) == 0) {  // what the others see
-          sk_histogram_insert(others.get(), others.get(), rules.get(), iy, ix, z, now_us);
+          sk_histogram_insert(others.get(), SK_NOBODY_KNOWS, rules.get(), iy, ix, z, now_us);
           reference_of_others.insert(r, reference_of_others, {iy, ix}, z, now_us);
           continue;
         }
@@ -410,7 +454,7 @@ TEST_F(MonitorHistogram, RandomSequencesAreAsTheReferenceHasThem) {
           sk_histogram_settle(others.get(), kLow, kLow, kHigh, kHigh);
           reference_of_others.settle(kLow, kLow, kHigh, kHigh);
         }
-        const bool departs = sk_histogram_insert(h.get(), others.get(), rules.get(), iy, ix, z, now_us);
+        const bool departs = sk_histogram_insert(h.get(), sk_histogram_known(others.get(), iy, ix), rules.get(), iy, ix, z, now_us);
         ASSERT_EQ(departs, reference.insert(r, reference_of_others, {iy, ix}, z, now_us)) << sequence << " " << turn << ": " << z << " mm";
         departed += departs ? 1 : 0;
         left += was && !somebody(iy, ix) ? 1 : 0;
