@@ -120,11 +120,6 @@ void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
     moved_ = false;
     back_way_ = 0.0;
   }
-  if (o.has_place() && by_ground(o.stop_reason)) {
-    blocked_x_ = o.blocked_x;
-    blocked_y_ = o.blocked_y;
-    back_way_ = std::copysign(1.0, wrapped(o.angle[swing] - o.blocked_bearing));
-  }
   back_ = Back::none;
   handed_back_ = false;
   if (o.kernel_state == BERM_STATE_STOPPING || o.kernel_state == BERM_STATE_STOPPED || o.kernel_state == BERM_STATE_FAULT)
@@ -187,6 +182,11 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
   advice.in_charge = true;
   if (!stopped_) begin_stop(o, log);
   if (o.kernel_state == BERM_STATE_STOPPING) stopped_at_ = o.angle;
+  if (o.has_place() && by_ground(o.stop_reason)) {  // of the newest reason: dust may have stopped it, and then the ground keeps it
+    blocked_x_ = o.blocked_x;
+    blocked_y_ = o.blocked_y;
+    back_way_ = std::copysign(1.0, wrapped(o.angle[swing] - o.blocked_bearing));
+  }
   if (waits_for_reset_ && !o.latched) {  // he has reset, and what keeps the machine now is another trouble
     told_.clear();
     waits_for_reset_ = false;

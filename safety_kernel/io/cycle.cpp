@@ -270,7 +270,7 @@ void Cycle::order(const CycleInputs& in, FrameList& frames) {
   orders.heartbeat.enable = permit_.heartbeat_enable;
   orders.heartbeat.stop_category = stop_.category;
   orders.heartbeat.kernel_state = contract_state(stop_.code);
-  orders.heartbeat.stop_reason = stop_.reason;
+  orders.heartbeat.stop_reason = published_reason();
   orders.heartbeat.cycle = static_cast<std::uint16_t>(in.cycle & 0xFFFFU);
   output_.make(orders, frames);
 }

@@ -18,6 +18,8 @@ std::uint8_t contract_state(std::uint16_t code) {
 }
 
 std::uint8_t Cycle::published_reason() const {
+  // The stop logic keeps the first reason. When that is gone and another keeps the machine, who waits for the first waits for ever.
+  if (stop_.code == SK_STATE_STOPPED && !stop_.latched && hold_reason_ != BERM_STOP_NONE) return hold_reason_;
   if (stop_.reason != BERM_STOP_NONE || stop_.code != SK_STATE_STANDBY) return stop_.reason;
   // In STANDBY nothing is stopped, but the app should know why RUN does not begin.
   return app_.heard ? hold_reason_ : static_cast<std::uint8_t>(BERM_STOP_NONE);

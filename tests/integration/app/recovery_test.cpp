@@ -123,6 +123,21 @@ TEST(Recovery, WaitsUntilTheDustHasSettled) {
   EXPECT_FALSE(advice.moved);
 }
 
+// The bucket in the face while dust hid the ground under it: when the dust has settled the ground keeps the machine.
+TEST(Recovery, RetreatsFromTheGroundThatKeepsItAfterTheDust) {
+  Recovery recovery(berm::app_bench::zx200());
+  const ProgressLog log(-1);
+  for (double t = 0.0; t < 40.0; t += 0.01) ASSERT_EQ(recovery.step(stopped(t, BERM_STOP_DUST), log).velocity, Joints{});
+  bool raised = false, swung_away = false;
+  for (double t = 40.0; t < 60.0; t += 0.01) {
+    const Joints v = recovery.step(stopped(t, BERM_STOP_UNKNOWN_GROUND), log).velocity;
+    raised = raised || v[boom] > 0.0;
+    swung_away = swung_away || v[swing] < 0.0;
+  }
+  EXPECT_TRUE(raised);
+  EXPECT_TRUE(swung_away);
+}
+
 TEST(Recovery, CallsTheOperatorForABlockedSensorAtOnce) {
   Recovery recovery(berm::app_bench::zx200());
   const ProgressLog log(-1);

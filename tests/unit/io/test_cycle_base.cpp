@@ -83,6 +83,30 @@ TEST_F(CycleBase, TheOperatorHasTheMapLearnedAnewAtStandstill) {
   EXPECT_GT(seen_cells(), 100);
 }
 
+// Stopped for one thing, kept by another: the ground has been forgotten while the app was silent.
+// verifies: SK-CY-18
+TEST_F(CycleBase, AHeldMachineShowsWhatHoldsItNow) {
+  run();
+  rig.wanted_urad_s[1] = 50000;
+  rig.steps(20);
+  rig.app_talks = false;
+  rig.wanted_urad_s[1] = 0;
+  rig.machine.relearn_key = true;
+  rig.steps(30);
+  ASSERT_EQ(rig.state().kernel_state, BERM_STATE_STOPPED);
+  EXPECT_EQ(rig.state().stop_reason, BERM_STOP_REQUEST_HOLD);
+  rig.app_talks = true;
+  rig.steps(10);
+  ASSERT_EQ(seen_cells(), 0);
+  EXPECT_EQ(rig.state().kernel_state, BERM_STATE_STOPPED);
+  EXPECT_EQ(rig.state().stop_reason, BERM_STOP_UNKNOWN_GROUND);
+  EXPECT_EQ(rig.machine.heartbeat().stop_reason, BERM_STOP_UNKNOWN_GROUND) << "what the operator's panel shows";
+  EXPECT_EQ(rig.state().stop_count[BERM_STOP_REQUEST_HOLD], 1U);
+  EXPECT_EQ(rig.state().stop_count[BERM_STOP_UNKNOWN_GROUND], 0U) << "one stop";
+  rig.machine.relearn_key = false;
+  EXPECT_TRUE(rig.reach_state(BERM_STATE_RUN, kStartLimit));
+}
+
 // verifies: SK-BM-10
 TEST_F(CycleBase, TurningTracksStopTheMachine) {
   run();
