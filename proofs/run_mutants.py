@@ -22,6 +22,7 @@ AT_A_TIME = 2
 def arguments():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     p.add_argument("--only", metavar="ID", action="append", help="this mutant only (may be repeated)")
+    p.add_argument("--texts", action="store_true", help="prove nothing: only whether the text that each changes stands in the core, once")
     p.add_argument("--json", metavar="FILE", help='write {"mutants","killed","survived","not_run","results":[{"id","outcome","unproved"}]}')
     p.add_argument("--timeout", metavar="S", type=int, default=10, help="seconds for each prover and goal (default 10)")
     a = p.parse_args()
@@ -56,6 +57,12 @@ def prove_function(core, unit, function, env, timeout_s):
     return wp_session.prove(core, Path(unit).stem, env, timeout_s, core.parent, ["-wp-fct", function])
 
 
+def places(m, core):
+    """How often the text that the mutant changes stands in the core."""
+    path = core / m["file"]
+    return path.read_text().count(m["old"]) if path.exists() else 0
+
+
 def run_control(pair, env, timeout_s, folder):
     unit, function = pair
     out = prove_function(copy_of_core(folder, f"control-{Path(unit).stem}-{function}"), unit, function, env, timeout_s)
@@ -68,11 +75,10 @@ def run_mutant(m, controls, env, timeout_s, folder):
     if controls[(m["unit"], m["function"])]:
         return "NOT RUN", [controls[(m["unit"], m["function"])]]
     core = copy_of_core(folder, f"mutant-{m['id']}")
+    if places(m, core) != 1 or m["old"] == m["new"]:
+        return "NOT RUN", [f"the text to change stands {places(m, core)} times in {m['file']}"]
     path = core / m["file"]
-    text = path.read_text() if path.exists() else ""
-    if text.count(m["old"]) != 1 or m["old"] == m["new"]:
-        return "NOT RUN", [f"the text to change stands {text.count(m['old'])} times in {m['file']}"]
-    path.write_text(text.replace(m["old"], m["new"]))
+    path.write_text(path.read_text().replace(m["old"], m["new"]))
     out = prove_function(core, m["unit"], m["function"], env, timeout_s)
     if out.goals is None or out.errors:
         return "NOT RUN", out.errors
@@ -81,6 +87,11 @@ def run_mutant(m, controls, env, timeout_s, folder):
 
 def main():
     a = arguments()
+    if a.texts:
+        lost = [m for m in load(a.only) if places(m, wp_session.CORE) != 1]
+        for m in lost:
+            print(f"{m['id']}: its text stands {places(m, wp_session.CORE)} times in {m['file']}")
+        return 1 if lost else 0
     missing = wp_session.missing_tools()
     if missing:
         sys.stderr.write(f"run_mutants: not installed: {', '.join(missing)}\n")

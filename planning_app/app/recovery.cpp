@@ -104,12 +104,12 @@ bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
 void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
   const bool here = o.has_place() && std::hypot(o.blocked_x - blocked_x_, o.blocked_y - blocked_y_) < same_place;
   const bool again = since_s_ >= 0.0 && (!handed_back_ || o.time_s - handed_back_s_ < (here ? same_within : again_within));
-  const bool retreat_stopped = retreating(o) && retreat_ != Joints{};
-  const bool wavers = !handed_back_ && !retreat_stopped && o.time_s - running_s_ < wavering;
+  const bool in_retreat = retreating(o), moved_in_it = in_retreat && retreat_ != Joints{};
+  const bool wavers = !handed_back_ && !moved_in_it && o.time_s - running_s_ < wavering;
   stopped_ = true;
   if (!wavers) stop_s_ = o.time_s;
   stopped_at_ = o.angle;
-  if (retreating(o)) retreat_ = o.stop_reason == BERM_STOP_JOINT_RANGE ? retreat(o, 0.0) : Joints{};  // it led nowhere: not the same again
+  if (in_retreat) retreat_ = o.stop_reason == BERM_STOP_JOINT_RANGE ? retreat(o, 0.0) : Joints{};  // it led nowhere: not the same again
   pause_s_ = again ? std::clamp(2.0 * pause_s_, shortest_pause, longest_pause) : 0.0;
   if (!again) {
     since_s_ = o.time_s;

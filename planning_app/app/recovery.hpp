@@ -1,7 +1,8 @@
 // What to do while the kernel does not permit motion: hold; and when it is the ground that stopped the machine and stays blocked, look again
 // with both scanners and retreat slowly, which the kernel permits when the slow motion's own box is clear. Where standing is permitted and moving is
 // not, attempts follow one another at growing pauses; then the implements swing back, for they hide what stands behind and beside them and the map
-// keeps what it once held there, and the scanners look from there. What none of this mends is the operator's: who is told what to do, once for each thing that keeps it.
+// keeps what it once held there, and the scanners look from there. What none of this mends is the operator's: who is told what to do, once for
+// each thing that keeps it.
 #pragma once
 
 #include <string_view>

@@ -75,11 +75,10 @@ void MonitorWatch::begin() {
 std::int32_t MonitorWatch::known_elsewhere(std::int32_t iy, std::int32_t ix, const Others& others) const {
   std::int32_t known = SK_NOBODY_KNOWS;
   if (!sk_is_in_map(iy, ix)) return known;
-  const std::uint32_t observed = histogram_.front().observed[iy][ix];
-  if (learned_anew_[static_cast<std::size_t>(iy * SK_MAP_CELLS + ix)] != 0)
-    return observed < SK_HISTOGRAM_ENOUGH && others.scanners != nullptr ? sk_histogram_known(others.scanners->histogram(), iy, ix) : known;
-  if (observed >= SK_HISTOGRAM_WELL) return known;
-  for (int i = 0; i < others.count; ++i) known = std::max(known, sk_histogram_known(others.monitor[i]->histogram(), iy, ix));
+  const bool anew = learned_anew_[static_cast<std::size_t>(iy * SK_MAP_CELLS + ix)] != 0;
+  if (histogram_.front().observed[iy][ix] >= (anew ? SK_HISTOGRAM_ENOUGH : SK_HISTOGRAM_WELL)) return known;
+  for (int i = 0; i < others.count; ++i)
+    if (!anew || others.monitor[i] == others.scanners) known = std::max(known, sk_histogram_known(others.monitor[i]->histogram(), iy, ix));
   return known;
 }
 

@@ -1,14 +1,12 @@
 // Histograms of several sensors: what one knows of a cell stands for what another has seen too little of, and no wrong height goes from one to the next.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
-#include <vector>
 
-#include "io/lidar_intake.hpp"
 #include "io/monitor_watch.hpp"
-#include "io/workspace_watch.hpp"
-#include "lidar_scene.hpp"
+#include "lidar_ring.hpp"
 #include "watched_ring.hpp"
 
 namespace berm::kernel::test {
@@ -21,11 +19,17 @@ class MonitorOthersTest : public testing::Test {
  protected:
   MonitorOthersTest() {
     parameters.workspace_histogram = 1;
+    begin();
+  }
+  // All of them, by the parameters as they are now, with nothing known and nothing to learn.
+  void begin() {
     for (auto& monitor : monitors) {
       monitor = std::make_unique<MonitorWatch>(parameters, parameters.workspace_wait_us, parameters.workspace_period_us);
-      monitor->settle({SK_MAP_ORIGIN_MM, SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM});
+      monitor->change_lanes(parameters, false);  // a truck stands there, and the lane is watched
+      settle(*monitor);
     }
   }
+  static void settle(MonitorWatch& monitor) { monitor.settle({SK_MAP_ORIGIN_MM, SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM}); }
   // Whether the machine must stand for what this sensor saw.
   bool see(std::size_t number, std::int32_t z_mm, int points) {
     MonitorWatch::Others others;
@@ -74,37 +78,36 @@ TEST_F(MonitorOthersTest, WhoHasSeenManyNeedsNoOther) {
 // Run through while the bucket was near, a lidar had learned a child of a dig zone's cells: to the scanners, which knew the ground alone, he was excused.
 // verifies: SK-WM-71
 TEST_F(MonitorOthersTest, WhereCellsAreLearnedAnewNobodyIsExcused) {
-  const auto excused = [this] {
-    for (auto& monitor : monitors) {
-      monitor = std::make_unique<MonitorWatch>(parameters, parameters.workspace_wait_us, parameters.workspace_period_us);
-      monitor->change_lanes(parameters, false);  // a truck stands there, and the lane is watched
-      monitor->settle({SK_MAP_ORIGIN_MM, SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM});
-    }
-    EXPECT_FALSE(see(2, kFoot + 1000, 20));
-    EXPECT_FALSE(see(0, kFoot, 10));
-    return !see(0, kFoot + 1000, 3);
+  // One learned somebody, another the ground, and then that one meets him.
+  const auto excused = [this](std::size_t learner, std::size_t other) {
+    begin();
+    EXPECT_FALSE(see(learner, kFoot + 1000, 20));
+    EXPECT_FALSE(see(other, kFoot, 10));
+    return !see(other, kFoot + 1000, 3);
   };
-  EXPECT_TRUE(excused());
+  const auto expect = [&excused](bool expected, const char* where) {
+    EXPECT_EQ(excused(2, 0), expected) << where << ": the scanners meet whom a lidar learned";
+    EXPECT_EQ(excused(0, 1), expected) << where << ": the other way about";
+    EXPECT_EQ(excused(1, 2), expected) << where << ": a lidar, whom the other learned";
+  };
+  expect(true, "elsewhere");
   parameters.dig_zone[0] = {kX + 200, kY - 500, kX + 900, kY + 500, -3000, 1000};
-  EXPECT_FALSE(excused()) << "the cell touches the zone";
+  expect(false, "the cell touches a dig zone");
   parameters.dig_zones = 0;
   parameters.lanes = 1;
   parameters.lane[0] = {kX - 900, kY - 500, kX, kY + 500};
-  EXPECT_FALSE(excused());
+  expect(false, "the cell touches a lane");
 }
 
 // verifies: SK-WM-68
 TEST_F(MonitorOthersTest, WhereCellsAreLearnedAnewALidarAsksTheScannersAlone) {
   parameters.dig_zone[0] = {kX - 500, kY - 500, kX + 500, kY + 500, -3000, 1000};
-  for (auto& monitor : monitors) {
-    monitor = std::make_unique<MonitorWatch>(parameters, parameters.workspace_wait_us, parameters.workspace_period_us);
-    monitor->settle({SK_MAP_ORIGIN_MM, SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM});
-  }
+  begin();
   EXPECT_FALSE(see(2, kFoot + 1000, 20)) << "it learned somebody";
   EXPECT_FALSE(see(1, kFoot + 1000, 3)) << "nobody it asks knows better";
   EXPECT_FALSE(see(0, kFoot, 20)) << "it asks nobody";
   monitors[1]->begin();
-  monitors[1]->settle({SK_MAP_ORIGIN_MM, SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM});
+  settle(*monitors[1]);
   EXPECT_TRUE(see(1, kFoot + 1000, 3));
 }
 
@@ -112,10 +115,7 @@ TEST_F(MonitorOthersTest, WhereCellsAreLearnedAnewALidarAsksTheScannersAlone) {
 // verifies: SK-WM-68, SK-WM-71
 TEST_F(MonitorOthersTest, WhoStandsWhereOneKnowsTheGroundIsTheGroundOfNone) {
   for (const std::size_t knows : {0U, 1U, 2U}) {
-    for (auto& monitor : monitors) {
-      monitor->begin();
-      monitor->settle({SK_MAP_ORIGIN_MM, SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM});
-    }
+    begin();
     EXPECT_FALSE(see(knows, kFoot, 20));
     for (std::size_t number = 0; number < monitors.size(); ++number) {
       EXPECT_TRUE(see(number, kFoot + 1100, 20)) << number << ", known to " << knows;
@@ -124,48 +124,67 @@ TEST_F(MonitorOthersTest, WhoStandsWhereOneKnowsTheGroundIsTheGroundOfNone) {
   }
 }
 
-// The whole of the watch: lidars that know level ground, and panning scanners that see somebody where they never saw the ground.
-// verifies: SK-WM-68
-TEST_F(MonitorOthersTest, TheScannersHaveTheLidarsGround) {
-  parameters.workspace_learn_us = 1'000'000;
-  const auto watch = std::make_unique<WorkspaceWatch>(parameters);
-  LidarScene scene;
-  LidarSource source[] = {{parameters.lidar[0], false}, {parameters.lidar[1], false}};
-  LidarIntake intake(parameters);
-  JointHistory joints;
-  const auto map = std::make_unique<sk_height_map>();
-  sk_map_clear(map.get());
-  OwnShadow shadow{1000000};
-  const std::int32_t pose[4] = {0, static_cast<std::int32_t>(scene.own.boom_rad * 1e6), static_cast<std::int32_t>(scene.own.stick_rad * 1e6),
-                                static_cast<std::int32_t>(scene.own.bucket_rad * 1e6)};
-  std::int64_t time_us = 0;
-  for (int cycle = 1; cycle <= 150; ++cycle) {
-    time_us = cycle * 10'000;
-    joints.push(time_us, pose);
-    for (int i = 0; i < 2; ++i) {
-      std::vector<LidarSource::Packet> packets;
-      source[i].until(cycle * 0.01, scene, [](double) { return 0.0; }, packets);
-      for (const LidarSource::Packet& p : packets) {
-        ASSERT_TRUE(intake.take(i, p.data(), p.size(), joints, time_us, *map, shadow));
-        watch->take(i, intake.packet(), joints.at(intake.middle_us(i)).angles, time_us);
-      }
-    }
-    ASSERT_FALSE(watch->step(time_us));
+// The whole of the watch: two lidars over level ground, and the panning scanners, of which one return is told at a time.
+class WatchedRingTest : public MonitorOthersTest {
+ protected:
+  static constexpr int kRow = 60;  // a row of cells to the left of the machine
+  void learn() {
+    parameters.workspace_learn_us = 1'000'000;
+    ring = std::make_unique<Ring>(parameters);
+    while (ring->time_s() < 0.9) ASSERT_FALSE(ring->step()) << ring->where();
   }
-  // A cell that a ring of the lidars meets.
-  const sk_monitor_histogram& lidar = *watch->histogram(1);
-  sk_monitor_cell met{-1, -1};
-  for (int ix = 0; ix < SK_MAP_CELLS && met.ix < 0; ++ix)
-    if (lidar.observed[60][ix] >= SK_HISTOGRAM_ENOUGH && watch->rules(0).watched[60][ix] != 0) met = {60, ix};
-  ASSERT_GE(met.ix, 0);
-  ScanBlocks blocks{};
-  blocks.count = 1;
-  blocks.block[0].count = blocks.block[0].used[0] = 1;
-  blocks.block[0].point_mm[0][0] = SK_MAP_ORIGIN_MM + SK_CELL_MM * met.ix + SK_CELL_MM / 2;
-  blocks.block[0].point_mm[0][1] = SK_MAP_ORIGIN_MM + SK_CELL_MM * met.iy + SK_CELL_MM / 2;
-  blocks.block[0].point_mm[0][2] = 1100;
-  for (int i = 0; i < 3; ++i) watch->take(blocks, joints, time_us);
-  EXPECT_TRUE(watch->step(time_us));
+  void settle_all() {
+    while (ring->time_s() < 1.5) ASSERT_FALSE(ring->step()) << ring->where();
+  }
+  // The farthest watched column with so many points of either lidar, its neighbours watched too; -1: none.
+  int column(bool met) const {
+    for (int ix = SK_MAP_CELLS - 2; ix > SK_MAP_CELLS / 2; --ix) {
+      const std::uint32_t most = std::max(ring->watch.histogram(1)->observed[kRow][ix], ring->watch.histogram(2)->observed[kRow][ix]);
+      if (ring->watch.rules(0).watched[kRow][ix + 1] != 0 && (met ? most >= SK_HISTOGRAM_ENOUGH : most == 0)) return ix;
+    }
+    return -1;
+  }
+  static std::int32_t middle(int index) { return SK_MAP_ORIGIN_MM + SK_CELL_MM * index + SK_CELL_MM / 2; }
+  void scanners_see(int iy, int ix, std::int32_t z_mm, int points) {
+    ScanBlocks blocks{};
+    blocks.count = 1;
+    blocks.block[0].count = blocks.block[0].used[0] = 1;
+    blocks.block[0].point_mm[0][0] = middle(ix);
+    blocks.block[0].point_mm[0][1] = middle(iy);
+    blocks.block[0].point_mm[0][2] = z_mm;
+    for (int i = 0; i < points; ++i) ring->watch.take(blocks, ring->joints, ring->cycle * 10'000);
+  }
+  std::unique_ptr<Ring> ring;
+};
+
+// verifies: SK-WM-68
+TEST_F(WatchedRingTest, TheScannersHaveTheLidarsGround) {
+  learn();
+  settle_all();
+  const int ix = column(true);
+  ASSERT_GE(ix, 0);
+  scanners_see(kRow, ix, 1100, 3);
+  EXPECT_TRUE(ring->watch.step(ring->cycle * 10'000));
+}
+
+// What stands on ground that the scanners know to lie lower than the lidars' lines is no rise over those lines.
+// verifies: SK-WM-68
+TEST_F(WatchedRingTest, TheLidarsHaveTheScannersGroundInDigZonesToo) {
+  for (const bool known : {true, false}) {
+    for (const bool zone : {false, true}) {
+      if (zone) parameters.dig_zone[0] = {SK_MAP_ORIGIN_MM, SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM, -3000, 1000};
+      learn();
+      const int ix = column(false);
+      ASSERT_GE(ix, 0);
+      for (int y = kRow - 1; known && y <= kRow + 1; ++y)
+        for (int x = ix - 1; x <= ix + 1; ++x) scanners_see(y, x, -1500, SK_HISTOGRAM_ENOUGH);
+      settle_all();
+      ring->scene.people = {{middle(ix) * 1e-3 + 0.15, middle(kRow) * 1e-3, 0.25, 0.4, ring->time_s()}};
+      bool stops = false;
+      for (int i = 0; i < 50 && !stops; ++i) stops = ring->step();
+      EXPECT_EQ(stops, known) << "in a dig zone: " << zone;
+    }
+  }
 }
 
 }  // namespace
