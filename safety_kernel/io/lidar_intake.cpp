@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "core/scanline_raster.h"
 
@@ -30,7 +31,7 @@ bool LidarIntake::accept(Mount& mount, const std::uint8_t* bytes, std::int64_t n
   return true;
 }
 
-void LidarIntake::insert(const Mount& mount, const Vlp16Return& hit, const Swung& swung, std::int64_t now_us, sk_height_map& map, OwnShadow& shadow) {
+void LidarIntake::insert(const Mount& mount, const Vlp16Return& hit, const Firings& firings, const Swung& swung, std::int64_t now_us, sk_height_map& map, OwnShadow& shadow) {
   const Vlp16Elevation elevation = vlp16_elevation(hit.channel);
   const double range_m = hit.range_mm * 1e-3, level_m = range_m * elevation.cosine;
   const double aside_rad = std::max(hit.spread_mdeg, kTakenMdeg / 2) * kVlp16RadPerMdeg;
@@ -46,7 +47,42 @@ void LidarIntake::insert(const Mount& mount, const Vlp16Return& hit, const Swung
     shadow.keep(OwnShadow::kLidar, lidar_base_point(mount.place, swung.cosine, swung.sine), from, now_us, map);
     return;
   }
+  if (spurious(mount, hit, firings, swung)) return;
   if (sk_raster_segment(&map, &from, &to, now_us, parameters_.generation_us) > 0) ++points_;
+}
+
+// Of a packet's returns the one of each firing and laser.
+struct LidarIntake::Firings {
+  explicit Firings(const Vlp16Packet& packet) {
+    for (int i = 0; i < packet.count; ++i) of[packet.point[i].firing % kMost][packet.point[i].channel % kVlp16Channels] = &packet.point[i];
+  }
+  const Vlp16Return* at(int firing, int channel) const {
+    return firing >= 0 && firing < kMost && channel >= 0 && channel < kVlp16Channels ? of[firing][channel] : nullptr;
+  }
+  static constexpr int kMost = kVlp16MaxPoints / kVlp16Channels;
+  const Vlp16Return* of[kMost][kVlp16Channels] = {};
+};
+
+int LidarIntake::supports(const Mount& mount, const Vlp16Return& hit, const Firings& firings, int firing, int channel, const Swung& swung) const {
+  const Vlp16Return* other = firings.at(firing, channel);
+  if (other == nullptr || std::abs(other->range_mm - hit.range_mm) > parameters_.spurious_range_mm) return 0;
+  const std::uint32_t turned_mdeg = (other->azimuth_mdeg + kVlp16TurnMdeg - hit.azimuth_mdeg) % kVlp16TurnMdeg;
+  if (std::min(turned_mdeg, kVlp16TurnMdeg - turned_mdeg) > kBesideMdeg) return 0;
+  const Vlp16Elevation elevation = vlp16_elevation(other->channel);
+  const double range_m = other->range_mm * 1e-3, level_m = range_m * elevation.cosine;
+  const double heading = -static_cast<double>(other->azimuth_mdeg) * kVlp16RadPerMdeg;
+  const Eigen::Vector3d point = mount.place + mount.turn * Eigen::Vector3d(level_m * std::cos(heading), level_m * std::sin(heading), range_m * elevation.sine);
+  return self_.is_own(point, swung.pose) ? 0 : 1;
+}
+
+// The packet before and the next are not waited for: at an end of the packet the two firings inwards are asked.
+bool LidarIntake::spurious(const Mount& mount, const Vlp16Return& hit, const Firings& firings, const Swung& swung) const {
+  const int first = hit.firing == 0 ? 1 : -1, second = hit.firing == packet_.firings - 1 ? -2 : hit.firing == 0 ? 2 : 1;
+  int supporters = supports(mount, hit, firings, hit.firing + first, hit.channel, swung);
+  supporters += supports(mount, hit, firings, hit.firing + second, hit.channel, swung);
+  for (const int beside : {-1, 1})
+    if (supporters < kSupporters) supporters += supports(mount, hit, firings, hit.firing, hit.channel + beside, swung);
+  return supporters < kSupporters;
 }
 
 bool LidarIntake::take(int lidar, const std::uint8_t* bytes, std::size_t size, const JointHistory& joints, std::int64_t now_us, sk_height_map& map,
@@ -56,9 +92,10 @@ bool LidarIntake::take(int lidar, const std::uint8_t* bytes, std::size_t size, c
   if (!accept(mount, bytes, now_us)) return false;
   const JointAngles angles = joints.at(now_us).angles;
   const Swung swung{self_.pose(angles), std::cos(angles.swing), std::sin(angles.swing)};
+  const Firings firings(packet_);
   for (int i = 0; i < packet_.count; ++i) {
     const Vlp16Return& hit = packet_.point[i];
-    if (hit.azimuth_mdeg % kTakenMdeg < kVlp16FiringMdeg) insert(mount, hit, swung, now_us, map, shadow);
+    if (hit.azimuth_mdeg % kTakenMdeg < kVlp16FiringMdeg) insert(mount, hit, firings, swung, now_us, map, shadow);
   }
   return true;
 }

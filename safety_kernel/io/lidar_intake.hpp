@@ -1,6 +1,7 @@
 // Packets of the lidars on the upper body (VLP-16, the parameter block's `lidar`) into the height map, and whether each is alive.
 //
 // They are for the ground near the machine, round the tail: farther returns are left to the panning scanners, and of the firings every eighth is taken.
+// A return that too few of those round it support is spurious (dust, an outlier): where the implements hide the ground from the scanners it would stay.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,6 +23,8 @@ class LidarIntake {
   static constexpr std::uint32_t kTakenMdeg = 1600;   // of the turn one firing is taken, and stands for all of it
   static constexpr double kFarthestM = 8.0;           // from the swing axis
   static constexpr std::uint32_t kAheadMaxUs = 1000000;
+  static constexpr std::uint32_t kBesideMdeg = 1000;  // firings farther apart are no neighbours
+  static constexpr int kSupporters = 2;               // of the returns round it
   static constexpr std::int64_t kLateMaxUs = 100000;  // more than the one that came with the least delay
 
   explicit LidarIntake(const berm_parameters& parameters);
@@ -48,8 +51,12 @@ class LidarIntake {
     ImplementPose pose;
     double cosine, sine;  // of the swing
   };
+  struct Firings;
+  // A return of the firing of that number and that laser, as far away as hit and not on the own machine. 1 or 0, to be counted.
+  int supports(const Mount& mount, const Vlp16Return& hit, const Firings& firings, int firing, int channel, const Swung& swung) const;
+  bool spurious(const Mount& mount, const Vlp16Return& hit, const Firings& firings, const Swung& swung) const;
   bool accept(Mount& mount, const std::uint8_t* bytes, std::int64_t now_us) const;
-  void insert(const Mount& mount, const Vlp16Return& hit, const Swung& swung, std::int64_t now_us, sk_height_map& map, OwnShadow& shadow);
+  void insert(const Mount& mount, const Vlp16Return& hit, const Firings& firings, const Swung& swung, std::int64_t now_us, sk_height_map& map, OwnShadow& shadow);
 
   const berm_parameters& parameters_;
   SelfFilter self_;

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kFarthestM = 22.0;             // from the swing axis: beyond the map's corners
 constexpr double kIntoMm = 100.0;               // less than half of a child's thickness
-constexpr std::uint32_t kTurnMdeg = 360000;
 constexpr double kBeyondMapMm = 15300.0;        // where lines end that leave the map
 
 // The line's end, brought in to where it leaves the map.
@@ -33,7 +32,7 @@ sk_point farther(const sk_point& head, const sk_point& met) {
 }
 
 // Whether no taken firing between them is missing.
-bool follow(std::uint32_t from_mdeg, std::uint32_t to_mdeg) { return (to_mdeg + kTurnMdeg - from_mdeg) % kTurnMdeg <= LidarWatch::kGapMdeg; }
+bool follow(std::uint32_t from_mdeg, std::uint32_t to_mdeg) { return (to_mdeg + kVlp16TurnMdeg - from_mdeg) % kVlp16TurnMdeg <= LidarWatch::kGapMdeg; }
 
 }  // namespace
 
@@ -71,7 +70,7 @@ void LidarWatch::see(const Vlp16Return* hit, int count, const Pose& pose, Column
     const Vlp16Elevation elevation = vlp16_elevation(hit[i].channel);
     const int channel = hit[i].channel % kVlp16Channels;
     const double range_m = hit[i].range_mm * 1e-3, level_m = range_m * elevation.cosine;
-    const double turned_rad = ((hit[i].azimuth_mdeg + kTurnMdeg - column.azimuth_mdeg) % kTurnMdeg) * kVlp16RadPerMdeg;
+    const double turned_rad = ((hit[i].azimuth_mdeg + kVlp16TurnMdeg - column.azimuth_mdeg) % kVlp16TurnMdeg) * kVlp16RadPerMdeg;
     const Eigen::Vector3d upper = mount_.place + level_m * ahead + level_m * turned_rad * right + range_m * elevation.sine * up;
     const bool far = upper.head<2>().squaredNorm() > kFarthestM * kFarthestM;
     column.met[channel] = !far && self_.is_own(upper, pose.implements) ? Met::kOwn : Met::kThing;

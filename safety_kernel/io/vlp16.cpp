@@ -13,7 +13,7 @@ constexpr std::size_t kClockOffset = 1200, kModeOffset = 1204;
 constexpr std::uint8_t kModeStrongest = 0x37, kModeLast = 0x38, kModeDual = 0x39;
 constexpr std::uint8_t kProductVlp16 = 0x22;
 constexpr std::int32_t kRangeLsbMm = 2;
-constexpr std::uint32_t kTurnCdeg = 36000;
+constexpr std::uint32_t kTurnCdeg = kVlp16TurnMdeg / 10U;
 constexpr std::uint32_t kGapMaxCdeg = 200;  // between blocks; 0.1 to 0.4 degrees at 300 to 1200 rpm. A sector skipped by the sensor is wider
 constexpr std::uint32_t kGapDefaultCdeg = 20;
 constexpr std::uint32_t kHalfDivergenceMdeg = 86;  // 1.5 mrad: a beam is 3 mrad wide (VLP-16 manual, specifications)
@@ -75,7 +75,7 @@ Vlp16Firing vlp16_firing(const std::uint8_t* bytes, int firing) {
   const std::uint8_t* p = bytes + kBlockBytes * static_cast<std::size_t>(block);
   Vlp16Firing f{};
   f.turn_mdeg = gap_cdeg(bytes, block, step) * 10U / 2U;  // two firings in a block
-  f.azimuth_mdeg = (u16(p + 2) * 10U + static_cast<std::uint32_t>(half) * f.turn_mdeg) % (kTurnCdeg * 10U);
+  f.azimuth_mdeg = (u16(p + 2) * 10U + static_cast<std::uint32_t>(half) * f.turn_mdeg) % kVlp16TurnMdeg;
   for (int laser = 0; laser < kVlp16Channels; ++laser) {
     const std::uint8_t* record = p + 4 + 3 * (half * kVlp16Channels + laser);
     const std::uint32_t one = u16(record), pair = step == 2 ? u16(record + kBlockBytes) : one;
@@ -99,7 +99,7 @@ Vlp16Result vlp16_decode(const std::uint8_t* bytes, std::size_t size, Vlp16Packe
       const std::uint8_t channel = kChannelOfLaser[laser];
       if (firing.last_mm[channel] < kVlp16RangeMinMm) continue;
       const std::uint32_t turned_mdeg = firing.turn_mdeg * kLaserNs * static_cast<std::uint32_t>(laser) / kSequenceNs;
-      const std::uint32_t at_mdeg = (firing.azimuth_mdeg + turned_mdeg) % (kTurnCdeg * 10U);
+      const std::uint32_t at_mdeg = (firing.azimuth_mdeg + turned_mdeg) % kVlp16TurnMdeg;
       packet.point[packet.count++] = {channel, at_mdeg, spread_mdeg, firing.last_mm[channel], static_cast<std::uint8_t>(k)};
     }
   }

@@ -13,6 +13,7 @@ namespace berm::kernel {
 constexpr std::size_t kVlp16PacketBytes = 1206;
 constexpr int kVlp16Channels = 16;
 constexpr int kVlp16MaxPoints = 12 * 2 * kVlp16Channels;  // of one packet, single return
+constexpr std::uint32_t kVlp16TurnMdeg = 360000;
 constexpr std::uint32_t kVlp16FiringMdeg = 200;           // a firing's share of the turn at 10 Hz
 constexpr std::int64_t kVlp16FiringNs = 55296;            // from a firing to the next
 constexpr double kVlp16RadPerMdeg = 3.14159265358979323846 / 180000.0;
