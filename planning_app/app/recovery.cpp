@@ -19,6 +19,7 @@ constexpr double back_after = 9.0, back_every = 20.0;  // s of trouble
 constexpr double back_by = radians(20.0), back_speed = radians(8.0), back_longest = 6.0;  // the width of a bucket and of a person at 6 m; 1/s; s
 constexpr double back_looks = 9.5;      // s: two sweeps, for the kernel's map forgets with the second
 constexpr double shortest_pause = 0.5, longest_pause = 4.0;  // s between attempts
+constexpr double looks_for = 25.0;      // s of trouble in which what is too high is waited for; then it is tried again, and the operator called
 constexpr double retreat_for = 1.0;     // s
 constexpr double wavering = 1.0;        // s in which standing was permitted; less puts a retreat off no longer
 constexpr double creep_share = 0.9;
@@ -150,7 +151,7 @@ bool Recovery::swing_back(const Observation& o, Advice& advice) {
 }
 
 // The kernel permits motion: the retreat that it permits is used for a moment, then what is due of the pause is waited for.
-Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log) {
+Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log, bool too_high_stands) {
   Advice advice;
   if (stopped_) {
     stopped_ = false;
@@ -165,7 +166,11 @@ Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log)
   const double ran = o.time_s - running_s_;
   if (retreating(o)) {
     advice.velocity = retreat_;
-  } else if (ran >= pause_s_ && !swing_back(o, advice)) {
+  } else if (ran < pause_s_ || swing_back(o, advice)) {
+    return advice;
+  } else if (too_high_ && too_high_stands && o.time_s - since_s_ < looks_for) {
+    look_again(o, advice);
+  } else {
     log.event("resumed", {{"time_s", o.time_s}, {"stopped_s", o.time_s - since_s_}});
     handed_back_ = true;
     handed_back_s_ = o.time_s;
@@ -176,12 +181,19 @@ Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log)
   return advice;
 }
 
-Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
-  if (o.running()) return running(o, log);
+void Recovery::look_again(const Observation& o, Advice& advice) {
+  if (o.time_s <= next_rescan_s_) return;
+  advice.rescan = true;
+  next_rescan_s_ = o.time_s + rescan_every;
+}
+
+Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log, bool too_high_stands) {
+  if (o.running()) return running(o, log, too_high_stands);
   Advice advice;
   advice.in_charge = true;
   if (!stopped_) begin_stop(o, log);
   if (o.kernel_state == BERM_STATE_STOPPING) stopped_at_ = o.angle;
+  too_high_ = o.stop_reason == BERM_STOP_OVERPASS && o.has_place() ? std::optional(Place{o.blocked_x, o.blocked_y}) : std::nullopt;
   if (o.has_place() && by_ground(o.stop_reason)) {  // of the newest reason: dust may have stopped it, and then the ground keeps it
     blocked_x_ = o.blocked_x;
     blocked_y_ = o.blocked_y;
@@ -195,10 +207,7 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log) {
   advice.operator_called = call_operator(o, log);
   if (!by_place(o.stop_reason)) return advice;
   const double blocked = o.time_s - stop_s_;  // with no more than moments in which standing was permitted
-  if (o.time_s > next_rescan_s_) {
-    advice.rescan = true;
-    next_rescan_s_ = o.time_s + rescan_every;
-  }
+  look_again(o, advice);
   if (blocked > patience && by_ground(o.stop_reason)) {
     advice.velocity = retreat_ = retreat(o, blocked - patience);
     moved_ = true;

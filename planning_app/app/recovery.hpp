@@ -1,10 +1,12 @@
 // What to do while the kernel does not permit motion: hold; and when it is the ground that stopped the machine and stays blocked, look again
 // with both scanners and retreat slowly, which the kernel permits when the slow motion's own box is clear. Where standing is permitted and moving is
 // not, attempts follow one another at growing pauses; then the implements swing back, for they hide what stands behind and beside them and the map
-// keeps what it once held there, and the scanners look from there. What none of this mends is the operator's: who is told what to do, once for
+// keeps what it once held there, and the scanners look from there. While what is too high to pass over still stands in the map another attempt would
+// be another stop: it is looked at instead, for as long as that may help. What none of this mends is the operator's: who is told what to do, once for
 // each thing that keeps it.
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -25,16 +27,22 @@ public:
     bool moved = false;       // with resumed: the implements were moved meanwhile, by the app or by hand
     bool operator_called = false;  // just now
   };
-  Advice step(const Observation& o, const ProgressLog& log);
+  // too_high_stands: in the newest map what stands at too_high() is still so high.
+  Advice step(const Observation& o, const ProgressLog& log, bool too_high_stands = false);
+
+  struct Place { double x, y; };
+  // For which the newest stop was, if it was one for what is too high to pass over.
+  std::optional<Place> too_high() const { return too_high_; }
 
 private:
   Joints retreat(const Observation& o, double blocked_s) const;
   bool call_operator(const Observation& o, const ProgressLog& log);
   void begin_stop(const Observation& o, const ProgressLog& log);
-  Advice running(const Observation& o, const ProgressLog& log);
+  Advice running(const Observation& o, const ProgressLog& log, bool too_high_stands);
   bool moved_by_hand(const Observation& o) const;
   bool retreating(const Observation& o) const;
   bool swing_back(const Observation& o, Advice& advice);
+  void look_again(const Observation& o, Advice& advice);
 
   MachineModel machine_;
   bool stopped_ = false;
@@ -49,6 +57,7 @@ private:
   double next_rescan_s_ = 0.0;
   Joints retreat_{};
   double blocked_x_ = 0.0, blocked_y_ = 0.0;  // of the last stop
+  std::optional<Place> too_high_;
   enum class Back { none, swings, looks } back_ = Back::none;
   double next_back_s_ = 0.0, back_began_s_ = 0.0, back_from_ = 0.0, back_way_ = 0.0;
 };

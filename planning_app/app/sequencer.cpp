@@ -204,6 +204,12 @@ Joints Sequencer::slowed(const Observation& o, const Joints& wanted) {
   return held_s > give_up_after ? crept(machine_, wanted) : allowed;
 }
 
+// Not of the truck: that stays, and the plan goes round it.
+bool Sequencer::too_high_stands() const {
+  const auto at = recovery_.too_high();
+  return at && !at_truck(site_, at->x, at->y) && kernel_map_.ground(KernelMap::Unseen::level)(at->x, at->y) > pass_over_limit(site_, at->x, at->y);
+}
+
 Answer Sequencer::step(const Observation& o) {
   recent_.add(o.payload_kg);
   look(o);
@@ -214,8 +220,9 @@ Answer Sequencer::step(const Observation& o) {
   Answer answer;
   if (stage_ == Stage::ask_move || stage_ == Stage::being_moved) await_move(o);
   // While the operator trams the machine its stops are his.
-  const Recovery::Advice advice = stage_ == Stage::being_moved ? Recovery::Advice{} : recovery_.step(o, log_);
+  const Recovery::Advice advice = stage_ == Stage::being_moved ? Recovery::Advice{} : recovery_.step(o, log_, too_high_stands());
   if (advice.rescan) scanners_.begin_full_sweep();
+  if (advice.resumed) script_.interrupted();
   if (advice.resumed && advice.moved && (stage_ == Stage::dig || stage_ == Stage::settle || stage_ == Stage::approach)) begin_approach(o, true);
   if (advice.resumed && (stage_ == Stage::go_look || stage_ == Stage::look)) begin_look(o);
   if (advice.in_charge) {

@@ -36,6 +36,7 @@ void JointScript::arm() {
 
 void JointScript::start() {
   active_ = rules_.empty() ? -1 : 0;
+  interrupted_ = false;
   arm();
 }
 
@@ -44,7 +45,7 @@ void JointScript::evaluate(const Joints& angle, std::uint32_t events) {
   const Rule& next = rules_[static_cast<std::size_t>(active_ + 1)];
   bool all = (events & next.events) == next.events;
   for (std::size_t i = 0; i < next.conditions.size(); ++i) {
-    if (other_side(next.conditions[i], angle)) armed_[i] = true;
+    if (interrupted_ || other_side(next.conditions[i], angle)) armed_[i] = true;
     all = holds(next.conditions[i], angle, armed_[i]) && all;
   }
   if (!all) return;
@@ -63,6 +64,10 @@ bool JointScript::waited_for(Joint joint) const {
 
 void Script::start() {
   for (JointScript& s : scripts_) s.start();
+}
+
+void Script::interrupted() {
+  for (JointScript& s : scripts_) s.interrupted();
 }
 
 void Script::evaluate(const Joints& angle, std::uint32_t events) {

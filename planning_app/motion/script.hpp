@@ -23,7 +23,7 @@ struct Condition {
   enum class Relation {
     above,        // angle > threshold
     below,        // angle < threshold
-    falls_below,  // angle < threshold after having been at or above it since the rule before became active
+    falls_below,  // angle < threshold after having been at or above it since the rule before became active, or having been stopped
     rises_above,  // the mirror of falls_below
     near          // |angle - threshold| <= tolerance
   };
@@ -58,6 +58,9 @@ public:
   explicit JointScript(std::vector<Rule> rules) : rules_(std::move(rules)) {}
 
   void start();
+  // Motion was not the script's for a while, after a stop: a joint may have passed what the next rules wait for, and will not come back to pass it again.
+  // From now on a crossing need not be seen from its other side.
+  void interrupted() { interrupted_ = true; }
   // One pass: activates the next rule when its left-hand side holds; at most one step a pass.
   void evaluate(const Joints& angle, std::uint32_t events);
 
@@ -76,6 +79,7 @@ private:
   void arm();
 
   std::vector<Rule> rules_;
+  bool interrupted_ = false;
   std::vector<bool> armed_;  // of the next rule's conditions: a crossing has been seen from its other side
   int active_ = -1;
 };
@@ -86,6 +90,7 @@ public:
   explicit Script(std::array<JointScript, joints> scripts) : scripts_(std::move(scripts)) {}
 
   void start();
+  void interrupted();
   void evaluate(const Joints& angle, std::uint32_t events);  // at a fixed rate
   bool running() const { return scripts_[swing].running(); }
   Joints goals() const;

@@ -58,6 +58,14 @@ bool in_dig_zone(const SiteModel& site, double x, double y) {
   return std::any_of(site.dig_zones.begin(), site.dig_zones.end(), [&](const DigZone& z) { return in_zone(z, x, y); });
 }
 
+bool at_truck(const SiteModel& site, double x, double y) {
+  constexpr double cab = 3.2, before = 0.6, behind = 1.8;  // m, with a cell of the map
+  if (!site.bed) return false;
+  const BedPoint p = to_bed(*site.bed, x, y), machine = to_bed(*site.bed, 0.0, 0.0);
+  const double beyond = std::fabs(p.v) - 0.5 * site.bed->width;
+  return std::fabs(p.u) < 0.5 * site.bed->length + cab && beyond < (p.v * machine.v > 0.0 ? before : behind);
+}
+
 double pass_over_limit(const SiteModel& site, double x, double y) {
   double limit = site.pass_over;
   for (const GroundZone& z : site.ground_zones)

@@ -74,6 +74,10 @@ private:
 // Whether a point of the plan lies in a dig zone.
 bool in_dig_zone(const SiteModel& site, double x, double y);
 
+// The parked truck: its bed with the walls, and at either end as far as a cab reaches. Behind its far side, where the walls hide the ground, the map has
+// lines from their tops.
+bool at_truck(const SiteModel& site, double x, double y);
+
 // The height up to which the implements may pass over a point: of its cell of the kernel's map, by the site's file.
 double pass_over_limit(const SiteModel& site, double x, double y);
 

@@ -236,6 +236,37 @@ TEST(Recovery, GoesRoundWhatMayNotBePassedOver) {
   EXPECT_EQ(calls, 1);
 }
 
+// Each attempt would be a stop more. From another place the scanners may see that it is gone.
+TEST(Recovery, WhatIsTooHighIsLookedAtWhileItStands) {
+  for (const double gone_s : {4.0, 1000.0}) {
+    Recovery recovery(berm::app_bench::zx200());
+    const ProgressLog log(-1);
+    Observation at = stopped(0.0, BERM_STOP_OVERPASS);
+    at.blocked_x = 4.35, at.blocked_y = -0.45;
+    for (int k = 0; k < 30; ++k) at.time_s = 0.01 * k, recovery.step(at, log, true);
+    ASSERT_TRUE(recovery.too_high());
+    EXPECT_EQ(recovery.too_high()->x, 4.35);
+    EXPECT_EQ(recovery.too_high()->y, -0.45);
+    double resumed_s = -1.0, looks = 0, swings_s = -1.0;
+    for (int k = 30; k < 6000 && resumed_s < 0.0; ++k) {
+      Observation o = permitted(0.01 * k);
+      const auto advice = recovery.step(o, log, o.time_s < gone_s);
+      looks += advice.rescan;
+      if (swings_s < 0.0 && advice.velocity[swing] != 0.0) swings_s = o.time_s;
+      if (advice.resumed) resumed_s = o.time_s;
+    }
+    EXPECT_NEAR(resumed_s, gone_s < 100.0 ? gone_s : 25.0, 0.02) << "for ever it is not waited: the operator is called after some attempts";
+    EXPECT_GE(looks, 1);
+    if (gone_s > 100.0) {
+      EXPECT_NEAR(swings_s, 9.0, 0.1);
+    }
+    Observation other = stopped(resumed_s + 1.0, BERM_STOP_COLLISION_PREDICTED);
+    other.blocked_x = 4.35, other.blocked_y = -0.45;
+    recovery.step(other, log, true);
+    EXPECT_FALSE(recovery.too_high()) << "the newest stop is another one";
+  }
+}
+
 TEST(Recovery, KnowsThatTheImplementsWereMovedByHand) {
   const MachineModel m = berm::app_bench::zx200();
   const ProgressLog log(-1);

@@ -48,6 +48,7 @@ public:
   const Findings& findings() const { return findings_; }
   double payload_kg() const { return payload_; }
   const app::Joints& angle() const { return angle_; }
+  void put(app::Joint joint, double angle) { angle_[joint] = angle; }  // by hand
 
   bool truck_parked = true, truck_leaves = false;
   bool kernel_runs = true;        // false: STOPPED, for collision_reason, nothing moves but at creep speeds

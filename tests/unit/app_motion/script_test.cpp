@@ -70,6 +70,27 @@ TEST(Script, ACrossingMustBeSeenFromItsOtherSide) {
   EXPECT_EQ(s.active(), 1);
 }
 
+// A stop may fall between two rules, and what mends it carries the joint past the second one's mark before the first is active.
+TEST(Script, AfterAnInterruptionACrossingNeedNotBeSeen) {
+  for (const auto relation : {Relation::falls_below, Relation::rises_above})
+    for (const bool interrupted : {true, false}) {
+      const double side = relation == Relation::falls_below ? 1.0 : -1.0;
+      Script s({JointScript({{"first", {}, event_none, 0.0}, {"second", {}, event_emptied, 1.0}, {"third", {when(swing, relation, 0)}, event_none, 2.0}}), JointScript({{"only", {}, event_none, 0.0}}),
+                JointScript({{"only", {}, event_none, 0.0}}), JointScript({{"only", {}, event_none, 0.0}})});
+      s.start();
+      const auto look = [&](double deg, std::uint32_t events) { s.evaluate({radians(side * deg), 0, 0, 0}, events); };
+      look(70.0, event_none);
+      if (interrupted) s.interrupted();
+      for (int k = 0; k < 3; ++k) look(-20.0, event_emptied);
+      EXPECT_EQ(s.of(swing).active(), interrupted ? 2 : 1);
+      look(70.0, event_emptied);
+      EXPECT_EQ(s.of(swing).active(), interrupted ? 2 : 1) << "not yet past";
+      s.start();
+      for (int k = 0; k < 3; ++k) look(-20.0, event_emptied);
+      EXPECT_EQ(s.of(swing).active(), 1) << "begun anew it is another script";
+    }
+}
+
 TEST(Script, KnowsWhatTheActiveRuleWaitedFor) {
   JointScript s({{"a", {}, event_none, 0.0}, {"b", {when(boom, Relation::above, 10)}, event_none, 1.0}, {"c", {when(swing, Relation::above, 20), when(stick, Relation::above, -90)}, event_none, 2.0}});
   s.start();

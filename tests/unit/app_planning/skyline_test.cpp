@@ -159,6 +159,27 @@ TEST(Skyline, OverATrucksCabNothingPassesHoweverHigh) {
   EXPECT_TRUE(refused.clear(over_bed, {radians(-30.0), 0.0, 0.0, 0.0}));
 }
 
+TEST(Skyline, WhatIsOfTheParkedTruck) {
+  const SiteModel site = berm::app_bench::bench_with_truck();
+  const TruckBed& bed = *site.bed;
+  const double far_side = to_bed(bed, 0.0, 0.0).v > 0.0 ? -1.0 : 1.0, wall = 0.5 * bed.width, end = 0.5 * bed.length;
+  const auto at = [&](double u, double v) {
+    double x = 0.0, y = 0.0;
+    from_bed(bed, {u, v}, x, y);
+    return at_truck(site, x, y);
+  };
+  EXPECT_TRUE(at(0.0, 0.0));
+  for (const double way : {1.0, -1.0}) {
+    EXPECT_TRUE(at(way * (end + 2.5), 0.0)) << "the cab";
+    EXPECT_FALSE(at(way * (end + 3.5), 0.0));
+  }
+  EXPECT_TRUE(at(0.0, far_side * (wall + 1.0))) << "behind the far wall the map has lines from its top";
+  EXPECT_FALSE(at(0.0, -far_side * (wall + 1.0))) << "before the near one somebody may stand";
+  SiteModel none = site;
+  none.bed.reset();
+  EXPECT_FALSE(at_truck(none, bed.centre_x, bed.centre_y)) << "none was recognised";
+}
+
 TEST(Skyline, WhereTheGroundMayBePassedOver) {
   SiteModel site = berm::app_bench::bench_with_truck();
   EXPECT_NEAR(pass_over_limit(site, -8.0, 0.0), 0.8, 1e-9);
