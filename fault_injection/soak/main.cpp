@@ -32,7 +32,7 @@ int run(int argc, char** argv) {
   app.add_option("--json", json, "write the report as one flat JSON object");
   app.add_option("--out", out, "folder for scenario.toml (what was drawn), trace.csv (a row each 0.1 s), truth.json, app.jsonl and result.json");
   app.add_flag("--picture", picture, "site.svg as well; needs --out");
-  app.add_flag("--journal", journal, "the kernel's journal as well; it grows by about a gigabyte an hour");
+  app.add_flag("--journal", journal, "the kernel's journal as well; it grows by some 14 gigabytes an hour");
   if (const auto status = berm::config::parse_options(app, argc, argv)) return *status;
   if (picture && out.empty()) {
     fmt::print(stderr, "berm soak: --picture: needs --out\n");

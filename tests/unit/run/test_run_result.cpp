@@ -1,4 +1,4 @@
-// What a run's summary and JSON say of the time under the kernel's governor.
+// What a run's summary and JSON say of the time under the kernel's governor, of the trucks' loads, and of what was recognised.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,9 +22,9 @@ RunResult with_events(std::vector<json> events) {
 json slowed(double time_s) { return {{"event", "slowed"}, {"time_s", time_s}, {"joint", "swing"}, {"phase", "swing to truck"}}; }
 json full_speed(double time_s, double slowed_s, double least) { return {{"event", "full_speed"}, {"time_s", time_s}, {"slowed_s", slowed_s}, {"least_share", least}}; }
 
-std::string row(const RunResult& r) {
-  const std::string text = summary_text(r), name = "slowed by the kernel";
-  const auto at = text.find(name);
+std::string row(const RunResult& r, const std::string& name = "slowed by the kernel") {
+  const std::string text = summary_text(r);
+  const auto at = text.find("\n  " + name + " ") == std::string::npos ? std::string::npos : text.find("\n  " + name + " ") + 3;
   return at == std::string::npos ? "no row" : text.substr(at + name.size(), text.find('\n', at) - at - name.size());
 }
 
@@ -54,6 +54,27 @@ TEST(SlowedTime, FieldsAreFlatNumbers) {
   const json j = flat_json(with_events({}));
   EXPECT_TRUE(j.at("slowed_seconds").is_number_float());
   EXPECT_TRUE(j.at("slowed_spans").is_number_integer());
+}
+
+RunResult with_trucks(std::vector<double> kg, std::vector<json> left) {
+  RunResult r = with_events({});
+  r.truth["truck_load_kg"] = kg;
+  r.truth["trucks_left"] = left;
+  r.truth["load_centre_offset_m"] = kg.size() > left.size() && kg[left.size()] > 0.0 ? 0.04 : 0.0;
+  r.truth["load_height_stddev_m"] = r.truth["load_centre_offset_m"].get<double>() * 5;
+  return r;
+}
+
+TEST(Loads, AreOfTheTrucksThatWereLoaded) {
+  const json first = {{"left_s", 200.0}, {"load_centre_offset_m", 0.09}, {"load_height_stddev_m", 0.25}}, second = {{"left_s", 400.0}, {"load_centre_offset_m", 0.12}, {"load_height_stddev_m", 0.27}};
+  const RunResult two_of_four = with_trucks({17900.0, 17800.0, 0.0, 0.0}, {first, second});
+  EXPECT_THAT(row(two_of_four, "payload"), testing::AllOf(testing::HasSubstr("17.90 t (99.4 %), 17.80 t (98.9 %) of 18.00 t"), testing::Not(testing::HasSubstr("0.00 t,"))));
+  EXPECT_THAT(row(two_of_four, "load"), testing::HasSubstr("centre 0.12 m off the bed's, height standard deviation 0.27 m")) << "the third only stands there, or never came";
+  EXPECT_THAT(row(with_trucks({17900.0, 3000.0}, {first}), "load"), testing::HasSubstr("centre 0.04 m"));
+  EXPECT_THAT(row(with_trucks({17900.0}, {first}), "load"), testing::HasSubstr("centre 0.09 m"));
+  const RunResult none = with_trucks({0.0, 0.0}, {});
+  EXPECT_THAT(row(none, "payload"), testing::HasSubstr("none"));
+  EXPECT_EQ(row(none, "load"), "no row");
 }
 
 json recognised(int truck, double x, double yaw_deg) {
