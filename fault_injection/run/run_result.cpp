@@ -28,14 +28,6 @@ std::vector<double> pass_seconds(const RunResult& r) {
 
 std::vector<double> loads(const RunResult& r) { return r.truth.value("truck_load_kg", std::vector<double>{}); }
 
-// Centre and unevenness of the load of the truck that was loaded last: of one that has only just come, or never came, there is none.
-json last_load(const RunResult& r) {
-  const auto left = r.truth.find("trucks_left");
-  const auto kg = loads(r);
-  if (left == r.truth.end() || left->empty() || left->size() > kg.size()) return r.truth;
-  return left->size() == kg.size() || kg[left->size()] == 0.0 ? left->back() : r.truth;
-}
-
 int trucks_loaded(const RunResult& r) {
   const double target = r.truth.value("target_kg", 0.0);
   const auto kg = loads(r);
@@ -233,10 +225,8 @@ std::string summary_text(const RunResult& r) {
   if (j["dig_surface_error_m"].is_number()) row("surface of the digs", fmt::format("{:.1f} cm from the plan on average", 100 * j["dig_surface_error_m"].get<double>()));
   if (j["plan_ms_max"].is_number()) row("longest planning", fmt::format("{:.1f} ms", j["plan_ms_max"].get<double>()));
   row("spill", fmt::format("{:.2f} % of what was dug", 100 * j["spill_fraction"].get<double>()));
-  if (!trucks.empty()) {
-    const json load = last_load(r);
-    row("load", fmt::format("centre {:.2f} m off the bed's, height standard deviation {:.2f} m", load.value("load_centre_offset_m", 0.0), load.value("load_height_stddev_m", 0.0)));
-  }
+  if (!trucks.empty())
+    row("load", fmt::format("centre {:.2f} m off the bed's, height standard deviation {:.2f} m", j["load_centre_offset_m"].get<double>(), j["load_height_stddev_m"].get<double>()));
   if (const auto errors = recognition_errors(r.app_events, r.truth); !errors.empty())
     row("trucks recognised", fmt::format("{}, the worst corner {:.1f} cm off", errors.size(), 100 * *std::max_element(errors.begin(), errors.end())));
   row("contacts (oracle)", fmt::format("{}", r.contacts));

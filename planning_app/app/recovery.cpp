@@ -20,6 +20,7 @@ constexpr double back_by = radians(20.0), back_speed = radians(8.0), back_longes
 constexpr double back_looks = 9.5;      // s: two sweeps, for the kernel's map forgets with the second
 constexpr double shortest_pause = 0.5, longest_pause = 4.0;  // s between attempts
 constexpr double looks_for = 25.0;      // s of trouble in which what is too high is waited for; then it is tried again, and the operator called
+constexpr double map_age = 0.6;         // s: by then what the kernel stopped for is in the app's copy of its map, if it is still there
 constexpr double retreat_for = 1.0;     // s
 constexpr double wavering = 1.0;        // s in which standing was permitted; less puts a retreat off no longer
 constexpr double creep_share = 0.9;
@@ -119,6 +120,7 @@ void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
     told_.clear();
     waits_for_reset_ = false;
     moved_ = false;
+    over_high_ = false;
     back_way_ = 0.0;
   }
   back_ = Back::none;
@@ -166,9 +168,9 @@ Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log,
   const double ran = o.time_s - running_s_;
   if (retreating(o)) {
     advice.velocity = retreat_;
-  } else if (ran < pause_s_ || swing_back(o, advice)) {
+  } else if (ran < (over_high_ ? std::max(pause_s_, map_age) : pause_s_) || swing_back(o, advice)) {
     return advice;
-  } else if (too_high_ && too_high_stands && o.time_s - since_s_ < looks_for) {
+  } else if (over_high_ && too_high_stands && o.time_s - since_s_ < looks_for) {
     look_again(o, advice);
   } else {
     log.event("resumed", {{"time_s", o.time_s}, {"stopped_s", o.time_s - since_s_}});
@@ -193,10 +195,10 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log, bo
   advice.in_charge = true;
   if (!stopped_) begin_stop(o, log);
   if (o.kernel_state == BERM_STATE_STOPPING) stopped_at_ = o.angle;
-  too_high_ = o.stop_reason == BERM_STOP_OVERPASS && o.has_place() ? std::optional(Place{o.blocked_x, o.blocked_y}) : std::nullopt;
   if (o.has_place() && by_ground(o.stop_reason)) {  // of the newest reason: dust may have stopped it, and then the ground keeps it
     blocked_x_ = o.blocked_x;
     blocked_y_ = o.blocked_y;
+    over_high_ = o.stop_reason == BERM_STOP_OVERPASS;
     back_way_ = std::copysign(1.0, wrapped(o.angle[swing] - o.blocked_bearing));
   }
   if (waits_for_reset_ && !o.latched) {  // he has reset, and what keeps the machine now is another trouble

@@ -31,8 +31,8 @@ public:
   Advice step(const Observation& o, const ProgressLog& log, bool too_high_stands = false);
 
   struct Place { double x, y; };
-  // For which the newest stop was, if it was one for what is too high to pass over.
-  std::optional<Place> too_high() const { return too_high_; }
+  // Of the ground that keeps the machine, or last did, if it is too high to pass over.
+  std::optional<Place> too_high() const { return over_high_ ? std::optional(Place{blocked_x_, blocked_y_}) : std::nullopt; }
 
 private:
   Joints retreat(const Observation& o, double blocked_s) const;
@@ -57,7 +57,7 @@ private:
   double next_rescan_s_ = 0.0;
   Joints retreat_{};
   double blocked_x_ = 0.0, blocked_y_ = 0.0;  // of the last stop
-  std::optional<Place> too_high_;
+  bool over_high_ = false;                    // it was for what is too high to pass over
   enum class Back { none, swings, looks } back_ = Back::none;
   double next_back_s_ = 0.0, back_began_s_ = 0.0, back_from_ = 0.0, back_way_ = 0.0;
 };

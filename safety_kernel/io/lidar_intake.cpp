@@ -8,6 +8,22 @@
 
 namespace berm::kernel {
 
+namespace {
+
+// Upper body's frame, m: the return, and from there to either edge of the beam.
+struct Beam {
+  Eigen::Vector3d middle, beside;
+};
+
+Beam beam_of(const LidarMount& mount, const Vlp16Return& hit, double aside_rad) {
+  const Vlp16Elevation elevation = vlp16_elevation(hit.channel);
+  const double range_m = hit.range_mm * 1e-3, level_m = range_m * elevation.cosine;
+  const Vlp16Edges edges = vlp16_edges(level_m, -static_cast<double>(hit.azimuth_mdeg) * kVlp16RadPerMdeg, aside_rad);
+  return {mount.place + mount.turn * Eigen::Vector3d(edges.middle_x, edges.middle_y, range_m * elevation.sine), mount.turn * Eigen::Vector3d(edges.beside_x, edges.beside_y, 0.0)};
+}
+
+}  // namespace
+
 LidarIntake::LidarIntake(const berm_parameters& parameters)
     : parameters_(parameters), self_(parameters), lidars_(std::clamp<int>(parameters.lidars, 0, BERM_LIDARS)) {
   for (int i = 0; i < lidars_; ++i) {
@@ -32,12 +48,7 @@ bool LidarIntake::accept(Mount& mount, const std::uint8_t* bytes, std::int64_t n
 }
 
 void LidarIntake::insert(const Mount& mount, const Vlp16Return& hit, const Firings& firings, const Swung& swung, std::int64_t now_us, sk_height_map& map, OwnShadow& shadow) {
-  const Vlp16Elevation elevation = vlp16_elevation(hit.channel);
-  const double range_m = hit.range_mm * 1e-3, level_m = range_m * elevation.cosine;
-  const double aside_rad = std::max(hit.spread_mdeg, kTakenMdeg / 2) * kVlp16RadPerMdeg;
-  const Vlp16Edges beam = vlp16_edges(level_m, -static_cast<double>(hit.azimuth_mdeg) * kVlp16RadPerMdeg, aside_rad);
-  const Eigen::Vector3d middle = mount.place + mount.turn * Eigen::Vector3d(beam.middle_x, beam.middle_y, range_m * elevation.sine);
-  const Eigen::Vector3d beside = mount.turn * Eigen::Vector3d(beam.beside_x, beam.beside_y, 0.0);
+  const auto [middle, beside] = beam_of(mount, hit, std::max(hit.spread_mdeg, kTakenMdeg / 2) * kVlp16RadPerMdeg);
   const Eigen::Vector3d edge[2] = {middle + beside, middle - beside};
   if (!(middle.head<2>().squaredNorm() <= kFarthestM * kFarthestM)) return;
   const sk_point from = lidar_base_point(edge[0], swung.cosine, swung.sine), to = lidar_base_point(edge[1], swung.cosine, swung.sine);
@@ -68,18 +79,13 @@ int LidarIntake::supports(const Mount& mount, const Vlp16Return& hit, const Firi
   if (other == nullptr || std::abs(other->range_mm - hit.range_mm) > parameters_.spurious_range_mm) return 0;
   const std::uint32_t turned_mdeg = (other->azimuth_mdeg + kVlp16TurnMdeg - hit.azimuth_mdeg) % kVlp16TurnMdeg;
   if (std::min(turned_mdeg, kVlp16TurnMdeg - turned_mdeg) > kBesideMdeg) return 0;
-  const Vlp16Elevation elevation = vlp16_elevation(other->channel);
-  const double range_m = other->range_mm * 1e-3, level_m = range_m * elevation.cosine;
-  const double heading = -static_cast<double>(other->azimuth_mdeg) * kVlp16RadPerMdeg;
-  const Eigen::Vector3d point = mount.place + mount.turn * Eigen::Vector3d(level_m * std::cos(heading), level_m * std::sin(heading), range_m * elevation.sine);
-  return self_.is_own(point, swung.pose) ? 0 : 1;
+  return self_.is_own(beam_of(mount, *other, 0.0).middle, swung.pose) ? 0 : 1;
 }
 
 // The packet before and the next are not waited for: at an end of the packet the two firings inwards are asked.
 bool LidarIntake::spurious(const Mount& mount, const Vlp16Return& hit, const Firings& firings, const Swung& swung) const {
-  const int first = hit.firing == 0 ? 1 : -1, second = hit.firing == packet_.firings - 1 ? -2 : hit.firing == 0 ? 2 : 1;
-  int supporters = supports(mount, hit, firings, hit.firing + first, hit.channel, swung);
-  supporters += supports(mount, hit, firings, hit.firing + second, hit.channel, swung);
+  const int last = packet_.firings - 1, before = hit.firing == 0 ? 2 : hit.firing - 1, after = hit.firing == last ? last - 2 : hit.firing + 1;
+  int supporters = supports(mount, hit, firings, before, hit.channel, swung) + supports(mount, hit, firings, after, hit.channel, swung);
   for (const int beside : {-1, 1})
     if (supporters < kSupporters) supporters += supports(mount, hit, firings, hit.firing, hit.channel + beside, swung);
   return supporters < kSupporters;

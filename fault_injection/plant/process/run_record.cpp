@@ -52,6 +52,9 @@ void RunRecord::truck_left(double t, const Truth& truth) {
 }
 
 void RunRecord::write(const std::string& path, const End& end) const {
+  // Of the truck that was loaded last: one that has only just come, or never came, has no load whose centre could be off.
+  const bool loading = departures_.size() < end.truth.truck_load_kg.size() && end.truth.truck_load_kg[departures_.size()] > 0.0;
+  const Departure newest = loading || departures_.empty() ? Departure{end.time_s, 0.0, end.truth.load_centre_offset_m, end.truth.load_height_stddev_m} : departures_.back();
   Json list = Json::array();
   for (const Contact& c : contacts_) list.push_back({{"time_s", rounded(c.time_s)}, {"what", c.what}});
   Json loads = Json::array();
@@ -88,8 +91,8 @@ void RunRecord::write(const std::string& path, const End& end) const {
   truth["spill_kg"] = rounded(end.truth.spilled_kg);
   truth["spill_fraction"] = end.truth.dug_kg > 0.0 ? rounded(end.truth.spilled_kg / end.truth.dug_kg) : 0.0;
   truth["payload_kg"] = rounded(end.truth.payload_kg);
-  truth["load_centre_offset_m"] = rounded(end.truth.load_centre_offset_m);
-  truth["load_height_stddev_m"] = rounded(end.truth.load_height_stddev_m);
+  truth["load_centre_offset_m"] = rounded(newest.centre_offset_m);
+  truth["load_height_stddev_m"] = rounded(newest.height_stddev_m);
   truth["fault"] = fault_s_ ? Json(fault_what_) : Json(nullptr);
   truth["fault_s"] = maybe(fault_s_);
   truth["first_standstill_after_fault_s"] = maybe(standstill_s_);

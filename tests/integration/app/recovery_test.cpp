@@ -241,19 +241,22 @@ TEST(Recovery, WhatIsTooHighIsLookedAtWhileItStands) {
   for (const double gone_s : {4.0, 1000.0}) {
     Recovery recovery(berm::app_bench::zx200());
     const ProgressLog log(-1);
-    Observation at = stopped(0.0, BERM_STOP_OVERPASS);
-    at.blocked_x = 4.35, at.blocked_y = -0.45;
-    for (int k = 0; k < 30; ++k) at.time_s = 0.01 * k, recovery.step(at, log, true);
+    // As the kernel shows it: the place while the box meets it, the reason until it permits motion.
+    Observation o = stopped(0.0, BERM_STOP_OVERPASS);
+    o.blocked_x = 4.35, o.blocked_y = -0.45;
+    recovery.step(o, log, false);
+    o.blocked_x = o.blocked_y = 0.0;
+    for (int k = 1; k < 30; ++k) o.time_s = 0.01 * k, recovery.step(o, log, false);
     ASSERT_TRUE(recovery.too_high());
     EXPECT_EQ(recovery.too_high()->x, 4.35);
     EXPECT_EQ(recovery.too_high()->y, -0.45);
     double resumed_s = -1.0, looks = 0, swings_s = -1.0;
     for (int k = 30; k < 6000 && resumed_s < 0.0; ++k) {
-      Observation o = permitted(0.01 * k);
-      const auto advice = recovery.step(o, log, o.time_s < gone_s);
+      const double t = 0.01 * k;
+      const auto advice = recovery.step(permitted(t), log, t > 0.8 && t < gone_s);  // the map is half a second old
       looks += advice.rescan;
-      if (swings_s < 0.0 && advice.velocity[swing] != 0.0) swings_s = o.time_s;
-      if (advice.resumed) resumed_s = o.time_s;
+      if (swings_s < 0.0 && advice.velocity[swing] != 0.0) swings_s = t;
+      if (advice.resumed) resumed_s = t;
     }
     EXPECT_NEAR(resumed_s, gone_s < 100.0 ? gone_s : 25.0, 0.02) << "for ever it is not waited: the operator is called after some attempts";
     EXPECT_GE(looks, 1);

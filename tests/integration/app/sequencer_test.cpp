@@ -98,6 +98,41 @@ TEST(Sequencer, GoesOnWhenTheSwingWasCarriedPastItsMarksMeanwhile) {
   }
 }
 
+// A thing under the arm that the kernel does not let it pass over: while it stands in the kernel's map nothing is tried; but the truck stays, and its cab is
+// gone round.
+TEST(Sequencer, TriesNothingWhileWhatIsTooHighStands) {
+  struct Case { double x, y; bool waits; };
+  for (const Case& at : {Case{2.25, 3.75, true}, Case{-4.05, 6.75, false}}) {
+    Loading run(1, start_pose());
+    while (run.last.phase != BERM_PHASE_SWING_TO_TRUCK && run.seconds < 60.0) run.step();
+    ASSERT_LT(run.seconds, 60.0);
+    for (int k = 0; k < 50; ++k) run.step();
+    const auto show = [&](double top_m) {
+      berm_state_segment& segment = run.plant.mutable_segment();
+      const auto index = [&](double v) { return static_cast<int>(std::floor((1e3 * v - segment.map_origin_mm) / segment.cell_mm)); };
+      segment.map_height_mm[index(at.y)][index(at.x)] = static_cast<std::int32_t>(1e3 * top_m);
+      segment.state.blocked_x_mm = static_cast<std::int32_t>(1e3 * at.x);
+      segment.state.blocked_y_mm = static_cast<std::int32_t>(1e3 * at.y);
+    };
+    const auto steps = [&](int cycles, double top_m) {
+      bool moves = false;
+      for (int k = 0; k < cycles; ++k) {
+        run.step();
+        show(top_m);
+        moves = moves || std::any_of(run.last.velocity.begin(), run.last.velocity.end(), [](double v) { return std::fabs(v) > radians(1.0); });
+      }
+      return moves;
+    };
+    run.plant.stop_reason = BERM_STOP_OVERPASS;
+    run.plant.kernel_runs = false;
+    steps(50, 1.4);
+    run.plant.kernel_runs = true;
+    steps(1, 1.4);
+    EXPECT_NE(steps(500, 1.4), at.waits) << at.x;
+    EXPECT_TRUE(steps(200, 0.0)) << at.x << ": it is gone";
+  }
+}
+
 TEST(Sequencer, WaitsForTheTruckAndStandsMeanwhile) {
   Loading run(1, start_pose());
   run.plant.truck_parked = false;
@@ -117,8 +152,23 @@ TEST(Sequencer, WaitsForTheTruckAndStandsMeanwhile) {
 
 // A bucket that stays low hides the ground round it until that is too old to move over.
 TEST(Sequencer, WaitsForTheNextTruckWithTheImplementsUp) {
+  Loading run(2, start_pose());
+  while (!run.last.horn && run.seconds < 600.0) run.step();
+  ASSERT_TRUE(run.last.horn) << "the first truck is not full after " << run.seconds << " s";
+  const double swing_then = run.plant.state().joint_angle_urad[swing] * 1e-6, boom_then = run.plant.state().joint_angle_urad[boom] * 1e-6;
+  while (run.last.horn) run.step();
+  run.plant.truck_parked = false;
+  for (int k = 0; k < 1500; ++k) run.step();
+  EXPECT_GT(run.plant.state().joint_angle_urad[boom] * 1e-6, boom_then + radians(15.0)) << "it stood low over the dig";
+  EXPECT_NEAR(run.plant.state().joint_angle_urad[swing] * 1e-6, swing_then, radians(1.5));
+  for (const double v : run.last.velocity) EXPECT_EQ(v, 0.0) << "and stands";
+  expect_no_contact(run);
+}
+
+// The same where the face has enough for the next truck, so that the machine is not to be moved.
+TEST(Sequencer, WaitsWithTheImplementsUpBeforeAFaceThatIsNotDugOut) {
   SiteModel site = app_bench::bench();
-  site.place.target_kg = 8000.0;  // so that the face has enough for the next: the machine is not to be moved
+  site.place.target_kg = 8000.0;
   Loading run(2, start_pose(), std::getenv("BERM_TEST_VERBOSE") ? 1 : -1, site);
   while (!run.last.horn && run.seconds < 600.0) run.step();
   ASSERT_TRUE(run.last.horn) << "the first truck is not full after " << run.seconds << " s";

@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <random>
+#include <vector>
 
 #include "cycle_rig.hpp"
 
@@ -154,11 +157,9 @@ TEST_F(LidarIntakeTest, AReturnThatFewerThanTwoSupportIsSpurious) {
   }
 }
 
-// Between two lasers of the middle of the sixteen both support.
 // verifies: SK-LI-8
 TEST_F(LidarIntakeTest, WhatIsAFiringWideAndThreeLasersHighIsTaken) {
-  const auto pole = [](int highest_laser) { return [highest_laser](int firing, int laser) { return firing == 12 && laser % 2 == 1 && laser <= highest_laser && laser >= highest_laser - 4 ? 3.4 : 0.0; }; };
-  ASSERT_TRUE(take(packet_of(1000, 336.8, pole(15))));
+  ASSERT_TRUE(take(packet_of(1000, 336.8, [](int firing, int laser) { return firing == 12 && laser % 2 == 1 && laser >= 11 ? 3.4 : 0.0; })));
   EXPECT_EQ(intake->points(), 1U) << "the middle one of 11, 13 and 15 degrees";
 }
 
@@ -196,24 +197,20 @@ TEST_F(LidarIntakeTest, OwnReturnsSupportNothing) {
   constexpr int kAcross = 9;           // looks up by 9 degrees, over the bucket
   constexpr double kAcrossDeg = 342.4;  // to the left of ahead
   parameters.lidar[1] = {1000, -1500, 2400, 0, 0, 0};
-  // The return lies just outside the margin of what is the machine's, those beside it within.
-  const auto own_at = [&](double range_m) {
+  const auto kept = [&](double range_m, double beside_m) {
     intake = std::make_unique<LidarIntake>(parameters);
     sk_map_clear(map.get());
-    static_cast<void>(take(packet(1000, kAcross, range_m, kAcrossDeg), 1));
-    return observed() == 0;
+    const Ranges three = [&](int firing, int laser) { return laser != kAcross ? 0.0 : firing == 4 ? range_m : firing == 3 || firing == 5 ? beside_m : 0.0; };
+    EXPECT_TRUE(take(packet_of(1000, kAcrossDeg - 0.8, three), 1));
+    return intake->points() == 1;
   };
-  double edge_m = 0.0;
-  for (double range = 1.0; range < 6.0 && edge_m == 0.0; range += 0.02)
-    if (own_at(range) && !own_at(range + 0.02)) edge_m = range;
-  ASSERT_GT(edge_m, 0.0);
-  const double out_m = edge_m + 0.1, in_m = edge_m - 0.15;
-  for (const double beside_m : {out_m, in_m}) {
-    intake = std::make_unique<LidarIntake>(parameters);
-    sk_map_clear(map.get());
-    ASSERT_TRUE(take(packet_of(1000, kAcrossDeg - 1.6 + 0.8, [&](int firing, int laser) { return laser != kAcross ? 0.0 : firing == 4 ? out_m : firing == 3 || firing == 5 ? beside_m : 0.0; }), 1));
-    EXPECT_EQ(intake->points(), beside_m == out_m ? 1U : 0U);
-  }
+  double out_m = 0.0;  // just beyond the margin round the bucket, as seen from the lidar
+  for (double range = 3.0; range < 8.0 && out_m == 0.0; range += 0.02)  // from beyond the own body
+    if (!kept(range, range) && kept(range + 0.02, range + 0.02)) out_m = range + 0.04;
+  ASSERT_GT(out_m, 4.0);
+  EXPECT_TRUE(kept(out_m, out_m));
+  EXPECT_FALSE(kept(out_m, out_m - 0.28)) << "beside it is the bucket";
+  EXPECT_TRUE(kept(out_m, out_m + 0.28)) << "as far from it, and not the bucket";
 }
 
 // What is two degrees of the turn wide is always found, wherever it stands; returns anywhere on the way, in one shot of ten, hardly ever are.

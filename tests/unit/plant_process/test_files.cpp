@@ -114,7 +114,12 @@ TEST(RunRecord, LoadsAndSpill) {
   end.truth = truth;
   end.truth.dug_kg = 20000.0;
   end.truth.spilled_kg = 500.0;
+  end.truth.load_centre_offset_m = 0.0;  // the second has only just come
   const auto j = written(record, end);
+  EXPECT_EQ(j.at("load_centre_offset_m"), 0.12) << "of the truck that was loaded last";
+  end.truth.truck_load_kg[1] = 1500.0;
+  end.truth.load_centre_offset_m = 0.4;
+  EXPECT_EQ(written(record, end).at("load_centre_offset_m"), 0.4);
   EXPECT_EQ(j.at("trucks_left").size(), 1u);
   EXPECT_EQ(j.at("trucks_left")[0].at("load_kg"), 17900.0);
   EXPECT_EQ(j.at("spill_fraction"), 0.025);

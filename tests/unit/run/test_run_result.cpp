@@ -23,9 +23,9 @@ json slowed(double time_s) { return {{"event", "slowed"}, {"time_s", time_s}, {"
 json full_speed(double time_s, double slowed_s, double least) { return {{"event", "full_speed"}, {"time_s", time_s}, {"slowed_s", slowed_s}, {"least_share", least}}; }
 
 std::string row(const RunResult& r, const std::string& name = "slowed by the kernel") {
-  const std::string text = summary_text(r);
-  const auto at = text.find("\n  " + name + " ") == std::string::npos ? std::string::npos : text.find("\n  " + name + " ") + 3;
-  return at == std::string::npos ? "no row" : text.substr(at + name.size(), text.find('\n', at) - at - name.size());
+  const std::string text = summary_text(r), begin = "\n  " + name + " ";
+  const auto at = text.find(begin);
+  return at == std::string::npos ? "no row" : text.substr(at + begin.size(), text.find('\n', at + 1) - at - begin.size());
 }
 
 TEST(SlowedTime, IsNothingWhereNothingWasCut) {
@@ -56,25 +56,14 @@ TEST(SlowedTime, FieldsAreFlatNumbers) {
   EXPECT_TRUE(j.at("slowed_spans").is_number_integer());
 }
 
-RunResult with_trucks(std::vector<double> kg, std::vector<json> left) {
-  RunResult r = with_events({});
-  r.truth["truck_load_kg"] = kg;
-  r.truth["trucks_left"] = left;
-  r.truth["load_centre_offset_m"] = kg.size() > left.size() && kg[left.size()] > 0.0 ? 0.04 : 0.0;
-  r.truth["load_height_stddev_m"] = r.truth["load_centre_offset_m"].get<double>() * 5;
-  return r;
-}
-
 TEST(Loads, AreOfTheTrucksThatWereLoaded) {
-  const json first = {{"left_s", 200.0}, {"load_centre_offset_m", 0.09}, {"load_height_stddev_m", 0.25}}, second = {{"left_s", 400.0}, {"load_centre_offset_m", 0.12}, {"load_height_stddev_m", 0.27}};
-  const RunResult two_of_four = with_trucks({17900.0, 17800.0, 0.0, 0.0}, {first, second});
-  EXPECT_THAT(row(two_of_four, "payload"), testing::AllOf(testing::HasSubstr("17.90 t (99.4 %), 17.80 t (98.9 %) of 18.00 t"), testing::Not(testing::HasSubstr("0.00 t,"))));
-  EXPECT_THAT(row(two_of_four, "load"), testing::HasSubstr("centre 0.12 m off the bed's, height standard deviation 0.27 m")) << "the third only stands there, or never came";
-  EXPECT_THAT(row(with_trucks({17900.0, 3000.0}, {first}), "load"), testing::HasSubstr("centre 0.04 m"));
-  EXPECT_THAT(row(with_trucks({17900.0}, {first}), "load"), testing::HasSubstr("centre 0.09 m"));
-  const RunResult none = with_trucks({0.0, 0.0}, {});
-  EXPECT_THAT(row(none, "payload"), testing::HasSubstr("none"));
-  EXPECT_EQ(row(none, "load"), "no row");
+  RunResult r = with_events({});
+  r.truth["truck_load_kg"] = {17900.0, 17800.0, 0.0, 0.0};
+  EXPECT_THAT(row(r, "payload"), testing::HasSubstr("17.90 t (99.4 %), 17.80 t (98.9 %) of 18.00 t"));
+  EXPECT_NE(row(r, "load"), "no row");
+  r.truth["truck_load_kg"] = {0.0, 0.0};
+  EXPECT_THAT(row(r, "payload"), testing::EndsWith(" none"));
+  EXPECT_EQ(row(r, "load"), "no row");
 }
 
 json recognised(int truck, double x, double yaw_deg) {
