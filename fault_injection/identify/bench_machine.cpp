@@ -45,7 +45,7 @@ class Plant {
 
 }  // namespace
 
-void on_bench(const config::MachineFile& machine, const BenchPlace& place, const Interruption& interruption,
+void on_bench(const config::MachineFile& machine, const BenchPlace& place, const run::Interruption& interruption,
               const std::function<void(Driver&, MachineLink&)>& tests) {
   const run::RunFolder folder;
   const std::string can = run::free_can_address();

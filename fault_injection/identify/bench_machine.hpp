@@ -6,7 +6,7 @@
 #include <string>
 
 #include "identify/driver.hpp"
-#include "identify/interruption.hpp"
+#include "run/interruption.hpp"
 
 namespace berm::identify {
 
@@ -17,7 +17,7 @@ struct BenchPlace {
 };
 
 // Starts the plant, goes through the tests, ends it. Throws std::runtime_error with one line.
-void on_bench(const config::MachineFile& machine, const BenchPlace& place, const Interruption& interruption,
+void on_bench(const config::MachineFile& machine, const BenchPlace& place, const run::Interruption& interruption,
               const std::function<void(Driver&, MachineLink&)>& tests);
 
 }  // namespace berm::identify

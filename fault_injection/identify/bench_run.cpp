@@ -86,7 +86,7 @@ void go_through(Driver& driver, MachineLink& link, const config::MachineFile& ma
 
 }  // namespace
 
-BenchRecord run_tests(const config::MachineFile& machine, const BenchPlan& plan, const Interruption& interruption,
+BenchRecord run_tests(const config::MachineFile& machine, const BenchPlan& plan, const run::Interruption& interruption,
                       const std::function<void(const std::string&)>& say) {
   BenchRecord record;
   on_bench(machine, plan.place, interruption,

@@ -29,7 +29,7 @@ struct BenchRecord {
 };
 
 // say: a line of progress. Throws std::runtime_error with one line.
-BenchRecord run_tests(const config::MachineFile& machine, const BenchPlan& plan, const Interruption& interruption,
+BenchRecord run_tests(const config::MachineFile& machine, const BenchPlan& plan, const run::Interruption& interruption,
                       const std::function<void(const std::string&)>& say);
 
 }  // namespace berm::identify

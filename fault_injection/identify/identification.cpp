@@ -38,7 +38,7 @@ void identify(const Options& options) {
   check_editable(result, machine);
 
   std::vector<BenchRecord> runs;
-  run_all(options, result, [&](const BenchPlace& place, bool loaded, const Interruption& interruption, const Say& say) {
+  run_all(options, result, [&](const BenchPlace& place, bool loaded, const run::Interruption& interruption, const Say& say) {
     runs.push_back(run_tests(machine, {place, loaded, result.joints, result.columns}, interruption, say));
     const BenchRecord& run = runs.back();
     result.stops += static_cast<int>(run.stops.size());

@@ -33,7 +33,7 @@ config::MachineFile begin_measurement(const Options& options, Measurement& m) {
 }
 
 void run_all(const Options& options, Measurement& m, const Tests& tests) {
-  const Interruption interruption;
+  const run::Interruption interruption;
   const Say say = [&](const std::string& line) {
     if (options.quiet) return;
     fmt::print("{}\n", line);

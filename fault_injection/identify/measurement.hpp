@@ -26,7 +26,7 @@ config::MachineFile begin_measurement(const Options& options, Measurement& m);
 
 // One run's tests, on its place, with the heaviest payload or empty; its mass as weighed (kg) and how long it took (s).
 struct RunTaken { double weighed_kg = 0.0, simulated_s = 0.0; };
-using Tests = std::function<RunTaken(const BenchPlace& place, bool loaded, const Interruption& interruption, const Say& say)>;
+using Tests = std::function<RunTaken(const BenchPlace& place, bool loaded, const run::Interruption& interruption, const Say& say)>;
 // Loaded and empty for each repetition, each of which has the next seed.
 void run_all(const Options& options, Measurement& m, const Tests& tests);
 

@@ -27,7 +27,7 @@ void identify_steps(const Options& options) {
   for (const Station& station : step_stations(machine, swing)) result.reach_m.push_back(station.reach_m);
 
   std::vector<StepRun> runs;
-  run_all(options, result, [&](const BenchPlace& place, bool loaded, const Interruption& interruption, const Say& say) {
+  run_all(options, result, [&](const BenchPlace& place, bool loaded, const run::Interruption& interruption, const Say& say) {
     runs.push_back(run_steps(machine, {place, loaded}, interruption, say));
     return RunTaken{runs.back().weighed_kg, runs.back().simulated_s};
   });

@@ -38,7 +38,7 @@ std::vector<Station> step_stations(const config::MachineFile& machine, std::size
   return first;
 }
 
-StepRun run_steps(const config::MachineFile& machine, const StepRunPlan& plan, const Interruption& interruption,
+StepRun run_steps(const config::MachineFile& machine, const StepRunPlan& plan, const run::Interruption& interruption,
                   const std::function<void(const std::string&)>& say) {
   StepRun run;
   on_bench(machine, plan.place, interruption, [&](Driver& driver, MachineLink& link) {

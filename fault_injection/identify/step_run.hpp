@@ -24,7 +24,7 @@ struct StepRun {
 std::vector<Station> step_stations(const config::MachineFile& machine, std::size_t joint);
 
 // say: a line of progress. Throws std::runtime_error with one line.
-StepRun run_steps(const config::MachineFile& machine, const StepRunPlan& plan, const Interruption& interruption,
+StepRun run_steps(const config::MachineFile& machine, const StepRunPlan& plan, const run::Interruption& interruption,
                   const std::function<void(const std::string&)>& say);
 
 }  // namespace berm::identify

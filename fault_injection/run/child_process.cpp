@@ -31,6 +31,9 @@ constexpr int kHighDescriptor = 200;  // child descriptors are moved above this 
 // Runs in the child between fork and exec: only async-signal-safe calls.
 [[noreturn]] void become(const ChildOptions& options, int program_fd, int output_fd, char* const* argv) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);  // what the launcher keeps back for itself is not kept from the child
   if (dup2(output_fd, 1) < 0) child_fail("stdout");
   int next = kHighDescriptor;
   for (const auto& [ours, theirs] : options.descriptors) {

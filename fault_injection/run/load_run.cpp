@@ -3,14 +3,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <sys/socket.h>
+#include <string.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
@@ -18,6 +17,9 @@
 #include "config/whole_file.hpp"
 #include "run/child_process.hpp"
 #include "run/contract_text.hpp"
+#include "run/event_words.hpp"
+#include "run/file_pair.hpp"
+#include "run/interruption.hpp"
 #include "run/kernel_session.hpp"
 #include "run/memory_watch.hpp"
 #include "run/parameter_file.hpp"
@@ -39,40 +41,6 @@ constexpr int kJournalDescriptor = 13;
 constexpr int kPaceDescriptor = 14;
 constexpr double kConnectPatience_s = 20.0;
 constexpr double kEndPatience_s = 10.0;
-constexpr double kSlowedWorthTelling_s = 1.0;
-
-class FilePair {  // two connected descriptors, closed with the object
- public:
-  static FilePair pipe() {
-    FilePair p;
-    if (pipe2(p.fd_, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
-    return p;
-  }
-  static FilePair packets() {
-    FilePair p;
-    if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, p.fd_) != 0) throw std::system_error(errno, std::generic_category(), "socketpair");
-    return p;
-  }
-  FilePair(FilePair&& other) noexcept {
-    std::swap(fd_[0], other.fd_[0]);
-    std::swap(fd_[1], other.fd_[1]);
-  }
-  FilePair(const FilePair&) = delete;
-  FilePair& operator=(const FilePair&) = delete;
-  ~FilePair() { drop(); }
-  int first() const { return fd_[0]; }
-  int second() const { return fd_[1]; }
-  void drop() {  // the children keep theirs: only so can the end of one be seen by another
-    for (int& fd : fd_) {
-      if (fd >= 0) close(fd);
-      fd = -1;
-    }
-  }
-
- private:
-  FilePair() = default;
-  int fd_[2] = {-1, -1};
-};
 
 class LoadRun {
  public:
@@ -269,7 +237,9 @@ class LoadRun {
       memory_.sample(recorder_.time_s());
       tell_progress();
       inject();
+      heed_interruption();
     }
+    if (result_.interrupted.empty()) heed_interruption();  // a terminal's signal goes to the plant as well, which may have ended first
     recorder_.poll(0.0);
     take_app_lines();
     take_plant_lines();
@@ -308,39 +278,22 @@ class LoadRun {
     say(fmt::format("{:7.1f} s  fault injected", recorder_.time_s()));
   }
 
+  // The plant ends its run as if its time were up, and all the rest follows from that; whoever asks twice wants no report.
+  void heed_interruption() {
+    const int number = interruption_.take();
+    if (number == 0) return;
+    if (!options_.report_when_interrupted || !result_.interrupted.empty()) throw std::runtime_error(fmt::format("interrupted ({}): there is no report", strsignal(number)));
+    result_.interrupted = strsignal(number);
+    plant_.signal(SIGTERM);
+    say(fmt::format("{:7.1f} s  interrupted ({}): the report follows; once more ends without it", recorder_.time_s(), result_.interrupted));
+  }
+
   void take_app_lines() {
     for (const auto& line : app_.take_lines()) {
       auto event = json::parse(line, nullptr, false);
       if (!event.is_object()) continue;
-      const std::string name = event.value("event", "");
-      if (name == "pass") ++passes_;
-      if (name == "pass") {
-        say(fmt::format("{:7.1f} s  truck {} pass {:2}: {:.2f} t in {:.1f} s", recorder_.time_s(), event.value("truck", 1), event.value("pass", 0),
-                        event.value("payload_kg", 0.0) / 1000, event.value("seconds", 0.0)));
-      } else if (name == "recognised") {
-        say(fmt::format("{:7.1f} s  truck {} recognised: {}, {:.2f} x {:.2f} m, walls {:.2f} m high, at ({:.2f}, {:.2f}), {:.1f} deg", recorder_.time_s(), event.value("truck", 1),
-                        event.value("class", "?"), event.value("length_m", 0.0), event.value("width_m", 0.0), event.value("height_m", 0.0), event.value("x_m", 0.0),
-                        event.value("y_m", 0.0), event.value("yaw_deg", 0.0)));
-      } else if (name == "no_truck") {
-        say(fmt::format("{:7.1f} s  no truck recognised: {}", recorder_.time_s(), event.value("reason", "?")));
-      } else if (name == "truck_full") {
-        say(fmt::format("{:7.1f} s  truck {} is full", recorder_.time_s(), event.value("truck", 1)));
-      } else if (name == "stopped") {
-        say(fmt::format("{:7.1f} s  the kernel stopped the machine: {}", recorder_.time_s(), event.value("reason", "?")));
-      } else if (name == "full_speed" && event.value("slowed_s", 0.0) >= kSlowedWorthTelling_s) {
-        say(fmt::format("{:7.1f} s  was slowed by the kernel for {:.1f} s, to {:.0f} %{}", recorder_.time_s(), event.value("slowed_s", 0.0),
-                        100 * event.value("least_share", 1.0), event.value("dust", false) ? " (dust)" : ""));
-      } else if (name == "held") {
-        say(fmt::format("{:7.1f} s  the app holds back: {}", recorder_.time_s(), held_by(event)));
-      } else if (name == "operator_needed") {
-        say(fmt::format("{:7.1f} s  operator needed, {}: {}", recorder_.time_s(), operator_needed_for(event), event.value("advice", "")));
-      } else if (name == "move_back") {
-        say(fmt::format("{:7.1f} s  the app asks for a bench move, {:.1f} m back: {}", recorder_.time_s(), event.value("distance_m", 0.0), event.value("why", "")));
-      } else if (name == "moved") {
-        say(fmt::format("{:7.1f} s  the machine was moved: the app looks round anew", recorder_.time_s()));
-      } else if (name == "resumed" || name == "released") {
-        say(fmt::format("{:7.1f} s  moving again", recorder_.time_s()));
-      }
+      if (event.value("event", "") == "pass") ++passes_;
+      say(app_event_words(event, recorder_.time_s()));
       if (events_file_.is_open()) events_file_ << event.dump() << std::endl;
       result_.app_events.push_back(std::move(event));
     }
@@ -351,16 +304,9 @@ class LoadRun {
       const auto event = json::parse(line, nullptr, false);
       if (!event.is_object()) continue;
       const std::string name = event.value("event", "");
-      if (name == "contact") say(fmt::format("{:7.1f} s  CONTACT: {}", event.value("t", 0.0), event.value("what", "?")));
-      if (name == "truck_arrived") say(fmt::format("{:7.1f} s  a truck stands ready", event.value("t", 0.0)));
-      if (name == "bench_move") {
-        ++bench_moves_;
-        say(fmt::format("{:7.1f} s  the operator trammed the machine back by {:.1f} m", event.value("t", 0.0), event.value("distance_m", 0.0)));
-      }
-      if (name == "hand_lift") say(fmt::format("{:7.1f} s  the operator lifts the implements by hand", event.value("t", 0.0)));
-      if (name == "press") say(fmt::format("{:7.1f} s  the operator presses {}", event.value("t", 0.0), event.value("keys", "?")));
+      if (name == "bench_move") ++bench_moves_;
       if (name == "truck_left") ++trucks_away_;
-      if (name == "truck_left") say(fmt::format("{:7.1f} s  the truck has left", event.value("t", 0.0)));
+      say(plant_event_words(event));
     }
   }
 
@@ -373,7 +319,10 @@ class LoadRun {
     take_app_lines();  // its count at its exit
     recorder_.poll(0.0);
     finish_journal();
-    if (plant_.exit_status() != 0) throw std::runtime_error("the plant failed: " + plant_.describe_end());
+    if (plant_.exit_status() != 0) {
+      if (!result_.interrupted.empty()) throw std::runtime_error(fmt::format("interrupted ({}) before the run had begun: there is no report", result_.interrupted));
+      throw std::runtime_error("the plant failed: " + plant_.describe_end());
+    }
     const bool kernel_killed = options_.fault && options_.fault->kind == FaultKind::kill_kernel;
     if (!kernel_ended) throw std::runtime_error("the kernel does not end");
     result_.kernel = json::parse(last_json_line(kernel_.take_lines()), nullptr, false);
@@ -420,11 +369,12 @@ class LoadRun {
   }
 
   void say(const std::string& words) const {
-    if (options_.quiet) return;
+    if (options_.quiet || words.empty()) return;
     fmt::print("{}\n", words);
     std::fflush(stdout);
   }
 
+  const Interruption interruption_;  // before the children
   RunOptions options_;
   Uids uids_;
   std::string can_;

@@ -27,7 +27,8 @@ ProcessFault parse_fault(const std::string& text) {
 std::optional<int> read_options(int argc, char** argv, RunOptions& options) {
   std::string fault;
   CLI::App app{"Starts plant (simulated machine and site), safety kernel and planning app as three processes and loads trucks.\n"
-               "Exit status 0: every truck was loaded to at least 95 % of its target, nothing was touched, the kernel saw no fault.",
+               "Exit status 0: every truck was loaded to at least 95 % of its target, nothing was touched, the kernel saw no fault.\n"
+               "SIGINT or SIGTERM ends the run with the summary of what ran until then.",
                "berm load"};
   app.add_option("--scenario", options.scenario, "a name (bench, person, ...) or a TOML file")->capture_default_str();
   app.add_option("--scripts", options.scripts, "folder of other scripts than the app's own (pass.script, approach.script)");
@@ -40,6 +41,7 @@ std::optional<int> read_options(int argc, char** argv, RunOptions& options) {
   app.add_option("--fault", fault, "a process fault in the run: kill-app@S, stop-app@S, kill-kernel@S or kill-journal@S, S in simulated seconds; then status 0 means that the machine stood still in time, untouched (kill-journal: that nothing came of it)");
   app.add_flag("--quiet", options.quiet, "no progress, only the summary");
   if (const auto status = config::parse_options(app, argc, argv)) return status;
+  options.report_when_interrupted = true;
   if (!fault.empty()) {
     try {
       options.fault = parse_fault(fault);

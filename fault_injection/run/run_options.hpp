@@ -30,6 +30,7 @@ struct RunOptions {
   bool journal = true;       // else no journal is written: it grows by gigabytes an hour
   int silence_s = 5;         // of wall clock, after which the plant goes on without kernel or app
   int trace_every = 1;       // cycles from one row of the trace to the next
+  bool report_when_interrupted = false;  // SIGINT or SIGTERM ends the run, and its result is of what ran; else that is an error
   double progress_every_s = 0.0;  // simulated; a line instead of one for each pass; 0: none
 };
 

@@ -189,6 +189,7 @@ json flat_json(const RunResult& r) {
 std::vector<std::string> shortcomings(const RunResult& r) {
   std::vector<std::string> reasons;
   if (r.contacts > 0) reasons.push_back(fmt::format("{} contact(s)", r.contacts));
+  if (!r.interrupted.empty()) reasons.push_back(fmt::format("interrupted ({}) after {:.1f} s", r.interrupted, r.truth.value("simulated_seconds", 0.0)));
   // The journal's end must not be felt: such a run is judged as any other.
   if (r.options.fault && r.options.fault->kind != FaultKind::kill_journal) {
     const auto standstill = standstill_after_fault(r);

@@ -19,6 +19,7 @@ struct RunResult {
   nlohmann::json kernel;                    // report of the kernel at its end; null when it was killed
   std::vector<nlohmann::json> app_events;
   double wall_seconds = 0.0;
+  std::string interrupted;                  // the signal that ended the run: "Interrupt", "Terminated"; empty: none did
   int contacts = 0;
   int pids[4] = {};                         // plant, kernel, app, journal
   std::map<std::string, int> stops;

@@ -25,7 +25,8 @@ int run(int argc, char** argv) {
   std::uint64_t seed = 1;
   bool journal = false, picture = false;
   CLI::App app{"A whole shift in lockstep: trucks, people, dust and soil as the seed draws them, and an operator who moves the machine back along the bench\n"
-               "and resets it after stops. Ends with a report. Exit status 0: the shift came to its end with no contact, and never a quarter of an hour without a pass.",
+               "and resets it after stops. Ends with a report. Exit status 0: the shift came to its end with no contact, and never a quarter of an hour without a pass.\n"
+               "SIGINT or SIGTERM ends it with the report of what ran until then.",
                "berm soak"};
   app.add_option("--hours", hours, "of simulated time")->capture_default_str()->check(CLI::Range(0.01, 10.0));
   app.add_option("--seed", seed, "seed of every random draw")->capture_default_str();
@@ -49,6 +50,7 @@ int run(int argc, char** argv) {
   options.seed = seed;
   options.out = out;
   options.quiet = true;
+  options.report_when_interrupted = true;
   options.journal = journal;
   options.picture = picture;
   options.silence_s = kSilence_s;

@@ -14,12 +14,12 @@ constexpr double skyline_period = 0.5;
 constexpr double most_brake_share = 0.9;          // of the largest acceleration of the swing: no landing is planned harder
 constexpr double full_share = 0.975;              // of a heaped bucket: what passes are planned with
 
-const char* phase_name(std::uint16_t phase) {
+}  // namespace
+
+const char* Sequencer::phase_name(std::uint16_t phase) {
   static constexpr const char* names[BERM_PHASE_COUNT] = {"idle", "dig", "lift", "swing to truck", "dump", "swing to dig", "wait"};
   return names[phase];
 }
-
-}  // namespace
 
 Sequencer::Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, const ScriptSet& scripts, TruckFinder& finder, const ProgressLog& log)
     : scripts_(scripts), machine_(machine), scale_(scale_of(machine)), heaped_kg_(machine.bucket_payload_kg), full_bucket_kg_(full_share * heaped_kg_), site_(site), log_(log), trucks_(trucks), ground_(site_), arm_(machine_), brakes_(most_brake_share * machine.joint[swing].acceleration_max), joint_watch_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_),
@@ -59,7 +59,7 @@ void Sequencer::begin_approach(const Observation& o, bool lower) {
   if (lower) entry = PlanePoint{dig_.drag.front().r, dig_.drag.front().z};
   const auto script = approach_script(scripts_, machine_, {o.angle, dig_.bearing, site_.bed->wall_top, entry, brings_load_});
   if (!script) {
-    log_.event("unreachable", {{"time_s", o.time_s}, {"what", "start of the dig"}});
+    miss_approach(o);
     return;
   }
   begin_script(*script);
@@ -225,6 +225,7 @@ Answer Sequencer::step(const Observation& o) {
   if (advice.resumed) script_.interrupted();
   if (advice.resumed && advice.moved && (stage_ == Stage::dig || stage_ == Stage::settle || stage_ == Stage::approach)) begin_approach(o, true);
   if (advice.resumed && (stage_ == Stage::go_look || stage_ == Stage::look)) begin_look(o);
+  if (standing_.step(o, works() && o.running() && !advice.in_charge)) go_on_from_a_stand(o);
   if (advice.in_charge) {
     answer.velocity = advice.velocity;
     if (stage_ == Stage::look) look_.stop(scanners_);

@@ -12,6 +12,7 @@
 #include "app/progress_log.hpp"
 #include "app/recovery.hpp"
 #include "app/slow_down.hpp"
+#include "app/standing_watch.hpp"
 #include "app/truck_look.hpp"
 #include "app/truck_presence.hpp"
 #include "app/weighing.hpp"
@@ -53,6 +54,7 @@ private:
 
   void enter(Stage stage, const Observation& o);
   void enter_phase(std::uint16_t phase, const Observation& o);
+  static const char* phase_name(std::uint16_t phase);
   Joints plan(const Observation& o);          // the stage's motion of this cycle
   void hear(const Observation& o);            // what the kernel let out of the request before, and what it permits now
   void watch_joints(const Observation& o);    // against their models, with what is in the bucket
@@ -83,6 +85,12 @@ private:
   void forget_bed();
   void finish(const Observation& o);
   void leave_truck(const Observation& o);     // it left before it was full
+  bool works() const;
+  void go_on_from_a_stand(const Observation& o);
+  void take_load_back(const Observation& o);
+  void miss_approach(const Observation& o);
+  void miss_dig(const Observation& o);
+  void refuse_truck(const Observation& o);
   void call_for_truck(const Observation& o);  // when none comes, or the full one does not leave
   bool sounds_full(const Observation& o) const;
   Joints go_look(const Observation& o);
@@ -101,6 +109,7 @@ private:
   double lifted_kg() const;                   // what the bucket carried to the truck; 0 when nothing has weighed it
   void book_pass(const Observation& o);
   void end_pass(const Observation& o);
+  void go_on_after_pass(const Observation& o, bool lowered);
   bool face_too_poor_for_a_truck();
   void begin_move_back(const Observation& o, const char* why);
   Joints raise_for_move(const Observation& o);
@@ -133,6 +142,9 @@ private:
   TruckLook look_;
   Recovery recovery_;
   SlowDown slow_down_;
+  StandingWatch standing_;
+  int stands_ = 0, missed_digs_ = 0;          // in a row
+  int refused_truck_ = 0;                     // which the operator was told of
   std::uint64_t heard_cycle_ = 0;
   DigFollower follower_;
   Script script_;

@@ -81,8 +81,7 @@ void Sequencer::begin_dig(const Observation& o) {
   way.insert(way.end(), dig_.drag.begin(), dig_.drag.end());
   auto path = DigPath::solve(machine_, way);
   if (!path) {
-    log_.event("unreachable", {{"time_s", o.time_s}, {"what", "drag"}, {"bearing_deg", degrees(dig_.bearing)}});
-    begin_approach(o, true);
+    miss_dig(o);
     return;
   }
   const DigShape planned = shape_after(machine_, ground_, o.angle[swing], needs.bucket_width, *path, dig_.volume / cut_reserve, dig_.drag[1].r);
@@ -91,6 +90,7 @@ void Sequencer::begin_dig(const Observation& o) {
   planned_fill_ = fill_along(machine_, SurfaceProfile(ground_, o.angle[swing], needs.bucket_width), needs.bucket_width, *path);
   follower_.begin(std::move(*path));
   filled_.begin();
+  missed_digs_ = 0;
   holds_nothing_ = false;
   brings_load_ = false;  // it opened over the dig
   pass_began_s_ = pass_ == 0 || pass_began_s_ == 0.0 ? o.time_s : pass_began_s_;
@@ -225,8 +225,7 @@ void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_fro
   task_.truck_top = skyline.highest(dump_.bearing - near_truck, dump_.bearing + near_truck, 4.2 * scale_.arm, 8.6 * scale_.arm);
   const auto poses = pass_poses(machine_, task_);
   if (!poses) {
-    log_.event("unreachable", {{"time_s", o.time_s}, {"what", "dump point"}, {"bearing_deg", degrees(dump_.bearing)}, {"radius_m", dump_.radius}});
-    search_.reset();
+    search_.reset();  // refuse_truck
     return;
   }
   poses_ = *poses;
@@ -253,6 +252,11 @@ Joints Sequencer::curl(const Observation& o) {
                           {"truck_bearing_deg", degrees(dump_.bearing)}, {"clear", search_->clear()}, {"model_seconds", search_->seconds()}});
     enter(Stage::pass, o);
     return pass(o);
+  }
+  if (done && !search_) {
+    log_.event("unreachable", {{"time_s", o.time_s}, {"what", "dump point"}, {"bearing_deg", degrees(dump_.bearing)}, {"radius_m", dump_.radius}});
+    refuse_truck(o);
+    return {};
   }
   if (!follower_.active()) return {};
   // A bucket that soil holds up while it curls comes free when it is lifted.

@@ -80,7 +80,7 @@ void Sequencer::begin_anew(const Observation& o) {
   search_.reset();
   look(o);
   forget_bed();
-  poor_passes_ = 0;
+  poor_passes_ = missed_digs_ = stands_ = 0;
   face_yield_.clear();
   yield_ = 1.0;  // what was learned last was of loose soil at the foot of the old face
   loaded_here_kg_ = 0.0;

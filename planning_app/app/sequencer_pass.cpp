@@ -125,14 +125,20 @@ void Sequencer::book_pass(const Observation& o) {
 }
 
 void Sequencer::end_pass(const Observation& o) {
+  stands_ = 0;
   book_pass(o);
+  go_on_after_pass(o, task_.lower_at_end);
+}
+
+// lowered: over the next dig.
+void Sequencer::go_on_after_pass(const Observation& o, bool lowered) {
   if ((poor_passes_ >= most_poor_passes || face_yield_.poor()) && !fill_.full()) {
     part_filled_ = true;
     begin_move_back(o, "the last passes found too little");
     return;
   }
   if (!fill_.full() && more_fits(o)) {
-    if (task_.lower_at_end) enter(Stage::settle, o);
+    if (lowered) enter(Stage::settle, o);
     else begin_approach(o, true);  // it weighed less than expected
     return;
   }

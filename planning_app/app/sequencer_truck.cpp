@@ -23,6 +23,9 @@ void Sequencer::begin_look(const Observation& o) {
   const auto script = raised(o, look_.bearing());
   if (!script) {
     log_.event("unreachable", {{"time_s", o.time_s}, {"what", "where the truck is looked for"}});
+    log_.event("operator_needed", {{"time_s", o.time_s}, {"reason", "machine file"}, {"stopped_s", 0.0},
+                                   {"advice", "the implements cannot be raised as the app needs it: check the machine file, and start the app anew"}});
+    enter(Stage::exhausted, o);
     return;
   }
   begin_script(*script);
@@ -71,6 +74,7 @@ void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
     truck_began_s_ = o.time_s;
   }
   part_filled_ = false;
+  stands_ = 0;
   pass_began_s_ = o.time_s;
   begin_approach(o, true);
 }
@@ -103,11 +107,9 @@ void Sequencer::next_truck(const Observation& o) {
 // What is in the bucket goes back to the face. A truck that is no longer admitted but was not seen to leave is looked at again, and its books go on.
 void Sequencer::leave_truck(const Observation& o) {
   const bool left = presence_.gone() == TruckPresence::Gone::left;
-  if (stage_ == Stage::pass && script_.of(bucket).reached(RuleMark::opens)) book_pass(o);  // at least a part is in the truck
+  take_load_back(o);
   log_.event("truck_lost", {{"time_s", o.time_s}, {"truck", truck_}, {"why", left ? "left" : "no longer admitted"}, {"loaded_kg", fill_.loaded_kg()}, {"target_kg", site_.place.target_kg}});
   enter_phase(BERM_PHASE_WAIT, o);
-  brings_load_ = brings_load_ || (!holds_nothing_ && (stage_ == Stage::dig || stage_ == Stage::curl || stage_ == Stage::pass));
-  search_.reset();
   if (left && truck_ == trucks_) {
     finish(o);
   } else if (left) {

@@ -1,0 +1,103 @@
+// The sequencer where the plan goes no farther: a script that stands, a dig or a truck that is out of reach. None of them is a dead end without a word.
+#include "app/sequencer.hpp"
+
+namespace berm::app {
+
+namespace {
+
+constexpr int most_tries = 3;  // to begin anew; then the operator is told
+
+constexpr const char* joint_names[joints] = {"swing", "boom", "stick", "bucket"};
+
+}  // namespace
+
+// Stages in which the plan moves the machine and waits for nobody.
+bool Sequencer::works() const {
+  switch (stage_) {
+    case Stage::go_look:
+    case Stage::approach:
+    case Stage::settle:
+    case Stage::dig:
+    case Stage::curl:
+    case Stage::pass: return true;
+    case Stage::survey:
+    case Stage::wait_truck:
+    case Stage::look:
+    case Stage::horn:
+    case Stage::wait_leave:
+    case Stage::raise_for_move:
+    case Stage::ask_move:
+    case Stage::being_moved:
+    case Stage::exhausted:
+    case Stage::finished: return false;
+  }
+  return false;
+}
+
+// The work is begun anew from where the implements are: high and folded, back to the dig. What helped once may help again, but somebody has to know.
+void Sequencer::go_on_from_a_stand(const Observation& o) {
+  nlohmann::ordered_json fields{{"time_s", o.time_s}, {"phase", phase_name(phase_)}, {"stood_s", StandingWatch::patience}, {"pass", pass_ + 1}};
+  const bool scripted = stage_ == Stage::go_look || stage_ == Stage::approach || stage_ == Stage::pass;
+  for (const Joint j : {swing, boom, stick, bucket}) {
+    const JointScript& script = script_.of(j);
+    if (scripted && script.running() && !script.at_last()) fields["waits"][joint_names[j]] = script.rules()[static_cast<std::size_t>(script.active()) + 1].name;
+  }
+  log_.event("stands", fields);
+  if (++stands_ == most_tries)
+    log_.event("operator_needed", {{"time_s", o.time_s}, {"reason", "work stands"}, {"stopped_s", most_tries * StandingWatch::patience},
+                                   {"advice", "the app has begun the work anew and stands again: lift the implements by hand; if it stands after that, end the app, check its scripts and start it anew"}});
+  if (stage_ == Stage::go_look) {
+    begin_look(o);
+    return;
+  }
+  const bool poured = stage_ == Stage::pass && script_.of(bucket).reached(RuleMark::opens);
+  take_load_back(o);
+  if (poured) go_on_after_pass(o, false);
+  else begin_approach(o, true);
+}
+
+// What is in the bucket goes back to the face; where it had begun to pour, that counts as poured.
+void Sequencer::take_load_back(const Observation& o) {
+  if (stage_ == Stage::pass && script_.of(bucket).reached(RuleMark::opens)) book_pass(o);
+  brings_load_ = brings_load_ || (!holds_nothing_ && (stage_ == Stage::dig || stage_ == Stage::curl || stage_ == Stage::pass));
+  search_.reset();
+}
+
+// Either the implements cannot be raised over this truck, or the soil is out of reach.
+void Sequencer::miss_approach(const Observation& o) {
+  if (!approach_script(scripts_, machine_, {o.angle, dig_.bearing, site_.bed->wall_top, std::nullopt, brings_load_})) {
+    log_.event("unreachable", {{"time_s", o.time_s}, {"what", "height of the truck"}, {"height_m", site_.bed->wall_top}});
+    refuse_truck(o);
+    return;
+  }
+  log_.event("unreachable", {{"time_s", o.time_s}, {"what", "start of the dig"}});
+  part_filled_ = true;
+  begin_move_back(o, "the start of the next dig is out of the bucket's reach");
+}
+
+// Once or twice another way to the dig may do; then the machine stands wrong.
+void Sequencer::miss_dig(const Observation& o) {
+  log_.event("unreachable", {{"time_s", o.time_s}, {"what", "drag"}, {"bearing_deg", degrees(dig_.bearing)}});
+  if (++missed_digs_ < most_tries) {
+    begin_approach(o, true);
+    return;
+  }
+  part_filled_ = true;
+  begin_move_back(o, "the soil before the machine is out of the bucket's reach");
+}
+
+// The truck is where no dump can be made. It is looked at again: that it parks anew nobody has to say.
+void Sequencer::refuse_truck(const Observation& o) {
+  if (refused_truck_ != truck_)
+    log_.event("operator_needed", {{"time_s", o.time_s}, {"reason", "truck out of reach"}, {"x_m", site_.bed->centre_x}, {"y_m", site_.bed->centre_y}, {"height_m", site_.bed->wall_top},
+                                   {"stopped_s", 0.0}, {"advice", "the bucket cannot be brought over the truck's bed: have it park anew, where trucks park"}});
+  refused_truck_ = truck_;
+  log_.event("truck_lost", {{"time_s", o.time_s}, {"truck", truck_}, {"why", "out of reach"}, {"loaded_kg", fill_.loaded_kg()}, {"target_kg", site_.place.target_kg}});
+  enter_phase(BERM_PHASE_WAIT, o);
+  take_load_back(o);
+  part_filled_ = true;
+  forget_bed();
+  wait_raised(o);
+}
+
+}  // namespace berm::app
