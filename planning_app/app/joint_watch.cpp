@@ -4,12 +4,6 @@
 
 namespace berm::app {
 
-namespace {
-
-constexpr const char* joint_names[joints] = {"swing", "boom", "stick", "bucket"};
-
-}  // namespace
-
 JointWatch::JointWatch(const MachineModel& machine) : machine_(&machine) {
   for (std::size_t j = 0; j < joints; ++j) {
     const TwoWayResponse response = command_responses_of(machine, j, 0.0, 0.0);

@@ -223,7 +223,7 @@ Answer Sequencer::step(const Observation& o) {
   const Recovery::Advice advice = stage_ == Stage::being_moved ? Recovery::Advice{} : recovery_.step(o, log_, too_high_stands());
   if (advice.rescan) scanners_.begin_full_sweep();
   if (advice.resumed) script_.interrupted();
-  if (advice.resumed && advice.moved && (stage_ == Stage::dig || stage_ == Stage::settle || stage_ == Stage::approach)) begin_approach(o, true);
+  if (advice.resumed && advice.moved && begins_anew_where_moved()) begin_dig_from_here(o);
   if (advice.resumed && (stage_ == Stage::go_look || stage_ == Stage::look)) begin_look(o);
   if (standing_.step(o, works() && o.running() && !advice.in_charge)) go_on_from_a_stand(o);
   if (advice.in_charge) {

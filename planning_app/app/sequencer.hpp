@@ -87,6 +87,8 @@ private:
   void leave_truck(const Observation& o);     // it left before it was full
   bool works() const;
   void go_on_from_a_stand(const Observation& o);
+  void begin_dig_from_here(const Observation& o);
+  bool begins_anew_where_moved() const;
   void take_load_back(const Observation& o);
   void miss_approach(const Observation& o);
   void miss_dig(const Observation& o);

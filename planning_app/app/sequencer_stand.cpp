@@ -7,8 +7,6 @@ namespace {
 
 constexpr int most_tries = 3;  // to begin anew; then the operator is told
 
-constexpr const char* joint_names[joints] = {"swing", "boom", "stick", "bucket"};
-
 }  // namespace
 
 // Stages in which the plan moves the machine and waits for nobody.
@@ -50,10 +48,21 @@ void Sequencer::go_on_from_a_stand(const Observation& o) {
     begin_look(o);
     return;
   }
+  begin_dig_from_here(o);
+}
+
+// High and folded to the next dig, wherever the implements are.
+void Sequencer::begin_dig_from_here(const Observation& o) {
   const bool poured = stage_ == Stage::pass && script_.of(bucket).reached(RuleMark::opens);
   take_load_back(o);
   if (poured) go_on_after_pass(o, false);
   else begin_approach(o, true);
+}
+
+// A pass on its way to the truck goes on where it is. One on its way back may be lowering already: where the stop's mending has carried it there is
+// no dig.
+bool Sequencer::begins_anew_where_moved() const {
+  return stage_ == Stage::dig || stage_ == Stage::settle || stage_ == Stage::approach || (stage_ == Stage::pass && script_.of(swing).reached(RuleMark::returns));
 }
 
 // What is in the bucket goes back to the face; where it had begun to pour, that counts as poured.

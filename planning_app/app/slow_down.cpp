@@ -9,11 +9,6 @@ namespace {
 // Who keeps to what is permitted is cut only now and then, when it tries for more: such cuts are one span.
 constexpr double span_gap_s = 0.3;
 
-const char* joint_name(std::size_t joint) {
-  static constexpr const char* names[joints] = {"swing", "boom", "stick", "bucket"};
-  return names[joint];
-}
-
 }  // namespace
 
 void SlowDown::step(const Observation& o, const ArmController& arm, double cycle_s, const char* phase, const ProgressLog& log) {
@@ -29,7 +24,7 @@ void SlowDown::step(const Observation& o, const ArmController& arm, double cycle
     from_s_ = last_s_ = o.time_s - cycle_s;
     span_least_ = 1.0;
     span_dust_ = false;
-    log.event("slowed", {{"time_s", from_s_}, {"joint", joint_name(most_cut)}, {"phase", phase}});
+    log.event("slowed", {{"time_s", from_s_}, {"joint", joint_names[most_cut]}, {"phase", phase}});
   }
   seconds_ += o.time_s - last_s_;
   last_s_ = o.time_s;

@@ -10,6 +10,7 @@ namespace berm::app {
 
 inline constexpr std::size_t joints = 4;
 enum Joint : std::size_t { swing = 0, boom = 1, stick = 2, bucket = 3 };
+inline constexpr std::array<const char*, joints> joint_names{"swing", "boom", "stick", "bucket"};
 
 using Joints = std::array<double, joints>;  // rad or rad/s
 

@@ -12,7 +12,6 @@ namespace berm::app {
 namespace {
 
 constexpr std::size_t most_bytes = 64 * 1024, most_rules = 32;
-constexpr std::array<const char*, joints> joint_names{"swing", "boom", "stick", "bucket"};
 constexpr std::array<const char*, 7> relation_names{"above", "below", "rises_above", "falls_below", "beyond", "back_past", "near"};
 constexpr std::array<const char*, 4> mark_names{"leaves", "extends", "opens", "returns"};  // RuleMark from 1 on
 struct NamedEvent { const char* name; Event event; };

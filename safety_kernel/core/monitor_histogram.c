@@ -168,6 +168,7 @@ static void sk_count_point(sk_monitor_histogram *h, int32_t iy, int32_t ix, int3
   @ ensures leaves: sk_somebody_at{Pre}(h, iy, ix) && sk_ground_is_back{Pre}(h, r, now_us, iy, ix) ==> !sk_somebody_at(h, iy, ix);
   @ ensures stays: sk_somebody_at{Pre}(h, iy, ix) && !sk_ground_is_back{Pre}(h, r, now_us, iy, ix) ==> sk_somebody_at(h, iy, ix);
   @ ensures nobody: !sk_somebody_at{Pre}(h, iy, ix) ==> h->state[iy][ix] == \old(h->state[iy][ix]);
+  @ ensures time: h->ground_us[iy][ix] == \old(h->ground_us[iy][ix]) || (sk_somebody_at{Pre}(h, iy, ix) && h->ground_us[iy][ix] == now_us);
   @*/
 static void sk_see_ground_again(sk_monitor_histogram *h, const sk_monitor_rules *r, int32_t iy, int32_t ix, int64_t now_us)
 {
@@ -292,6 +293,12 @@ bool sk_histogram_insert(sk_monitor_histogram *h, int32_t known, const sk_monito
   /*@ assert times: \forall integer j, i; sk_in_map(j, i) && !(j == iy && i == ix) ==> sk_times_kept{Pre, Here}(h, j, i); */
   /*@ assert ground: \forall integer j, i; sk_in_map(j, i) && !(j == iy && i == ix) ==> sk_ground_kept{Pre, Here}(h, j, i); */
   return true;
+}
+
+void sk_histogram_pass(sk_monitor_histogram *h, int32_t known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us)
+{
+  if (now_us < 0 || z_mm >= SK_HISTOGRAM_TOP_MM || !sk_is_in_map(iy, ix)) { return; }
+  if (!sk_is_departing(h, known, r, iy, ix, z_mm)) { sk_see_ground_again(h, r, iy, ix, now_us); }
 }
 
 /*@ assigns \nothing;

@@ -190,6 +190,20 @@ int32_t sk_histogram_known(const sk_monitor_histogram *h, int32_t iy, int32_t ix
   @*/
 bool sk_histogram_insert(sk_monitor_histogram *h, int32_t known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us);
 
+/* A ray has passed over cell (iy, ix), no higher than z_mm, and met something beyond. Where a point so high would not depart, somebody in its way would have
+ * been met: that is a sight of the ground, for somebody who was there; nothing is counted. `known`: as of sk_histogram_insert. */
+/*@ requires \valid(h) && \valid_read(r) && \separated(h, r);
+  @ assigns h->state[..][..], h->ground_us[..][..];
+  @ ensures stays: \forall integer j, i; sk_in_map(j, i) && sk_somebody_at{Pre}(h, j, i) ==> sk_somebody_at(h, j, i) ||
+  @   (j == iy && i == ix && now_us >= 0 && !sk_departs{Pre}(h, known, r, iy, ix, z_mm) && sk_ground_is_back{Pre}(h, r, now_us, iy, ix));
+  @ ensures leaves: sk_in_map(iy, ix) && now_us >= 0 && z_mm < SK_HISTOGRAM_TOP_MM && !sk_departs{Pre}(h, known, r, iy, ix, z_mm) &&
+  @   sk_ground_is_back{Pre}(h, r, now_us, iy, ix) ==> !sk_somebody_at(h, iy, ix);
+  @ ensures nobody: \forall integer j, i; sk_in_map(j, i) && !sk_somebody_at{Pre}(h, j, i) ==> h->state[j][i] == \old(h->state[j][i]);
+  @ ensures time: \forall integer j, i; sk_in_map(j, i) ==> h->ground_us[j][i] == \old(h->ground_us[j][i]) ||
+  @   (j == iy && i == ix && sk_somebody_at{Pre}(h, j, i) && h->ground_us[j][i] == now_us);
+  @*/
+void sk_histogram_pass(sk_monitor_histogram *h, int32_t known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us);
+
 /* An interpolated height over cell (iy, ix). It is no observation; while those are too few, what most lines agree on is taken for the ground. */
 /*@ requires \valid(h);
   @ assigns h->line_mm[..][..], h->lines[..][..];

@@ -119,6 +119,24 @@ void MonitorWatch::interpolate(const sk_point& from, const sk_point& to, Over ov
   }
 }
 
+// From what is met towards the head, so the ray rises; in a cell it is no higher than where it has left it.
+void MonitorWatch::pass(const sk_point& head, const sk_point& met, std::int64_t now_us, const Others& others) {
+  if (histogram_.empty() || where_.iy < 0 || head.z_mm <= met.z_mm) return;
+  sk_monitor_histogram& h = histogram_.front();
+  const std::int64_t dx = std::int64_t{head.x_mm} - met.x_mm, dy = std::int64_t{head.y_mm} - met.y_mm, dz = std::int64_t{head.z_mm} - met.z_mm;
+  const std::int64_t steps = std::max(std::abs(dx), std::abs(dy)) / kPassStepMm;
+  Along x(met.x_mm, dx, steps), y(met.y_mm, dy, steps), z(met.z_mm, dz, steps);
+  sk_monitor_cell in{-1, -1};
+  for (std::int64_t k = 1; k < std::min(steps, kPassSteps); ++k) {
+    const std::int32_t x_mm = x.next(), y_mm = y.next(), z_mm = z.next();
+    const sk_monitor_cell now_in{sk_map_index(y_mm), sk_map_index(x_mm)};
+    if (k < kPassEnds || (now_in.iy == in.iy && now_in.ix == in.ix)) continue;
+    if (sk_is_in_map(in.iy, in.ix) && h.state[in.iy][in.ix] != SK_CELL_CLEAR && h.state[in.iy][in.ix] != SK_CELL_LEARNING)
+      sk_histogram_pass(&h, known_elsewhere(in.iy, in.ix, others), &rules_, in.iy, in.ix, z_mm, now_us);
+    in = now_in;
+  }
+}
+
 void MonitorWatch::change_lanes(const berm_parameters& parameters, bool open) {
   for (int i = 0; i < parameters.lanes; ++i) {
     const berm_lane& lane = parameters.lane[i];

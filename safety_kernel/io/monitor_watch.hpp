@@ -30,6 +30,9 @@ class MonitorWatch {
   enum class Over { kEverything, kUnmeasured };  // kUnmeasured: not where the accumulated map has a measured height
   // The line from one return to the next, in steps of half a cell: what a corner of it cuts off stays EMPTY. It counts in EMPTY cells only.
   void interpolate(const sk_point& from, const sk_point& to, Over over, std::int64_t now_us);
+  // With histograms: a ray passed from the head to near the point that it met. Where it was so low that it would have met somebody, nobody stands; that
+  // is asked only while this monitor holds the machine.
+  void pass(const sk_point& head, const sk_point& met, std::int64_t now_us, const Others& others);
   // The trucks' lanes are another ground from now on, and watched or not.
   void change_lanes(const berm_parameters& parameters, bool open);
   // The rectangle is learned: what has CHANGED in it by now belongs to the ground and explains what is seen beside it.
@@ -49,6 +52,9 @@ class MonitorWatch {
 
  private:
   static constexpr std::int64_t kStepsMost = 250;  // across the whole map
+  static constexpr std::int32_t kPassStepMm = SK_CELL_MM / 4;  // so that a ray that cuts a corner off is seen to
+  static constexpr std::int64_t kPassSteps = 240;              // before what is met: 18 m
+  static constexpr std::int64_t kPassEnds = 4;                 // from a cell before it: the thing itself is not passed
 
   void watch_region(const berm_parameters& parameters, bool lanes_open);
   void note_learned_anew(std::int32_t x_low_mm, std::int32_t y_low_mm, std::int32_t x_high_mm, std::int32_t y_high_mm);

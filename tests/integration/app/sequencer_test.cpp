@@ -98,6 +98,37 @@ TEST(Sequencer, GoesOnWhenTheSwingWasCarriedPastItsMarksMeanwhile) {
   }
 }
 
+// Stopped while it is lowered over the dig, and carried back towards the truck by what mends the stop: it is raised before it swings to the dig again, not
+// lowered where it is.
+TEST(Sequencer, IsNotLoweredWhereTheSwingWasCarriedMeanwhile) {
+  Loading run(1, start_pose());
+  while (run.last.phase != BERM_PHASE_DUMP && run.seconds < 90.0) run.step();
+  while (run.last.phase != BERM_PHASE_SWING_TO_DIG && run.seconds < 90.0) run.step();
+  double boom_high = -10.0;
+  while (run.last.phase != BERM_PHASE_DIG && run.plant.angle()[boom] > boom_high - radians(9.0) && run.seconds < 90.0) {
+    run.step();
+    boom_high = std::max(boom_high, run.plant.angle()[boom]);
+  }
+  ASSERT_EQ(run.last.phase, BERM_PHASE_SWING_TO_DIG) << "it was to be on its way down";
+  const double dig_deg = degrees(run.plant.angle()[swing]);
+  run.plant.kernel_runs = false;
+  for (int k = 0; k < 100; ++k) run.step();
+  run.plant.put(swing, radians(dig_deg + 24.0));
+  for (int k = 0; k < 100; ++k) run.step();
+  const double low_deg = degrees(run.plant.angle()[boom]);
+  run.plant.kernel_runs = true;
+  const double resumed = run.seconds;
+  while (run.last.phase != BERM_PHASE_DIG && run.seconds < resumed + 30.0) {
+    run.step();
+    const double before_deg = degrees(run.plant.angle()[swing]) - dig_deg;
+    if (before_deg > 12.0) {
+      ASSERT_GT(degrees(run.plant.angle()[boom]), low_deg - 1.5) << before_deg << " degrees before the dig";
+    }
+  }
+  EXPECT_LT(run.seconds, resumed + 30.0) << "it never came to the dig";
+  expect_no_contact(run);
+}
+
 // A thing under the arm that the kernel does not let it pass over: while it stands in the kernel's map nothing is tried; but the truck stays, and its cab is
 // gone round.
 TEST(Sequencer, TriesNothingWhileWhatIsTooHighStands) {

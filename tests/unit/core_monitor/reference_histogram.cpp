@@ -53,6 +53,20 @@ long ReferenceHistogram::recent_around(const ReferenceRules& r, Place at, std::i
   return points;
 }
 
+// around: points that departed there lately.
+void ReferenceHistogram::see_ground(const ReferenceRules& r, Cell& c, long around, std::int64_t now) const {
+  if (c.state != State::kSomebody || around > 0) return;
+  if (c.ground < 0 || c.ground > now) c.ground = now;
+  else if (now >= c.ground + r.wait) c.state = State::kClear;
+}
+
+void ReferenceHistogram::pass(const ReferenceRules& r, const ReferenceHistogram& others, Place at, std::int64_t z, std::int64_t now) {
+  if (!inside(at) || now < 0 || static_cast<double>(z) >= kFloor + kBin * kBins) return;
+  const Cell known = others.cell(at);
+  Cell& c = make(at);
+  if (!departs(r, c, known, z)) see_ground(r, c, recent_around(r, at, now), now);
+}
+
 bool ReferenceHistogram::insert(const ReferenceRules& r, const ReferenceHistogram& others, Place at, std::int64_t z, std::int64_t now) {
   if (!inside(at) || now < 0 || static_cast<double>(z) >= kFloor + kBin * kBins) return false;
   const Cell known = others.cell(at);
@@ -65,10 +79,7 @@ bool ReferenceHistogram::insert(const ReferenceRules& r, const ReferenceHistogra
     return true;
   }
   const State was = c.state;
-  if (c.state == State::kSomebody && around == 0) {
-    if (c.ground < 0 || c.ground > now) c.ground = now;
-    else if (now >= c.ground + r.wait) c.state = State::kClear;
-  }
+  see_ground(r, c, around, now);
   const auto as_high = [z](const Cell& cell) {
     int points = 0;
     for (const auto& entry : cell.seen) points += entry.first >= bin_of(z) ? entry.second : 0;

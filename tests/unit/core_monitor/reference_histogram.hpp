@@ -30,6 +30,7 @@ class ReferenceHistogram {
   void begin() { cells_.clear(), somebody_ = -1; }
   // others: stand for what this one has not seen; itself for none.
   bool insert(const ReferenceRules& r, const ReferenceHistogram& others, Place at, std::int64_t z, std::int64_t now);
+  void pass(const ReferenceRules& r, const ReferenceHistogram& others, Place at, std::int64_t z, std::int64_t now);
   void line(Place at, std::int64_t z);
   void forget(double x_low, double y_low, double x_high, double y_high);
   void settle(double x_low, double y_low, double x_high, double y_high);
@@ -41,6 +42,7 @@ class ReferenceHistogram {
   static bool inside(Place at) { return at.first >= 0 && at.first < 104 && at.second >= 0 && at.second < 104; }
   static bool touched(Place at, double x_low, double y_low, double x_high, double y_high);
   long recent_around(const ReferenceRules& r, Place at, std::int64_t now) const;  // points that departed in a cell and its neighbours
+  void see_ground(const ReferenceRules& r, Cell& c, long around, std::int64_t now) const;
   bool departs(const ReferenceRules& r, const Cell& c, const Cell& known, std::int64_t z) const;
   Cell& make(Place at);
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <tuple>
 
 #include "core/monitor_histogram.h"
 #include "monitor_scene.hpp"
@@ -326,6 +327,54 @@ TEST_F(MonitorHistogram, HeLeavesWhenTheGroundIsSeenTwiceAWaitApartAndTheDwellIs
   EXPECT_FALSE(step());
 }
 
+// A lidar at rest never meets the ground between its rings: who has left from there is known to have by what passes.
+// verifies: SK-WM-72
+TEST_F(MonitorHistogram, HeLeavesWhenRaysPassAsLowAsTheGroundTwice) {
+  const auto pass = [this](std::int32_t z_mm, int iy = 50, int ix = 50) { sk_histogram_pass(h.get(), SK_NOBODY_KNOWS, rules.get(), iy, ix, z_mm, now_us); };
+  ground();
+  const std::int32_t low = 250, high = 1200;
+  ASSERT_FALSE(see(45, 45, low)) << "no rise";
+  see(50, 50, 1700, 3);
+  ASSERT_TRUE(see(45, 45, high)) << "a rise";
+  now_us += 2 * kPeriod + 1;
+  pass(low);
+  EXPECT_TRUE(somebody(50, 50)) << "once";
+  now_us += kWait - 1;
+  pass(low);
+  EXPECT_TRUE(somebody(50, 50)) << "too soon";
+  see(50, 50, 1700);
+  pass(low);
+  now_us += 2 * kPeriod + 1;
+  for (int i = 0; i < 5; ++i, now_us += kWait) pass(high);
+  EXPECT_TRUE(somebody(50, 50)) << "over his head";
+  pass(low, 50, 51), now_us += kWait, pass(low, 50, 51);
+  EXPECT_TRUE(somebody(50, 50)) << "beside him";
+  pass(low);
+  see(51, 51, 1700);
+  now_us += kWait;
+  see(51, 51, 1700);
+  pass(low);
+  EXPECT_TRUE(somebody(50, 50)) << "he may be beside it";
+  now_us += 2 * kPeriod + 1;
+  pass(low);
+  now_us += kWait;
+  pass(low);
+  EXPECT_FALSE(somebody(50, 50));
+}
+
+// verifies: SK-WM-72
+TEST_F(MonitorHistogram, WhatPassesCountsForNothingElse) {
+  ground();
+  see(50, 50, 1700, 3);
+  sk_histogram_forget_cell(h.get(), 45, 45);
+  const auto before = std::make_unique<sk_monitor_histogram>(*h);
+  now_us += kWait;
+  for (const auto& [iy, ix, z, at_us] : {std::tuple{45, 45, 100, now_us}, {46, 46, 100, now_us}, {-1, 50, 100, now_us}, {50, SK_MAP_CELLS, 100, now_us}, {50, 50, 100, std::int64_t{-1}},
+                                         {50, 50, 4500, now_us}, {50, 50, std::numeric_limits<std::int32_t>::max(), now_us}})
+    sk_histogram_pass(h.get(), SK_NOBODY_KNOWS, rules.get(), iy, ix, z, at_us);
+  EXPECT_EQ(std::memcmp(h.get(), before.get(), sizeof *h), 0);
+}
+
 // verifies: SK-WM-64
 TEST_F(MonitorHistogram, NobodyLeavesWhileSomethingDepartsBeside) {
   ground();
@@ -402,13 +451,13 @@ void expect_same(const sk_monitor_histogram& h, const ReferenceHistogram& refere
 
 bool lower_half(ReferenceHistogram::Place at) { return at.first < 52; }
 
-// verifies: SK-WM-60, SK-WM-61, SK-WM-62, SK-WM-63, SK-WM-64, SK-WM-65, SK-WM-68, SK-WM-71
+// verifies: SK-WM-60, SK-WM-61, SK-WM-62, SK-WM-63, SK-WM-64, SK-WM-65, SK-WM-68, SK-WM-71, SK-WM-72
 TEST_F(MonitorHistogram, RandomSequencesAreAsTheReferenceHasThem) {
   std::printf("seed %llu\n", static_cast<unsigned long long>(kSeed));
   std::mt19937_64 random(kSeed);
   const auto below = [&random](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   const auto others = std::make_unique<sk_monitor_histogram>();
-  int departed = 0, stops = 0, left = 0;
+  int departed = 0, stops = 0, left = 0, passed = 0;
   for (int sequence = 0; sequence < 30; ++sequence) {
     ReferenceHistogram reference, reference_of_others;
     sk_histogram_begin(h.get());
@@ -440,6 +489,12 @@ TEST_F(MonitorHistogram, RandomSequencesAreAsTheReferenceHasThem) {
         const std::int32_t z = below(3) > 0 ? below(200) : below(2000) - 500;
         sk_histogram_line(h.get(), iy, ix, z);
         reference.line({iy, ix}, z);
+      } else if (what < 300) {
+        const std::int32_t z = below(5) > 0 ? below(400) : below(2500) - 500;
+        const std::int64_t at_us = below(50) == 0 ? -1 : now_us;
+        sk_histogram_pass(h.get(), sk_histogram_known(others.get(), iy, ix), rules.get(), iy, ix, z, at_us);
+        reference.pass(r, reference_of_others, {iy, ix}, z, at_us);
+        passed += was && !somebody(iy, ix) ? 1 : 0;
       } else {
         std::int32_t z = below(300);
         if (below(30) == 0) z = 500 + below(1500);
@@ -472,10 +527,11 @@ TEST_F(MonitorHistogram, RandomSequencesAreAsTheReferenceHasThem) {
     for (int iy = 0; iy < SK_MAP_CELLS; ++iy)
       for (int ix = 0; ix < SK_MAP_CELLS; ++ix) expect_same(*h, reference, iy, ix, -1);
   }
-  std::printf("%d points departed, %d steps said stop, %d times somebody left\n", departed, stops, left);
+  std::printf("%d points departed, %d steps said stop, %d times somebody left, %d times more by what passed\n", departed, stops, left, passed);
   EXPECT_GT(departed, 1000);
   EXPECT_GT(stops, 100);
   EXPECT_GT(left, 10);
+  EXPECT_GT(passed, 3);
 }
 
 }  // namespace

@@ -205,6 +205,40 @@ TEST_F(LidarWatchTest, ByHistogramsWhoAppearsStopsItToo) {
   }
 }
 
+// The machine stands, so its lidars' rings do too, and between them no point ever falls: that he has left is known by the rays that pass where he stood.
+// verifies: SK-WM-72
+TEST_F(LidarWatchTest, ByHistogramsWhoHasLeftHoldsTheMachineNoLonger) {
+  parameters.workspace_histogram = 1;
+  parameters.workspace_learn_us = 10000000;
+  const auto ring = std::make_unique<Ring>(parameters);
+  while (ring->time_s() < 10.5) ASSERT_FALSE(ring->step()) << ring->time_s() << " s: " << ring->where();
+  int held = 0, trials = 0;
+  for (const Somebody& who : {kAdult, kChild}) {
+    for (const double distance : {14.0, 11.0, 8.5, 7.0, 5.0}) {
+      double latest = 0.0;
+      for (int bearing_deg = 5; bearing_deg < 360; bearing_deg += 45) {
+        Ring now(*ring);
+        const double bearing = bearing_deg * kPi / 180;
+        now.scene.people = {{distance * std::cos(bearing), distance * std::sin(bearing), who.radius, who.height, now.time_s()}};
+        ASSERT_GT(latency(now), 0.0) << who.name << " at " << distance << " m, bearing " << bearing_deg << " degrees: not seen";
+        for (const double end_s = now.time_s() + 6.0; now.time_s() < end_s;)
+          ASSERT_TRUE(now.step()) << who.name << " at " << distance << " m, bearing " << bearing_deg << " degrees stands there, and is given up";
+        now.scene.people.clear();
+        const double left_s = now.time_s();
+        bool stop = true;
+        while (stop && now.time_s() < left_s + 10.0) stop = now.step();
+        ++trials;
+        held += stop ? 1 : 0;
+        if (stop) std::printf("%s at %.1f m, bearing %d degrees holds it still: %s\n", who.name, distance, bearing_deg, now.where().c_str());
+        latest = std::max(latest, now.time_s() - left_s);
+      }
+      std::printf("%s at %.1f m: at the latest it goes on %.2f s after he has left\n", who.name, distance, latest);
+    }
+  }
+  // A cell of which that lidar has a few bearings only, past the own machine, is out of its sight: there the operator is needed.
+  EXPECT_LE(10 * held, trials) << held << " of " << trials;
+}
+
 // Printed, beside the test before the last: what the outlines of boxes do to either.
 // verifies: SK-WM-62
 TEST_F(LidarWatchTest, ByHistogramsTheSwingingMachineOverLevelGroundIsNoIntruder) {
