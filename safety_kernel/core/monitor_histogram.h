@@ -190,6 +190,13 @@ int32_t sk_histogram_known(const sk_monitor_histogram *h, int32_t iy, int32_t ix
   @*/
 bool sk_histogram_insert(sk_monitor_histogram *h, int32_t known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us);
 
+/* Whether a point at z_mm over cell (iy, ix) would depart from what was seen there; outside the map none does. `known`: as of sk_histogram_insert. */
+/*@ requires \valid_read(h) && \valid_read(r);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_in_map(iy, ix) && sk_departs(h, known, r, iy, ix, z_mm);
+  @*/
+bool sk_histogram_departs(const sk_monitor_histogram *h, int32_t known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm);
+
 /* A ray has passed over cell (iy, ix), no higher than z_mm, and met something beyond. Where a point so high would not depart, somebody in its way would have
  * been met: that is a sight of the ground, for somebody who was there; nothing is counted. `known`: as of sk_histogram_insert. */
 /*@ requires \valid(h) && \valid_read(r) && \separated(h, r);

@@ -119,10 +119,36 @@ void MonitorWatch::interpolate(const sk_point& from, const sk_point& to, Over ov
   }
 }
 
+bool MonitorWatch::somebody(std::int32_t iy, std::int32_t ix) const {
+  const std::uint16_t state = histogram_.front().state[iy][ix];
+  return state != SK_CELL_CLEAR && state != SK_CELL_LEARNING;
+}
+
+bool MonitorWatch::nobody_about(std::int32_t iy, std::int32_t ix) const {
+  for (std::int32_t y = iy - 1; y <= iy + 1; ++y)
+    for (std::int32_t x = ix - 1; x <= ix + 1; ++x)
+      if (sk_is_in_map(y, x) && somebody(y, x)) return false;
+  return true;
+}
+
+// What the others are told of was no departure of this monitor's either: who is none for it may be somebody for them.
+void MonitorWatch::pass_cell(const sk_monitor_cell& at, std::int32_t z_mm, std::int64_t now_us, const Others& others) {
+  const auto [iy, ix] = at;
+  const auto another = [&others, iy = iy, ix = ix] { return std::any_of(others.monitor, others.monitor + others.count, [&](const MonitorWatch* m) { return m->somebody(iy, ix); }); };
+  if (!sk_is_in_map(iy, ix) || !(somebody(iy, ix) || another())) return;
+  sk_monitor_histogram& h = histogram_.front();
+  const std::int32_t known = known_elsewhere(iy, ix, others);
+  sk_histogram_pass(&h, known, &rules_, iy, ix, z_mm, now_us);
+  const bool learned_anew = learned_anew_[static_cast<std::size_t>(iy * SK_MAP_CELLS + ix)] != 0;
+  if (learned_anew || !nobody_about(iy, ix) || sk_histogram_departs(&h, known, &rules_, iy, ix, z_mm)) return;
+  for (int i = 0; i < others.count; ++i)
+    sk_histogram_pass(others.monitor[i]->histogram_.data(), sk_histogram_known(&h, iy, ix), &others.monitor[i]->rules_, iy, ix, z_mm, now_us);
+}
+
 // From what is met towards the head, so the ray rises; in a cell it is no higher than where it has left it.
 void MonitorWatch::pass(const sk_point& head, const sk_point& met, std::int64_t now_us, const Others& others) {
-  if (histogram_.empty() || where_.iy < 0 || head.z_mm <= met.z_mm) return;
-  sk_monitor_histogram& h = histogram_.front();
+  const bool held = holds() || std::any_of(others.monitor, others.monitor + others.count, [](const MonitorWatch* m) { return m->holds(); });
+  if (histogram_.empty() || !held || head.z_mm <= met.z_mm) return;
   const std::int64_t dx = std::int64_t{head.x_mm} - met.x_mm, dy = std::int64_t{head.y_mm} - met.y_mm, dz = std::int64_t{head.z_mm} - met.z_mm;
   const std::int64_t steps = std::max(std::abs(dx), std::abs(dy)) / kPassStepMm;
   Along x(met.x_mm, dx, steps), y(met.y_mm, dy, steps), z(met.z_mm, dz, steps);
@@ -131,8 +157,7 @@ void MonitorWatch::pass(const sk_point& head, const sk_point& met, std::int64_t 
     const std::int32_t x_mm = x.next(), y_mm = y.next(), z_mm = z.next();
     const sk_monitor_cell now_in{sk_map_index(y_mm), sk_map_index(x_mm)};
     if (k < kPassEnds || (now_in.iy == in.iy && now_in.ix == in.ix)) continue;
-    if (sk_is_in_map(in.iy, in.ix) && h.state[in.iy][in.ix] != SK_CELL_CLEAR && h.state[in.iy][in.ix] != SK_CELL_LEARNING)
-      sk_histogram_pass(&h, known_elsewhere(in.iy, in.ix, others), &rules_, in.iy, in.ix, z_mm, now_us);
+    pass_cell(in, z_mm - kWithinBinMm, now_us, others);
     in = now_in;
   }
 }

@@ -20,7 +20,7 @@ class MonitorWatch {
   void begin();
   // The other sensors' monitors: with histograms, what they know stands for what this one has seen too little of (SK-WM-68, 71).
   struct Others {
-    const MonitorWatch* monitor[BERM_LIDARS] = {};
+    MonitorWatch* monitor[BERM_LIDARS] = {};
     int count = 0;
     const MonitorWatch* scanners = nullptr;  // the one among them; null of the scanners' own
   };
@@ -30,8 +30,8 @@ class MonitorWatch {
   enum class Over { kEverything, kUnmeasured };  // kUnmeasured: not where the accumulated map has a measured height
   // The line from one return to the next, in steps of half a cell: what a corner of it cuts off stays EMPTY. It counts in EMPTY cells only.
   void interpolate(const sk_point& from, const sk_point& to, Over over, std::int64_t now_us);
-  // With histograms: a ray passed from the head to near the point that it met. Where it was so low that it would have met somebody, nobody stands; that
-  // is asked only while this monitor holds the machine.
+  // With histograms, while any of them holds the machine: a ray passed from the head to near the point that it met. Where it was so low that it would have
+  // met somebody, nobody stands: for this monitor, and where it knows of nobody about and cells are not learned anew for the others too.
   void pass(const sk_point& head, const sk_point& met, std::int64_t now_us, const Others& others);
   // The trucks' lanes are another ground from now on, and watched or not.
   void change_lanes(const berm_parameters& parameters, bool open);
@@ -54,8 +54,13 @@ class MonitorWatch {
   static constexpr std::int64_t kStepsMost = 250;  // across the whole map
   static constexpr std::int32_t kPassStepMm = SK_CELL_MM / 4;  // so that a ray that cuts a corner off is seen to
   static constexpr std::int64_t kPassSteps = 240;              // before what is met: 18 m
+  static constexpr std::int32_t kWithinBinMm = SK_HISTOGRAM_BIN_MM / 2;  // a rise counts from the low side of a bin: the ground is half of it higher on average
   static constexpr std::int64_t kPassEnds = 4;                 // from a cell before it: the thing itself is not passed
 
+  bool holds() const { return where_.iy >= 0; }
+  bool somebody(std::int32_t iy, std::int32_t ix) const;
+  bool nobody_about(std::int32_t iy, std::int32_t ix) const;  // in the cell and the eight round it
+  void pass_cell(const sk_monitor_cell& at, std::int32_t z_mm, std::int64_t now_us, const Others& others);
   void watch_region(const berm_parameters& parameters, bool lanes_open);
   void note_learned_anew(std::int32_t x_low_mm, std::int32_t y_low_mm, std::int32_t x_high_mm, std::int32_t y_high_mm);
   // With histograms: sk_histogram_known of the others, where this one may have to ask. Where cells are learned anew while somebody may be about, in lanes

@@ -27,7 +27,7 @@ void WorkspaceWatch::begin() {
   learned_us_ = lane_learned_us_ = kNotLearning;
 }
 
-MonitorWatch::Others WorkspaceWatch::others_of(int number) const {
+MonitorWatch::Others WorkspaceWatch::others_of(int number) {
   MonitorWatch::Others others;
   for (int other = 0; other < monitors(); ++other)
     if (other != number) others.monitor[others.count++] = &of(other);

@@ -61,7 +61,7 @@ class WorkspaceWatch {
     std::int32_t index = -2;
     sk_point point{};
   };
-  MonitorWatch::Others others_of(int number) const;
+  MonitorWatch::Others others_of(int number);
   MonitorWatch& of(int number) { return number == kScanners ? scanners_ : lidar_[number - 1].monitor(); }
   const MonitorWatch& of(int number) const { return number == kScanners ? scanners_ : lidar_[number - 1].monitor(); }
   sk_point head(int scanner, std::int64_t time_us, const JointHistory& joints) const;

@@ -333,6 +333,8 @@ TEST_F(MonitorHistogram, HeLeavesWhenRaysPassAsLowAsTheGroundTwice) {
   const auto pass = [this](std::int32_t z_mm, int iy = 50, int ix = 50) { sk_histogram_pass(h.get(), SK_NOBODY_KNOWS, rules.get(), iy, ix, z_mm, now_us); };
   ground();
   const std::int32_t low = 250, high = 1200;
+  const auto departs = [this](int iy, int ix, std::int32_t z_mm) { return sk_histogram_departs(h.get(), SK_NOBODY_KNOWS, rules.get(), iy, ix, z_mm); };
+  EXPECT_TRUE(departs(45, 45, high) && !departs(45, 45, low) && !departs(-1, 45, high) && !departs(45, SK_MAP_CELLS, high));
   ASSERT_FALSE(see(45, 45, low)) << "no rise";
   see(50, 50, 1700, 3);
   ASSERT_TRUE(see(45, 45, high)) << "a rise";

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::int32_t kFoot = -1500, kTop = -800;  // mm, of a slope in one cell
 constexpr std::int32_t kX = 9000, kY = 2550;
+constexpr std::int32_t kGround = 20;
 
 class MonitorOthersTest : public testing::Test {
  protected:
@@ -30,12 +31,36 @@ class MonitorOthersTest : public testing::Test {
     }
   }
   static void settle(MonitorWatch& monitor) { monitor.settle({SK_MAP_ORIGIN_MM, SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM}); }
-  // Whether the machine must stand for what this sensor saw.
-  bool see(std::size_t number, std::int32_t z_mm, int points) {
+  MonitorWatch::Others others_of(std::size_t number) const {
     MonitorWatch::Others others;
     for (std::size_t other = 0; other < monitors.size(); ++other)
       if (other != number) others.monitor[others.count++] = monitors[other].get();
     if (number != 0) others.scanners = monitors[0].get();
+    return others;
+  }
+  // A ray of this sensor that passes the cell at that height and meets the ground 3 m beyond, twice with the wait between.
+  void pass(std::size_t number, std::int32_t z_mm) {
+    for (int time = 0; time < 2; ++time, now_us += parameters.workspace_wait_us)
+      monitors[number]->pass({kX - 12000, kY, kGround + 5 * (z_mm - kGround)}, {kX + 3000, kY, kGround}, now_us, others_of(number));
+  }
+  // Each has seen the ground here and round it; the one of that number somebody then.
+  void somebody_of(std::size_t number) {
+    begin();
+    for (std::size_t each = 0; each < monitors.size(); ++each)
+      for (std::int32_t y = kY - 600; y <= kY + 600; y += SK_CELL_MM)
+        for (std::int32_t x = kX - 600; x <= kX + 600; x += SK_CELL_MM)
+          for (int i = 0; i < 10; ++i) monitors[each]->insert({x, y, kGround}, now_us, others_of(each));
+    EXPECT_TRUE(see(number, kGround + 1700, 3));
+    now_us += 2 * parameters.workspace_period_us + 1;
+  }
+  bool holds(std::size_t number) {
+    monitors[number]->step(now_us);
+    std::int32_t x = 0, y = 0, height = 0;
+    return monitors[number]->place(x, y, height);
+  }
+  // Whether the machine must stand for what this sensor saw.
+  bool see(std::size_t number, std::int32_t z_mm, int points) {
+    const MonitorWatch::Others others = others_of(number);
     for (int i = 0; i < points; ++i) monitors[number]->insert({kX, kY, z_mm}, now_us, others);
     return monitors[number]->step(now_us);
   }
@@ -60,6 +85,52 @@ TEST_F(MonitorOthersTest, TheTopOfASlopeThatAnotherSensorKnowsIsNobody) {
   EXPECT_FALSE(see(2, kTop, 1));
   for (const std::size_t number : {0U, 1U}) EXPECT_FALSE(see(number, kTop + 300, 9)) << number;
   for (const std::size_t number : {0U, 1U}) EXPECT_TRUE(see(number, kTop + 700, 3)) << number << ": higher than any of them knows";
+}
+
+// Whom one sensor saw while the machine swung, and cannot see any more where it stands, another sees to be gone.
+// verifies: SK-WM-73
+TEST_F(MonitorOthersTest, ThatHeHasLeftAnotherSensorMaySee) {
+  for (const std::size_t seen_by : {0U, 1U, 2U})
+    for (const std::size_t passed_by : {1U, 2U}) {
+      somebody_of(seen_by);
+      pass(passed_by, kGround + 1000);
+      EXPECT_TRUE(holds(seen_by)) << seen_by << ", " << passed_by << ": over his head";
+      pass(passed_by, kGround + 300);
+      EXPECT_FALSE(holds(seen_by)) << seen_by << ", " << passed_by;
+    }
+}
+
+// verifies: SK-WM-73
+TEST_F(MonitorOthersTest, NoSensorClearsForAnotherWhereItKnowsOfSomebodyAbout) {
+  somebody_of(1);
+  for (int i = 0; i < 3; ++i) monitors[2]->insert({kX, kY + SK_CELL_MM, kGround + 1700}, now_us, others_of(2));
+  now_us += 2 * parameters.workspace_period_us + 1;
+  ASSERT_TRUE(holds(2));
+  pass(2, kGround + 300);
+  EXPECT_TRUE(holds(1)) << "he may stand between the two cells";
+}
+
+// verifies: SK-WM-73
+TEST_F(MonitorOthersTest, NorWhileTheOtherSeesHim) {
+  somebody_of(1);
+  for (int time = 0; time < 10; ++time) {
+    see(1, kGround + 1700, 1);
+    monitors[2]->pass({kX - 12000, kY, kGround + 1500}, {kX + 3000, kY, kGround}, now_us, others_of(2));
+    now_us += parameters.workspace_wait_us / 2;
+  }
+  EXPECT_TRUE(holds(1));
+}
+
+// There somebody may have been learned by the sensor that passes.
+// verifies: SK-WM-73
+TEST_F(MonitorOthersTest, NorWhereCellsAreLearnedAnew) {
+  parameters.lanes = 1;
+  parameters.lane[0] = {kX - 3000, kY - 1500, kX + 1500, kY + 1500};
+  somebody_of(1);
+  pass(2, kGround + 300);
+  EXPECT_TRUE(holds(1));
+  pass(1, kGround + 300);
+  EXPECT_FALSE(holds(1)) << "its own rays";
 }
 
 // verifies: SK-WM-71
