@@ -49,6 +49,7 @@ MonitorWatch::MonitorWatch(const berm_parameters& parameters, std::int32_t wait_
     note_learned_anew(parameters.lane[i].x_low_mm, parameters.lane[i].y_low_mm, parameters.lane[i].x_high_mm, parameters.lane[i].y_high_mm);
   for (int i = 0; i < parameters.dig_zones; ++i)
     note_learned_anew(parameters.dig_zone[i].x_low_mm, parameters.dig_zone[i].y_low_mm, parameters.dig_zone[i].x_high_mm, parameters.dig_zone[i].y_high_mm);
+  passed_low_.reserve(kPassedMost);
   begin();
 }
 
@@ -135,7 +136,9 @@ bool MonitorWatch::nobody_about(std::int32_t iy, std::int32_t ix) const {
 void MonitorWatch::pass_cell(const sk_monitor_cell& at, std::int32_t z_mm, std::int64_t now_us, const Others& others) {
   const auto [iy, ix] = at;
   const auto another = [&others, iy = iy, ix = ix] { return std::any_of(others.monitor, others.monitor + others.count, [&](const MonitorWatch* m) { return m->somebody(iy, ix); }); };
-  if (!sk_is_in_map(iy, ix) || !(somebody(iy, ix) || another())) return;
+  if (!sk_is_in_map(iy, ix)) return;
+  const bool foreign = others.held_by != nullptr && others.held_by->foreign[iy][ix] > 0;
+  if (!foreign && !somebody(iy, ix) && !another()) return;
   sk_monitor_histogram& h = histogram_.front();
   const std::int32_t known = known_elsewhere(iy, ix, others);
   sk_histogram_pass(&h, known, &rules_, iy, ix, z_mm, now_us);
@@ -143,11 +146,12 @@ void MonitorWatch::pass_cell(const sk_monitor_cell& at, std::int32_t z_mm, std::
   if (learned_anew || !nobody_about(iy, ix) || sk_histogram_departs(&h, known, &rules_, iy, ix, z_mm)) return;
   for (int i = 0; i < others.count; ++i)
     sk_histogram_pass(others.monitor[i]->histogram_.data(), sk_histogram_known(&h, iy, ix), &others.monitor[i]->rules_, iy, ix, z_mm, now_us);
+  if (foreign && passed_low_.size() < kPassedMost) passed_low_.push_back(at);
 }
 
 // From what is met towards the head, so the ray rises; in a cell it is no higher than where it has left it.
 void MonitorWatch::pass(const sk_point& head, const sk_point& met, std::int64_t now_us, const Others& others) {
-  const bool held = holds() || std::any_of(others.monitor, others.monitor + others.count, [](const MonitorWatch* m) { return m->holds(); });
+  const bool held = others.held_by != nullptr || holds() || std::any_of(others.monitor, others.monitor + others.count, [](const MonitorWatch* m) { return m->holds(); });
   if (histogram_.empty() || !held || head.z_mm <= met.z_mm) return;
   const std::int64_t dx = std::int64_t{head.x_mm} - met.x_mm, dy = std::int64_t{head.y_mm} - met.y_mm, dz = std::int64_t{head.z_mm} - met.z_mm;
   const std::int64_t steps = std::max(std::abs(dx), std::abs(dy)) / kPassStepMm;

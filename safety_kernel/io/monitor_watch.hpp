@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "config/parameter_block.h"
+#include "core/free_space.h"
 #include "core/monitor_histogram.h"
 #include "core/scanline_raster.h"
 #include "core/workspace_monitor.h"
@@ -23,6 +24,7 @@ class MonitorWatch {
     MonitorWatch* monitor[BERM_LIDARS] = {};
     int count = 0;
     const MonitorWatch* scanners = nullptr;  // the one among them; null of the scanners' own
+    const sk_free_space* held_by = nullptr;  // free space, while it holds the machine
   };
   // A return, base frame.
   void insert(const sk_point& point, std::int64_t now_us, const Others& others);
@@ -33,6 +35,9 @@ class MonitorWatch {
   // With histograms, while any of them holds the machine: a ray passed from the head to near the point that it met. Where it was so low that it would have
   // met somebody, nobody stands: for this monitor, and where it knows of nobody about and cells are not learned anew for the others too.
   void pass(const sk_point& head, const sk_point& met, std::int64_t now_us, const Others& others);
+  // Since clear_passed(): the cells that hold the machine by free space and that rays passed so.
+  const std::vector<sk_monitor_cell>& passed_low() const { return passed_low_; }
+  void clear_passed() { passed_low_.clear(); }
   // The trucks' lanes are another ground from now on, and watched or not.
   void change_lanes(const berm_parameters& parameters, bool open);
   // The rectangle is learned: what has CHANGED in it by now belongs to the ground and explains what is seen beside it.
@@ -55,6 +60,7 @@ class MonitorWatch {
   static constexpr std::int32_t kPassStepMm = SK_CELL_MM / 4;  // so that a ray that cuts a corner off is seen to
   static constexpr std::int64_t kPassSteps = 240;              // before what is met: 18 m
   static constexpr std::int32_t kWithinBinMm = SK_HISTOGRAM_BIN_MM / 2;  // a rise counts from the low side of a bin: the ground is half of it higher on average
+  static constexpr std::size_t kPassedMost = 1024;             // noted of a packet
   static constexpr std::int64_t kPassEnds = 4;                 // from a cell before it: the thing itself is not passed
 
   bool holds() const { return where_.iy >= 0; }
@@ -73,6 +79,7 @@ class MonitorWatch {
   sk_monitor monitor_;                           // the accumulated map's heights (leger-1998, section 3.2)
   std::vector<sk_monitor_histogram> histogram_;  // or a histogram per cell (4.2): one, or none; from the start, so that no cycle allocates
   std::vector<std::uint8_t> learned_anew_;       // of each cell, row by row: it touches a lane or a dig zone
+  std::vector<sk_monitor_cell> passed_low_;      // with the room that it may need, so that no cycle allocates
   sk_monitor_cell where_{-1, -1};
   std::int64_t newest_us_ = -1;
 };

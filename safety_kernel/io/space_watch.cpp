@@ -57,7 +57,11 @@ SpaceWatch::SpaceWatch(const berm_parameters& parameters) : parameters_(paramete
 
 // Again in every cycle while the base has moved: nothing is done twice.
 void SpaceWatch::begin() {
-  if (!blank_) sk_space_begin(&space_);
+  if (!blank_) {
+    sk_space_begin(&space_);
+    std::fill_n(&met_us_[0][0], SK_MAP_CELLS * SK_MAP_CELLS, -1);
+    std::fill_n(&low_us_[0][0], SK_MAP_CELLS * SK_MAP_CELLS, -1);
+  }
   blank_ = true;
 }
 
@@ -67,7 +71,7 @@ void SpaceWatch::forget(const berm_lane& lane) {
       if (sk_is_touched(iy, ix, lane.x_low_mm, lane.y_low_mm, lane.x_high_mm, lane.y_high_mm)) sk_space_forget(&space_, iy, ix);
 }
 
-void SpaceWatch::take(const sk_point& head, const sk_point& point, bool learning) {
+void SpaceWatch::take(const sk_point& head, const sk_point& point, bool learning, std::int64_t now_us) {
   const double dx = point.x_mm - head.x_mm, dy = point.y_mm - head.y_mm, dz = point.z_mm - head.z_mm, length = std::sqrt(dx * dx + dy * dy + dz * dz);
   const double free_mm = std::min(length - kShortMm, kReachMm);
   const int steps = static_cast<int>(free_mm / kStepMm);
@@ -76,12 +80,42 @@ void SpaceWatch::take(const sk_point& head, const sk_point& point, bool learning
   const std::uint8_t* const flags = &space_.voxel[0][0][0];
   for (int k = 0; k < steps; ++k)
     if (place[k] >= 0 && flags[place[k]] != SK_VOXEL_FREE) sk_space_pass(&space_, voxel_at(place[k]));  // a free one stays so
-  meet(point, learning);
+  meet(point, learning, now_us);
 }
 
-void SpaceWatch::meet(const sk_point& point, bool learning) {
+void SpaceWatch::meet(const sk_point& point, bool learning, std::int64_t now_us) {
   blank_ = false;
-  sk_space_return(&space_, sk_voxel_of(point.x_mm, point.y_mm, point.z_mm), learning);
+  const sk_voxel voxel = sk_voxel_of(point.x_mm, point.y_mm, point.z_mm);
+  sk_space_return(&space_, voxel, learning);
+  see(voxel, now_us);
+}
+
+void SpaceWatch::see(const sk_voxel& v, std::int64_t now_us) {
+  const bool inside = v.level >= 0 && v.level < SK_VOXEL_LEVELS && v.jy >= 0 && v.jy < SK_VOXELS && v.jx >= 0 && v.jx < SK_VOXELS;
+  if (!inside || space_.voxel[v.level][v.jy][v.jx] != SK_VOXEL_FOREIGN) return;
+  met_us_[v.jy / 2][v.jx / 2] = now_us;
+  low_us_[v.jy / 2][v.jx / 2] = -1;
+}
+
+bool SpaceWatch::met_about(const sk_monitor_cell& at, std::int64_t now_us) const {
+  const std::int64_t lately_us = 2 * std::int64_t{parameters_.workspace_period_us};
+  for (std::int32_t iy = at.iy - 1; iy <= at.iy + 1; ++iy)
+    for (std::int32_t ix = at.ix - 1; ix <= at.ix + 1; ++ix)
+      if (sk_is_in_map(iy, ix) && met_us_[iy][ix] >= 0 && now_us - met_us_[iy][ix] <= lately_us) return true;
+  return false;
+}
+
+void SpaceWatch::pass_low(const sk_monitor_cell& at, std::int64_t now_us) {
+  if (!sk_is_in_map(at.iy, at.ix) || space_.foreign[at.iy][at.ix] == 0 || met_about(at, now_us)) return;
+  std::int64_t& low_us = low_us_[at.iy][at.ix];
+  if (low_us < 0 || low_us > now_us) low_us = now_us;
+  if (now_us - low_us < parameters_.workspace_wait_us) return;
+  low_us = -1;
+  for (std::int32_t level = 0; level < SK_VOXEL_LEVELS; ++level)
+    for (std::int32_t n = 0; n < 4; ++n) {
+      const sk_voxel v{level, 2 * at.iy + n / 2, 2 * at.ix + n % 2};
+      if (space_.voxel[level][v.jy][v.jx] == SK_VOXEL_FOREIGN) sk_space_pass(&space_, v);
+    }
 }
 
 void SpaceWatch::watch(bool lanes_open, bool truck_learned) {

@@ -22,9 +22,13 @@ class SpaceWatch {
   // Nothing is known any more of the voxels over the cells that touch the lane.
   void forget(const berm_lane& lane);
   // A return that is not of the own machine, and the space between it and the sensor's head, base frame. learning: what is there now belongs there.
-  void take(const sk_point& head, const sk_point& point, bool learning);
+  void take(const sk_point& head, const sk_point& point, bool learning, std::int64_t now_us);
   // The return alone.
-  void meet(const sk_point& point, bool learning);
+  void meet(const sk_point& point, bool learning, std::int64_t now_us);
+  // A ray that met something beyond passed over the cell as low as its ground, and its sensor knows of nobody about (MonitorWatch::passed_low): twice, the
+  // monitor's wait apart, with nothing met in FOREIGN voxels of the cell between, nor of the eight round it lately, and they are free. Rays above the
+  // level do not come back from the sky, and free nothing.
+  void pass_low(const sk_monitor_cell& at, std::int64_t now_us);
   // The region, less what the machine itself changes: as the Workspace Monitor's; but of a truck zone only the box round what stands in it is left
   // out, higher than may be passed over: the truck and its load. While nobody knows what stands there, the whole zone is.
   void watch(bool lanes_open, bool truck_learned);
@@ -41,6 +45,8 @@ class SpaceWatch {
   static constexpr double kReachMm = 22000.0;
   static constexpr int kStepsMost = static_cast<int>(kReachMm / kStepMm);
 
+  void see(const sk_voxel& voxel, std::int64_t now_us);
+  bool met_about(const sk_monitor_cell& at, std::int64_t now_us) const;
   void leave_out(const berm_truck_zone& zone, bool truck_learned);
   bool stands_high(std::int32_t iy, std::int32_t ix) const;
 
@@ -49,6 +55,8 @@ class SpaceWatch {
   sk_clearance_rules limits_;   // pass_mm alone: with no truck
   sk_monitor_rules region_;     // watched alone
   sk_free_space space_;
+  std::int64_t met_us_[SK_MAP_CELLS][SK_MAP_CELLS];  // when something was last met in a FOREIGN voxel of the cell; -1 never
+  std::int64_t low_us_[SK_MAP_CELLS][SK_MAP_CELLS];  // when a ray first passed it low since then; -1 not yet
   bool blank_ = false;          // nothing has been taken since the begin
 };
 

@@ -32,6 +32,7 @@ MonitorWatch::Others WorkspaceWatch::others_of(int number) {
   for (int other = 0; other < monitors(); ++other)
     if (other != number) others.monitor[others.count++] = &of(other);
   if (number != kScanners) others.scanners = &scanners_;
+  if (in_space_.iy >= 0) others.held_by = &space_.space();
   return others;
 }
 
@@ -63,7 +64,7 @@ void WorkspaceWatch::take(const ScanBlocks& blocks, const JointHistory& joints, 
       const bool follows = last.scanline == block.scanline && last.index + 1 == index;
       if (follows) scanners_.interpolate(last.point, point, MonitorWatch::Over::kEverything, now_us);
       scanners_.insert(point, now_us, others);
-      if (space_.kept()) space_.take(from, point, learning(point));
+      if (space_.kept()) space_.take(from, point, learning(point), now_us);
       last = {block.scanline, index, point};
     }
   }
@@ -75,9 +76,12 @@ void WorkspaceWatch::take(int lidar, const Vlp16Packet& packet, const JointAngle
   const LidarReturns& returns = lidar_[lidar].returns();
   for (int i = 0; space_.kept() && i < returns.count; ++i) {
     const LidarReturns::Return& r = returns.hit[i];
-    if (r.lined) space_.take(r.head, r.point, learning(r.point));
-    else space_.meet(r.point, learning(r.point));
+    if (r.lined) space_.take(r.head, r.point, learning(r.point), now_us);
+    else space_.meet(r.point, learning(r.point), now_us);
   }
+  MonitorWatch& monitor = lidar_[lidar].monitor();
+  for (const sk_monitor_cell& cell : monitor.passed_low()) space_.pass_low(cell, now_us);
+  monitor.clear_passed();
 }
 
 void WorkspaceWatch::trucks(bool spotter_fresh, bool parked, std::int64_t now_us) {

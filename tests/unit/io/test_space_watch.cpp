@@ -39,16 +39,17 @@ class SpaceWatchTest : public testing::Test {
   // An upright board facing the head, its points 75 mm from one another.
   void board(std::int32_t x, std::int32_t y, std::int32_t width, std::int32_t high, bool learning) {
     for (std::int32_t a = -width / 2; a <= width / 2; a += 75)
-      for (std::int32_t z = 75; z <= high; z += 75) watch->take(kHead, {x, y + a, z}, learning);
+      for (std::int32_t z = 75; z <= high; z += 75) watch->take(kHead, {x, y + a, z}, learning, now_us);
   }
   berm_parameters parameters = watching_parameters();
+  std::int64_t now_us = kSecond;
   std::unique_ptr<SpaceWatch> watch;
   sk_monitor_cell where{};
 };
 
 // verifies: SK-FS-10
 TEST_F(SpaceWatchTest, ARayFreesWhatItPassesButNotWhatItMeets) {
-  watch->take(kHead, {9000, 0, 0}, true);
+  watch->take(kHead, {9000, 0, 0}, true, now_us);
   int passed = 0, steps = 0;
   for (std::int32_t x = 200; x <= 8600; x += 25, ++steps) passed += flag(x, 0, 3000 - x / 3) == SK_VOXEL_FREE ? 1 : 0;
   EXPECT_GT(passed, 0.9 * steps) << "all but corners";
@@ -71,6 +72,46 @@ TEST_F(SpaceWatchTest, SomebodyBesideAWallIsFoundUntilHeHasLeft) {
   }
 }
 
+// Whose upper half was met by rays that look up: from the sky none of them comes back when he has gone.
+// verifies: SK-FS-14
+TEST_F(SpaceWatchTest, WhatNoRayFreesAnyMoreIsFreeWhenRaysPassLow) {
+  const std::int64_t lately = 2 * std::int64_t{parameters.workspace_period_us} + 1, wait = parameters.workspace_wait_us;
+  board(9000, 0, 6000, 2700, true);
+  const auto comes = [&](std::int32_t y) {
+    board(8000, y, 450, 1100, false);
+    ASSERT_TRUE(watch->find(where));
+  };
+  comes(0);
+  const sk_monitor_cell at{sk_map_index(0), sk_map_index(8000)}, beside{sk_map_index(1), sk_map_index(8000 + SK_CELL_MM)};
+  ASSERT_GT(watch->space().foreign[at.iy][at.ix], 3);
+  const auto foreign = [&] { return watch->space().foreign[at.iy][at.ix]; };
+  watch->pass_low(at, now_us);
+  now_us += lately;
+  watch->pass_low(at, now_us);
+  now_us += wait - 1;
+  watch->pass_low(at, now_us);
+  EXPECT_GT(foreign(), 3) << "too soon";
+  comes(0);
+  now_us += lately;
+  watch->pass_low(at, now_us);
+  now_us += 1;
+  watch->pass_low(at, now_us);
+  EXPECT_GT(foreign(), 3) << "he was met between";
+  now_us += wait;
+  comes(750);
+  watch->pass_low(at, now_us);
+  EXPECT_GT(foreign(), 3) << "somebody is beside it";
+  now_us += lately;
+  watch->pass_low(beside, now_us), watch->pass_low({-1, 0}, now_us), watch->pass_low({0, SK_MAP_CELLS}, now_us);
+  const std::uint16_t next = watch->space().foreign[sk_map_index(550)][at.ix];
+  ASSERT_GT(next, 3);
+  watch->pass_low(at, now_us);
+  EXPECT_EQ(foreign(), 0);
+  EXPECT_EQ(flag(7950, 0, 675), SK_VOXEL_FREE);
+  EXPECT_EQ(watch->space().foreign[sk_map_index(550)][at.ix], next) << "of another cell";
+  EXPECT_TRUE(watch->find(where)) << "who is beside it";
+}
+
 // verifies: SK-FS-12
 TEST_F(SpaceWatchTest, OfATruckZoneTheTruckIsLeftOut) {
   parameters.truck_zones = 1;
@@ -83,10 +124,10 @@ TEST_F(SpaceWatchTest, OfATruckZoneTheTruckIsLeftOut) {
   watch->watch(false, true);
   EXPECT_TRUE(watched(6000, 4500)) << "nothing stands there";
   for (std::int32_t z : {0, 500, 1500}) {
-    watch->take({6000, 0, 3000}, {4650, 3950, z}, true);
-    watch->take({6000, 0, 3000}, {7350, 4850, z}, true);
+    watch->take({6000, 0, 3000}, {4650, 3950, z}, true, now_us);
+    watch->take({6000, 0, 3000}, {7350, 4850, z}, true, now_us);
   }
-  watch->take({6000, 0, 3000}, {3100, 3100, 600}, true);
+  watch->take({6000, 0, 3000}, {3100, 3100, 600}, true, now_us);
   watch->watch(false, true);
   EXPECT_FALSE(watched(6000, 4500)) << "within the box round it";
   EXPECT_FALSE(watched(4650, 4850));
