@@ -86,10 +86,13 @@ private:
   void finish(const Observation& o);
   void leave_truck(const Observation& o);     // it left before it was full
   bool works() const;
+  bool digs_or_comes_to_dig() const;
+  bool has_poured() const;
   void go_on_from_a_stand(const Observation& o);
   void begin_dig_from_here(const Observation& o);
   bool begins_anew_where_moved() const;
   void take_load_back(const Observation& o);
+  void keep_load();
   void miss_approach(const Observation& o);
   void miss_dig(const Observation& o);
   void refuse_truck(const Observation& o);

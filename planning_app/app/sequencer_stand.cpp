@@ -9,28 +9,13 @@ constexpr int most_tries = 3;  // to begin anew; then the operator is told
 
 }  // namespace
 
-// Stages in which the plan moves the machine and waits for nobody.
-bool Sequencer::works() const {
-  switch (stage_) {
-    case Stage::go_look:
-    case Stage::approach:
-    case Stage::settle:
-    case Stage::dig:
-    case Stage::curl:
-    case Stage::pass: return true;
-    case Stage::survey:
-    case Stage::wait_truck:
-    case Stage::look:
-    case Stage::horn:
-    case Stage::wait_leave:
-    case Stage::raise_for_move:
-    case Stage::ask_move:
-    case Stage::being_moved:
-    case Stage::exhausted:
-    case Stage::finished: return false;
-  }
-  return false;
-}
+// Whether the plan is to move the machine now, and waits for nobody.
+bool Sequencer::works() const { return stage_ == Stage::go_look || stage_ == Stage::pass || stage_ == Stage::curl || digs_or_comes_to_dig(); }
+
+bool Sequencer::digs_or_comes_to_dig() const { return stage_ == Stage::dig || stage_ == Stage::settle || stage_ == Stage::approach; }
+
+// Whether what was in the bucket, or a part of it, is in the truck and not booked yet.
+bool Sequencer::has_poured() const { return stage_ == Stage::pass && script_.of(bucket).reached(RuleMark::opens); }
 
 // The work is begun anew from where the implements are: high and folded, back to the dig. What helped once may help again, but somebody has to know.
 void Sequencer::go_on_from_a_stand(const Observation& o) {
@@ -53,7 +38,7 @@ void Sequencer::go_on_from_a_stand(const Observation& o) {
 
 // High and folded to the next dig, wherever the implements are.
 void Sequencer::begin_dig_from_here(const Observation& o) {
-  const bool poured = stage_ == Stage::pass && script_.of(bucket).reached(RuleMark::opens);
+  const bool poured = has_poured();
   take_load_back(o);
   if (poured) go_on_after_pass(o, false);
   else begin_approach(o, true);
@@ -62,12 +47,17 @@ void Sequencer::begin_dig_from_here(const Observation& o) {
 // A pass on its way to the truck goes on where it is. One on its way back may be lowering already: where the stop's mending has carried it there is
 // no dig.
 bool Sequencer::begins_anew_where_moved() const {
-  return stage_ == Stage::dig || stage_ == Stage::settle || stage_ == Stage::approach || (stage_ == Stage::pass && script_.of(swing).reached(RuleMark::returns));
+  return digs_or_comes_to_dig() || (stage_ == Stage::pass && script_.of(swing).reached(RuleMark::returns));
 }
 
-// What is in the bucket goes back to the face; where it had begun to pour, that counts as poured.
+// Where it had begun to pour, that counts as poured.
 void Sequencer::take_load_back(const Observation& o) {
-  if (stage_ == Stage::pass && script_.of(bucket).reached(RuleMark::opens)) book_pass(o);
+  if (has_poured()) book_pass(o);
+  keep_load();
+}
+
+// What is in the bucket goes back to the face.
+void Sequencer::keep_load() {
   brings_load_ = brings_load_ || (!holds_nothing_ && (stage_ == Stage::dig || stage_ == Stage::curl || stage_ == Stage::pass));
   search_.reset();
 }
@@ -103,7 +93,7 @@ void Sequencer::refuse_truck(const Observation& o) {
   refused_truck_ = truck_;
   log_.event("truck_lost", {{"time_s", o.time_s}, {"truck", truck_}, {"why", "out of reach"}, {"loaded_kg", fill_.loaded_kg()}, {"target_kg", site_.place.target_kg}});
   enter_phase(BERM_PHASE_WAIT, o);
-  take_load_back(o);
+  keep_load();  // what was poured before the way to the next dig was sought is booked
   part_filled_ = true;
   forget_bed();
   wait_raised(o);

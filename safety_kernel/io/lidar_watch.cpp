@@ -125,10 +125,7 @@ void LidarWatch::finish(const Column& column, const Column* before, const Column
   insert(column, counting, others, now_us);
   const bool lined = draws_lines(column.azimuth_mdeg);
   note(column, counting, lined);
-  if (!lined) return;
-  draw(column, now_us);
-  for (int c = 0; c < kVlp16Channels; ++c)
-    if (counting[c]) monitor_.pass(column.head, column.point[c], now_us, others);
+  if (lined) draw(column, now_us);
 }
 
 // A beam that came back from the own machine, or did not come back, cuts the line: what lies between its neighbours is not known.

@@ -5,6 +5,7 @@
 
 #include "core/monitor_forget.h"
 #include "core/monitor_settle.h"
+#include "io/along.hpp"
 
 namespace berm::kernel {
 
@@ -13,25 +14,6 @@ namespace {
 // Of what is learned: pan, swing and range carry a return so far past the edge of a thing (93 mm seen), a whole scanline with it. Wider, and a child
 // beside a truck would stand in cells that know the truck alone.
 constexpr std::int32_t kBesideMm = SK_CELL_MM / 2;
-
-// One coordinate along a line: start + change * k / steps, towards the start as integers divide, for k = 1, 2, ...; without a division for each.
-class Along {
- public:
-  Along(std::int64_t start, std::int64_t change, std::int64_t steps)
-      : value_(start), each_(steps > 0 ? change / steps : 0), rest_each_(steps > 0 ? change % steps : 0), steps_(steps), sign_(change < 0 ? -1 : 1) {}
-  std::int32_t next() {
-    value_ += each_;
-    rest_ += rest_each_;
-    if (sign_ * rest_ >= steps_) {
-      rest_ -= sign_ * steps_;
-      value_ += sign_;
-    }
-    return static_cast<std::int32_t>(value_);
-  }
-
- private:
-  std::int64_t value_, each_, rest_each_, steps_, sign_, rest_ = 0;
-};
 
 }  // namespace
 
@@ -49,7 +31,6 @@ MonitorWatch::MonitorWatch(const berm_parameters& parameters, std::int32_t wait_
     note_learned_anew(parameters.lane[i].x_low_mm, parameters.lane[i].y_low_mm, parameters.lane[i].x_high_mm, parameters.lane[i].y_high_mm);
   for (int i = 0; i < parameters.dig_zones; ++i)
     note_learned_anew(parameters.dig_zone[i].x_low_mm, parameters.dig_zone[i].y_low_mm, parameters.dig_zone[i].x_high_mm, parameters.dig_zone[i].y_high_mm);
-  passed_low_.reserve(kPassedMost);
   begin();
 }
 
@@ -76,7 +57,7 @@ void MonitorWatch::begin() {
 std::int32_t MonitorWatch::known_elsewhere(std::int32_t iy, std::int32_t ix, const Others& others) const {
   std::int32_t known = SK_NOBODY_KNOWS;
   if (!sk_is_in_map(iy, ix)) return known;
-  const bool anew = learned_anew_[static_cast<std::size_t>(iy * SK_MAP_CELLS + ix)] != 0;
+  const bool anew = learned_anew(iy, ix);
   if (histogram_.front().observed[iy][ix] >= (anew ? SK_HISTOGRAM_ENOUGH : SK_HISTOGRAM_WELL)) return known;
   for (int i = 0; i < others.count; ++i)
     if (!anew || others.monitor[i] == others.scanners) known = std::max(known, sk_histogram_known(others.monitor[i]->histogram(), iy, ix));
@@ -120,50 +101,27 @@ void MonitorWatch::interpolate(const sk_point& from, const sk_point& to, Over ov
   }
 }
 
-bool MonitorWatch::somebody(std::int32_t iy, std::int32_t ix) const {
-  const std::uint16_t state = histogram_.front().state[iy][ix];
+bool MonitorWatch::somebody(const sk_monitor_cell& at) const {
+  const std::uint16_t state = histogram_.front().state[at.iy][at.ix];
   return state != SK_CELL_CLEAR && state != SK_CELL_LEARNING;
 }
 
-bool MonitorWatch::nobody_about(std::int32_t iy, std::int32_t ix) const {
-  for (std::int32_t y = iy - 1; y <= iy + 1; ++y)
-    for (std::int32_t x = ix - 1; x <= ix + 1; ++x)
-      if (sk_is_in_map(y, x) && somebody(y, x)) return false;
+bool MonitorWatch::nobody_about(const sk_monitor_cell& at) const {
+  for (std::int32_t iy = at.iy - 1; iy <= at.iy + 1; ++iy)
+    for (std::int32_t ix = at.ix - 1; ix <= at.ix + 1; ++ix)
+      if (sk_is_in_map(iy, ix) && somebody({iy, ix})) return false;
   return true;
 }
 
-// What the others are told of was no departure of this monitor's either: who is none for it may be somebody for them.
-void MonitorWatch::pass_cell(const sk_monitor_cell& at, std::int32_t z_mm, std::int64_t now_us, const Others& others) {
-  const auto [iy, ix] = at;
-  const auto another = [&others, iy = iy, ix = ix] { return std::any_of(others.monitor, others.monitor + others.count, [&](const MonitorWatch* m) { return m->somebody(iy, ix); }); };
-  if (!sk_is_in_map(iy, ix)) return;
-  const bool foreign = others.held_by != nullptr && others.held_by->foreign[iy][ix] > 0;
-  if (!foreign && !somebody(iy, ix) && !another()) return;
+bool MonitorWatch::pass(const sk_monitor_cell& at, std::int32_t z_mm, std::int64_t now_us, const Others& others) {
   sk_monitor_histogram& h = histogram_.front();
-  const std::int32_t known = known_elsewhere(iy, ix, others);
-  sk_histogram_pass(&h, known, &rules_, iy, ix, z_mm, now_us);
-  const bool learned_anew = learned_anew_[static_cast<std::size_t>(iy * SK_MAP_CELLS + ix)] != 0;
-  if (learned_anew || !nobody_about(iy, ix) || sk_histogram_departs(&h, known, &rules_, iy, ix, z_mm)) return;
-  for (int i = 0; i < others.count; ++i)
-    sk_histogram_pass(others.monitor[i]->histogram_.data(), sk_histogram_known(&h, iy, ix), &others.monitor[i]->rules_, iy, ix, z_mm, now_us);
-  if (foreign && passed_low_.size() < kPassedMost) passed_low_.push_back(at);
+  const std::int32_t known = known_elsewhere(at.iy, at.ix, others);
+  sk_histogram_pass(&h, known, &rules_, at.iy, at.ix, z_mm, now_us);
+  return !learned_anew(at.iy, at.ix) && nobody_about(at) && !sk_histogram_departs(&h, known, &rules_, at.iy, at.ix, z_mm);
 }
 
-// From what is met towards the head, so the ray rises; in a cell it is no higher than where it has left it.
-void MonitorWatch::pass(const sk_point& head, const sk_point& met, std::int64_t now_us, const Others& others) {
-  const bool held = others.held_by != nullptr || holds() || std::any_of(others.monitor, others.monitor + others.count, [](const MonitorWatch* m) { return m->holds(); });
-  if (histogram_.empty() || !held || head.z_mm <= met.z_mm) return;
-  const std::int64_t dx = std::int64_t{head.x_mm} - met.x_mm, dy = std::int64_t{head.y_mm} - met.y_mm, dz = std::int64_t{head.z_mm} - met.z_mm;
-  const std::int64_t steps = std::max(std::abs(dx), std::abs(dy)) / kPassStepMm;
-  Along x(met.x_mm, dx, steps), y(met.y_mm, dy, steps), z(met.z_mm, dz, steps);
-  sk_monitor_cell in{-1, -1};
-  for (std::int64_t k = 1; k < std::min(steps, kPassSteps); ++k) {
-    const std::int32_t x_mm = x.next(), y_mm = y.next(), z_mm = z.next();
-    const sk_monitor_cell now_in{sk_map_index(y_mm), sk_map_index(x_mm)};
-    if (k < kPassEnds || (now_in.iy == in.iy && now_in.ix == in.ix)) continue;
-    pass_cell(in, z_mm - kWithinBinMm, now_us, others);
-    in = now_in;
-  }
+void MonitorWatch::pass_of_another(const sk_monitor_cell& at, std::int32_t z_mm, std::int64_t now_us, const MonitorWatch& other) {
+  sk_histogram_pass(&histogram_.front(), sk_histogram_known(other.histogram(), at.iy, at.ix), &rules_, at.iy, at.ix, z_mm, now_us);
 }
 
 void MonitorWatch::change_lanes(const berm_parameters& parameters, bool open) {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "config/parameter_block.h"
-#include "core/free_space.h"
 #include "core/monitor_histogram.h"
 #include "core/scanline_raster.h"
 #include "core/workspace_monitor.h"
@@ -24,7 +23,6 @@ class MonitorWatch {
     MonitorWatch* monitor[BERM_LIDARS] = {};
     int count = 0;
     const MonitorWatch* scanners = nullptr;  // the one among them; null of the scanners' own
-    const sk_free_space* held_by = nullptr;  // free space, while it holds the machine
   };
   // A return, base frame.
   void insert(const sk_point& point, std::int64_t now_us, const Others& others);
@@ -32,12 +30,12 @@ class MonitorWatch {
   enum class Over { kEverything, kUnmeasured };  // kUnmeasured: not where the accumulated map has a measured height
   // The line from one return to the next, in steps of half a cell: what a corner of it cuts off stays EMPTY. It counts in EMPTY cells only.
   void interpolate(const sk_point& from, const sk_point& to, Over over, std::int64_t now_us);
-  // With histograms, while any of them holds the machine: a ray passed from the head to near the point that it met. Where it was so low that it would have
-  // met somebody, nobody stands: for this monitor, and where it knows of nobody about and cells are not learned anew for the others too.
-  void pass(const sk_point& head, const sk_point& met, std::int64_t now_us, const Others& others);
-  // Since clear_passed(): the cells that hold the machine by free space and that rays passed so.
-  const std::vector<sk_monitor_cell>& passed_low() const { return passed_low_; }
-  void clear_passed() { passed_low_.clear(); }
+  // With histograms, of a cell of the map: whether this monitor knows of somebody in it.
+  bool somebody(const sk_monitor_cell& at) const;
+  // One of this sensor's rays passed over the cell no higher than z_mm. Whether that says of the others' somebody, too, that he has left: what is no departure
+  // for this monitor may be one for them, so not where it knows of somebody about, and not where it may have learned him.
+  bool pass(const sk_monitor_cell& at, std::int32_t z_mm, std::int64_t now_us, const Others& others);
+  void pass_of_another(const sk_monitor_cell& at, std::int32_t z_mm, std::int64_t now_us, const MonitorWatch& other);
   // The trucks' lanes are another ground from now on, and watched or not.
   void change_lanes(const berm_parameters& parameters, bool open);
   // The rectangle is learned: what has CHANGED in it by now belongs to the ground and explains what is seen beside it.
@@ -57,16 +55,9 @@ class MonitorWatch {
 
  private:
   static constexpr std::int64_t kStepsMost = 250;  // across the whole map
-  static constexpr std::int32_t kPassStepMm = SK_CELL_MM / 4;  // so that a ray that cuts a corner off is seen to
-  static constexpr std::int64_t kPassSteps = 240;              // before what is met: 18 m
-  static constexpr std::int32_t kWithinBinMm = SK_HISTOGRAM_BIN_MM / 2;  // a rise counts from the low side of a bin: the ground is half of it higher on average
-  static constexpr std::size_t kPassedMost = 1024;             // noted of a packet
-  static constexpr std::int64_t kPassEnds = 4;                 // from a cell before it: the thing itself is not passed
 
-  bool holds() const { return where_.iy >= 0; }
-  bool somebody(std::int32_t iy, std::int32_t ix) const;
-  bool nobody_about(std::int32_t iy, std::int32_t ix) const;  // in the cell and the eight round it
-  void pass_cell(const sk_monitor_cell& at, std::int32_t z_mm, std::int64_t now_us, const Others& others);
+  bool nobody_about(const sk_monitor_cell& at) const;  // in the cell and the eight round it
+  bool learned_anew(std::int32_t iy, std::int32_t ix) const { return learned_anew_[static_cast<std::size_t>(iy * SK_MAP_CELLS + ix)] != 0; }
   void watch_region(const berm_parameters& parameters, bool lanes_open);
   void note_learned_anew(std::int32_t x_low_mm, std::int32_t y_low_mm, std::int32_t x_high_mm, std::int32_t y_high_mm);
   // With histograms: sk_histogram_known of the others, where this one may have to ask. Where cells are learned anew while somebody may be about, in lanes
@@ -79,7 +70,6 @@ class MonitorWatch {
   sk_monitor monitor_;                           // the accumulated map's heights (leger-1998, section 3.2)
   std::vector<sk_monitor_histogram> histogram_;  // or a histogram per cell (4.2): one, or none; from the start, so that no cycle allocates
   std::vector<std::uint8_t> learned_anew_;       // of each cell, row by row: it touches a lane or a dig zone
-  std::vector<sk_monitor_cell> passed_low_;      // with the room that it may need, so that no cycle allocates
   sk_monitor_cell where_{-1, -1};
   std::int64_t newest_us_ = -1;
 };

@@ -25,7 +25,7 @@ class SpaceWatch {
   void take(const sk_point& head, const sk_point& point, bool learning, std::int64_t now_us);
   // The return alone.
   void meet(const sk_point& point, bool learning, std::int64_t now_us);
-  // A ray that met something beyond passed over the cell as low as its ground, and its sensor knows of nobody about (MonitorWatch::passed_low): twice, the
+  // A ray that met something beyond passed over the cell as low as its ground, and its sensor knows of nobody about (MonitorWatch::pass): twice, the
   // monitor's wait apart, with nothing met in FOREIGN voxels of the cell between, nor of the eight round it lately, and they are free. Rays above the
   // level do not come back from the sky, and free nothing.
   void pass_low(const sk_monitor_cell& at, std::int64_t now_us);

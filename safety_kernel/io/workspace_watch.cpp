@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/low_rays.hpp"
+
 namespace berm::kernel {
 
 WorkspaceWatch::WorkspaceWatch(const berm_parameters& parameters)
@@ -32,7 +34,6 @@ MonitorWatch::Others WorkspaceWatch::others_of(int number) {
   for (int other = 0; other < monitors(); ++other)
     if (other != number) others.monitor[others.count++] = &of(other);
   if (number != kScanners) others.scanners = &scanners_;
-  if (in_space_.iy >= 0) others.held_by = &space_.space();
   return others;
 }
 
@@ -72,16 +73,16 @@ void WorkspaceWatch::take(const ScanBlocks& blocks, const JointHistory& joints, 
 
 void WorkspaceWatch::take(int lidar, const Vlp16Packet& packet, const JointAngles& joints, std::int64_t now_us) {
   if (!watched() || lidar < 0 || lidar >= lidars_) return;
-  lidar_[lidar].take(packet, joints, now_us, others_of(lidar + 1));
+  const MonitorWatch::Others others = others_of(lidar + 1);
+  lidar_[lidar].take(packet, joints, now_us, others);
   const LidarReturns& returns = lidar_[lidar].returns();
-  for (int i = 0; space_.kept() && i < returns.count; ++i) {
+  for (int i = 0; i < returns.count; ++i) {
     const LidarReturns::Return& r = returns.hit[i];
+    if (holds_ && r.lined) pass_low(lidar_[lidar].monitor(), others, in_space_.iy >= 0 ? &space_ : nullptr, r.head, r.point, now_us);
+    if (!space_.kept()) continue;
     if (r.lined) space_.take(r.head, r.point, learning(r.point), now_us);
     else space_.meet(r.point, learning(r.point), now_us);
   }
-  MonitorWatch& monitor = lidar_[lidar].monitor();
-  for (const sk_monitor_cell& cell : monitor.passed_low()) space_.pass_low(cell, now_us);
-  monitor.clear_passed();
 }
 
 void WorkspaceWatch::trucks(bool spotter_fresh, bool parked, std::int64_t now_us) {

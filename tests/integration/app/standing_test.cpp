@@ -146,6 +146,33 @@ TEST_F(SequencerStand, ATruckOutOfReachIsRefusedAndLookedAtAgain) {
   EXPECT_EQ(run.plant.findings().ground_contacts + run.plant.findings().wall_contacts, 0);
 }
 
+// Not so high that the implements could not be raised over it, but too high to reach out over its bed: that shows with the bucket full.
+TEST_F(SequencerStand, ATruckOverWhichNoDumpReachesIsRefusedWithItsLoadBroughtBack) {
+  Loading run(1, start_pose(), events_.fd());
+  const RecognisedTruck right = run.finder.truck;
+  run.finder.truck.pose.middle.z() = 4.5;
+  while (events_.named("truck_lost").empty() && run.seconds < 150.0) run.step();
+  ASSERT_FALSE(events_.named("truck_lost").empty()) << "it stands with a full bucket, without a word";
+  EXPECT_EQ(events_.named("unreachable")[0].at("what"), "dump point");
+  EXPECT_EQ(calls("truck out of reach"), 1);
+  EXPECT_EQ(events_.named("pass").size(), 0u);
+  run.finder.truck = right;
+  while (events_.named("pass").size() < 2 && run.seconds < 300.0) run.step();
+  EXPECT_NEAR(events_.named("pass").back().at("loaded_kg").get<double>(), run.plant.site().bed_mass(), 0.05 * run.plant.site().bed_mass());
+  EXPECT_EQ(run.plant.findings().ground_contacts + run.plant.findings().wall_contacts, 0);
+}
+
+// Digs that would end at the machine's feet: there is no way through the soil.
+TEST_F(SequencerStand, NoWayThroughTheSoilIsAMoveOfTheMachineToo) {
+  SiteModel site = app_bench::bench();
+  site.dig_radius_end = 1.0;
+  Loading run(1, start_pose(), events_.fd(), site);
+  go(run, 90.0);
+  ASSERT_FALSE(events_.named("move_back").empty());
+  EXPECT_EQ(events_.named("move_back")[0].at("why"), "the soil before the machine is out of the bucket's reach");
+  EXPECT_EQ(events_.named("unreachable").size(), 3u) << "so often it is tried";
+}
+
 // Digs begin where no bucket reaches: the machine is to be moved, and when that helps no more somebody is told that, too.
 TEST_F(SequencerStand, SoilOutOfReachIsAMoveOfTheMachine) {
   SiteModel site = app_bench::bench();

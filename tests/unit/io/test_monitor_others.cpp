@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 
+#include "io/low_rays.hpp"
 #include "io/monitor_watch.hpp"
 #include "lidar_ring.hpp"
 #include "watched_ring.hpp"
@@ -41,7 +42,7 @@ class MonitorOthersTest : public testing::Test {
   // A ray of this sensor that passes the cell at that height and meets the ground 3 m beyond, twice with the wait between.
   void pass(std::size_t number, std::int32_t z_mm) {
     for (int time = 0; time < 2; ++time, now_us += parameters.workspace_wait_us)
-      monitors[number]->pass({kX - 12000, kY, kGround + 5 * (z_mm - kGround)}, {kX + 3000, kY, kGround}, now_us, others_of(number));
+      pass_low(*monitors[number], others_of(number), nullptr, {kX - 12000, kY, kGround + 5 * (z_mm - kGround)}, {kX + 3000, kY, kGround}, now_us);
   }
   // Each has seen the ground here and round it; the one of that number somebody then.
   void somebody_of(std::size_t number) {
@@ -115,7 +116,7 @@ TEST_F(MonitorOthersTest, NorWhileTheOtherSeesHim) {
   somebody_of(1);
   for (int time = 0; time < 10; ++time) {
     see(1, kGround + 1700, 1);
-    monitors[2]->pass({kX - 12000, kY, kGround + 1500}, {kX + 3000, kY, kGround}, now_us, others_of(2));
+    pass_low(*monitors[2], others_of(2), nullptr, {kX - 12000, kY, kGround + 1500}, {kX + 3000, kY, kGround}, now_us);
     now_us += parameters.workspace_wait_us / 2;
   }
   EXPECT_TRUE(holds(1));
