@@ -109,15 +109,16 @@ Joints Sequencer::run_script(const Observation& o, std::uint32_t events) {
     script_.evaluate(o.angle, events);
     script_s_ = o.time_s;
   }
-  return arm_.toward(stage_ == Stage::pass ? pass_goals() : script_.goals(), script_.paces(), tempos(), o.angle, o.velocity);
+  return arm_.toward(stage_ == Stage::pass ? pass_goals(o.angle) : script_.goals(), script_.paces(), tempos(), o.angle, o.velocity);
 }
 
-// A load that is poured in part: meanwhile the arm stays where its lip is over the bed's middle, and on the way back the bucket holds the rest level.
-Joints Sequencer::pass_goals() const {
+// A load that is poured in part: meanwhile the arm keeps its lip over the bed's middle, and on the way back the bucket holds the rest level.
+Joints Sequencer::pass_goals(const Joints& angle) const {
   Joints goals = script_.goals();
-  const bool pours = load_check_.pours_part() && script_.of(bucket).reached(RuleMark::opens);
-  if (pours)
-    for (const Joint j : {boom, stick}) goals[j] = poses_.spill[j];
+  if (load_check_.pours_part() && script_.of(bucket).reached(RuleMark::opens)) {
+    const Joints pose = part_pose(machine_, task_, poses_, forward(machine_, angle).bucket_attitude);
+    for (const Joint j : {boom, stick}) goals[j] = pose[j];
+  }
   if (load_check_.keeps_rest() && !script_.of(swing).at_last()) goals[bucket] = level_bucket(machine_, goals[boom] + goals[stick]);
   return goals;
 }

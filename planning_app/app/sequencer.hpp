@@ -66,13 +66,15 @@ private:
   Joints dig(const Observation& o);
   Joints curl(const Observation& o);
   Joints pass(const Observation& o);
-  Joints pass_goals() const;
+  Joints pass_goals(const Joints& angle) const;
   void plan_next_dig(const Observation& o);
   void tell_region(const Observation& o, const RegionDig& next) const;
   DigNeeds needs_for(double kg) const;
   void note_cut(const Observation& o);
   void plan_landing(const Observation& o);    // how hard the swing brakes
   void feel(const Observation& o);            // the implements' weight, or how hard the soil resists
+  double stuck_kg() const;
+  bool knows_what_stuck() const;
   void learn_yield(double weighed_kg, double brought_along_kg);
   void hold_fill(double in_bucket_kg);
   void begin_script(const Script& script);

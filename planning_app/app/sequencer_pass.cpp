@@ -61,8 +61,7 @@ void Sequencer::watch_pour(const Observation& o) {
   if (emptied_ || !weight_.known(o.angle)) return;
   const double kg = weight_in_bucket(machine_, o.angle, holding_moments(machine_, o.pressure), weight_.of(o.angle));
   if (kg < 0.0) return;
-  const double tare = sticking_.sticks() ? sticking_.in_bucket_kg() : 0.0;  // it was in the bucket when the implements' weight was learned
-  pour_.step({kg + tare, carries_level(o), share_beside(machine_, *site_.bed, o.angle, bucket_width(machine_) / 2.0)});
+  pour_.step({kg, carries_level(o), share_beside(machine_, *site_.bed, o.angle, bucket_width(machine_) / 2.0)});
 }
 
 // The on-board weighing is blind for a while after the soil, at times until the load slides, and then seen for a few readings only: the pressures say it too.

@@ -25,6 +25,7 @@ constexpr double attitude_back = radians(-122.0);
 constexpr double attitude_dig = radians(-92.0);
 constexpr double spill_ahead = 0.55;              // pin beyond the dump point while the lip points inward, by the scale of the bucket ...
 constexpr double dump_behind = 0.25;              // ... and short of it when the bucket hangs open, lip outward
+constexpr double part_lip_beyond = 0.3;           // lip beyond the dump point, at most, while a part of a load is poured: by the scale of the bucket
 constexpr double dig_above = -0.15;               // tip over the entry of the drag, which is above the surface: nearer to that, for the drag takes over on the way down
 constexpr double hover_above = 1.60;              // tip over the bench's level while the swing lands: heaps on the crest, the margin, the spread of a stop ...
 constexpr double hover_lowest = 0.20, hover_step = 0.35;  // ... and where the search finds that clear, lower by whole steps
@@ -88,6 +89,19 @@ std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask&
   if (!carry || !spill || !dump || !back || !hover || !dig) return std::nullopt;
   if (!task.lower_at_end) return PassPoses{*carry, *spill, *dump, *back, *back, *back};
   return PassPoses{*carry, *spill, *dump, *back, *hover, *dig};
+}
+
+Joints part_pose(const MachineModel& machine, const PassTask& task, const PassPoses& poses, double bucket_attitude) {
+  const PlanePoint pin = forward(machine, poses.spill).bucket_pin;
+  const double lip = pin.r + machine.bucket_length * std::cos(bucket_attitude), beyond = lip - task.dump_radius - part_lip_beyond * scale_of(machine).bucket;
+  Joints pose = poses.spill;
+  if (beyond <= 0.0) return pose;
+  // Where the bucket is has no part in where its pin is: an attitude that its range allows.
+  const double attitude = std::clamp(bucket_attitude, attitude_back, attitude_open);
+  const auto drawn = inverse_pin(machine, {pin.r - beyond, pin.z}, attitude, range_guard);
+  if (!drawn) return pose;
+  for (const Joint j : {boom, stick}) pose[j] = (*drawn)[j];
+  return pose;
 }
 
 double farthest_dump(const MachineModel& machine, double wall_top) {

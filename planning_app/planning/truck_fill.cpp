@@ -22,7 +22,7 @@ double TruckFill::next_goal_kg() const {
 
 double TruckFill::allowed_kg(double kg, double stays_kg) const {
   if (stays_kg > 0.0) return kg > stays_kg ? stays_kg + allowed_kg(kg - stays_kg) : kg;
-  if (loaded_ + kg > most_share * target_) return std::max(0.0, rest_kg());
+  if (loaded_ + kg > most_share * target_) return std::max(0.0, part_share * target_ - loaded_);
   return kg;
 }
 

@@ -273,7 +273,7 @@ void PlantRun::observe(double t) {
   if (record_.judge(t, verdict_)) events_.contact(t, verdict_.what);
   record_.standstill(t, standing_cycles_ >= kStandstillCycles);
   if (cycle_ % static_cast<std::uint64_t>(options_.trace_every) == 0)
-    trace_.row(t, dynamics_.state(), controller_.heartbeat(), world_.payload_kg(), std::min(verdict_.closest_m, kFarthestClearance), world_.movers(), base_pose());
+    trace_.row(t, dynamics_.state(), controller_.heartbeat(), world_.soil_masses(), std::min(verdict_.closest_m, kFarthestClearance), world_.movers(), base_pose());
   if (cycle_ % 100 == 0) events_.time(t);
 }
 

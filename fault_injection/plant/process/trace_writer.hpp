@@ -15,8 +15,8 @@ class TraceWriter {
  public:
   // trams: with columns for where the base stands. Of the trucks of a long run the first most_trucks have columns.
   TraceWriter(const std::string& path, const std::vector<MoverPose>& movers, bool trams = false);
-  void row(double t, const JointState& joints, const berm_heartbeat& heartbeat, double payload_kg, double clearance_m, const std::vector<MoverPose>& movers,
-           const BasePose& base = {});
+  void row(double t, const JointState& joints, const berm_heartbeat& heartbeat, const SoilMasses& soil, double clearance_m,
+           const std::vector<MoverPose>& movers, const BasePose& base = {});
   void finish() { file_.finish(); }
 
  private:

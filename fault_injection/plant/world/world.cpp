@@ -262,6 +262,11 @@ OracleVerdict World::judge(double, const JointState& joints) {
 
 double World::payload_kg() const { return state_->load.volume() * state_->loose_density() + state_->config.ballast_kg; }
 
+SoilMasses World::soil_masses() const {
+  const State& w = *state_;
+  return {payload_kg(), (w.book.dug - w.load.volume() - w.book.spilled) * w.loose_density(), w.book.spilled * w.loose_density()};
+}
+
 Truth World::truth() const {
   const State& w = *state_;
   Truth out;

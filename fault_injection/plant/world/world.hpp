@@ -43,6 +43,13 @@ struct Truth {
   double load_centre_offset_m = 0.0, load_height_stddev_m = 0.0;  // of the current or last truck
 };
 
+// Where the soil is that was dug, kg.
+struct SoilMasses {
+  double bucket = 0.0;     // with the ballast, if any
+  double in_trucks = 0.0;  // of the run, those that have left too
+  double spilled = 0.0;    // as Truth::spilled_kg
+};
+
 struct OracleVerdict {
   bool contact = false;                   // of this step: the machine touches what it must not
   double closest_m = 0.0;                 // distance to the nearest person, vehicle, truck or box, 0 in contact; 1e9 when there is none
@@ -82,6 +89,7 @@ class World {
   const std::vector<MoverReturn>& mover_returns() const;
   OracleVerdict judge(double t, const JointState& joints);  // independent oracle
   double payload_kg() const;
+  SoilMasses soil_masses() const;
   Truth truth() const;
   std::size_t trucks() const;
   std::vector<MoverPose> movers() const;  // the same names in the same order at every call: trucks first

@@ -97,7 +97,7 @@ TEST(LoadCheck, AHandfulOfASmallLoadIsPouredWithoutAWaitForItToSlide) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const Outcome out = run(4250.0, 700.0, seed);
     EXPECT_TRUE(out.keeps);
-    EXPECT_NEAR(4250.0 + out.poured, TruckFill::aim_share * target, 0.02 * target) << "seed " << seed;
+    EXPECT_NEAR(4250.0 + out.poured, TruckFill::part_share * target, 0.02 * target) << "seed " << seed;
     EXPECT_LT(out.seconds, 12.0) << "seed " << seed;
   }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app_bench/events.hpp"
 #include "app_bench/loading.hpp"
 
 namespace {
@@ -181,22 +182,27 @@ TEST(Sequencer, WaitsForTheTruckAndStandsMeanwhile) {
   EXPECT_FALSE(run.last.horn);
 }
 
-// A bucket that stays low hides the ground round it until that is too old to move over.
-TEST(Sequencer, WaitsForTheNextTruckWithTheImplementsUp) {
-  Loading run(2, start_pose());
+// A bucket that stays low hides the ground round it until that is too old to move over. Here the face is dug out when the next truck is due: up, and ahead of
+// the machine for the bench move.
+TEST(Sequencer, WaitsForABenchMoveWithTheImplementsUpAndAhead) {
+  const app_bench::Events events;
+  Loading run(2, start_pose(), events.fd());
   while (!run.last.horn && run.seconds < 600.0) run.step();
   ASSERT_TRUE(run.last.horn) << "the first truck is not full after " << run.seconds << " s";
-  const double swing_then = run.plant.state().joint_angle_urad[swing] * 1e-6, boom_then = run.plant.state().joint_angle_urad[boom] * 1e-6;
+  const double boom_then = radians(14.0);
+  run.plant.put(boom, boom_then);  // as low as after a pass that was not to be the last
+  const SiteModel site = app_bench::bench();
   while (run.last.horn) run.step();
   run.plant.truck_parked = false;
   for (int k = 0; k < 1500; ++k) run.step();
+  ASSERT_EQ(events.named("move_back").size(), 1U);
   EXPECT_GT(run.plant.state().joint_angle_urad[boom] * 1e-6, boom_then + radians(15.0)) << "it stood low over the dig";
-  EXPECT_NEAR(run.plant.state().joint_angle_urad[swing] * 1e-6, swing_then, radians(1.5));
-  for (const double v : run.last.velocity) EXPECT_EQ(v, 0.0) << "and stands";
+  EXPECT_NEAR(run.plant.state().joint_angle_urad[swing] * 1e-6, 0.5 * (site.dig_swing_left + site.dig_swing_right), radians(1.5));
+  for (const double v : run.last.velocity) EXPECT_NEAR(v, 0.0, radians(0.3)) << "and stands";
   expect_no_contact(run);
 }
 
-// The same where the face has enough for the next truck, so that the machine is not to be moved.
+// Where the face has enough for the next truck, so that the machine is not to be moved.
 TEST(Sequencer, WaitsWithTheImplementsUpBeforeAFaceThatIsNotDugOut) {
   SiteModel site = app_bench::bench();
   site.place.target_kg = 8000.0;

@@ -71,6 +71,22 @@ TEST(BucketWeight, IsWhatTheBucketHoldsInEveryPoseOfAPass) {
   EXPECT_LT(weight_in_bucket(machine, steep, held_by(machine, steep, {}, 800.0, {}), weight.of(steep)), 0.0) << "no lever to weigh with";
 }
 
+// Soil that sticks is in the bucket while the implements' weight is learned, another lot each time: without its moments what is learned is theirs alone.
+TEST(BucketWeight, WhatSticksIsNoPartOfTheImplements) {
+  const MachineModel machine = app_bench::zx200();
+  ImplementWeight weight;
+  for (int k = 0; k < 600; ++k) {
+    const double t = k / 600.0, stuck = k < 200 ? 0.0 : k < 400 ? 210.0 : 130.0;
+    const Joints q{0.0, radians(45.0 - 40.0 * t), radians(-60.0 - 35.0 * t), radians(-100.0 + 65.0 * t)};
+    Moments m = held_by(machine, q, {}, stuck, {});
+    const Moments part = moments_of_load(machine, q, stuck);
+    for (std::size_t i = 0; i < m.size(); ++i) m[i] -= part[i];
+    weight.learn(q, m, machine.cycle);
+  }
+  const Joints q{0.0, radians(28.0), radians(-56.0), radians(-126.0)};
+  EXPECT_NEAR(weight_in_bucket(machine, q, held_by(machine, q, {}, 1400.0, {}), weight.of(q)), 1400.0, 1.0);
+}
+
 TEST(ImplementWeight, OnePoseSaysNothingOfOthers) {
   const MachineModel machine = app_bench::zx200();
   ImplementWeight weight;

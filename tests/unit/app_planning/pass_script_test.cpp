@@ -96,6 +96,35 @@ TEST(PassScript, ABucketThatOpensFartherKeepsItsLipOverTheBed) {
   }
 }
 
+// A part of a load slides while the bucket tilts on as far as that takes: the lip stays short of where soil falls beside the far wall, and the pin as high as it was.
+TEST(PassScript, ALoadThatIsPouredInPartKeepsItsLipOverTheBed) {
+  const MachineModel m = berm::app_bench::zx200();
+  PassTask task;
+  task.truck_bearing = radians(96.0);
+  task.next_entry = {7.4, -1.6};
+  task.truck_top = task.wall_top = berm::app_bench::bench_bed().wall_top;
+  for (const double dump_radius : {6.2, 6.8, 7.2}) {
+    task.dump_radius = dump_radius;
+    const auto poses = pass_poses(m, task);
+    ASSERT_TRUE(poses) << dump_radius;
+    const ArmPoints spill = forward(m, poses->spill);
+    double drawn_in = 0.0;
+    for (double attitude = -175.0; attitude <= -50.0; attitude += 5.0) {
+      Joints pose = part_pose(m, task, *poses, radians(attitude));
+      pose[bucket] = radians(attitude) - pose[boom] - pose[stick];
+      const ArmPoints arm = forward(m, pose);
+      EXPECT_LT(arm.tip.r, dump_radius + 0.31) << dump_radius << " m, " << attitude << " degrees";
+      EXPECT_NEAR(arm.bucket_pin.z, spill.bucket_pin.z, 1e-6);
+      EXPECT_GE(spill.bucket_pin.r - arm.bucket_pin.r, drawn_in - 1e-9) << "goes out again, " << dump_radius << " m, " << attitude << " degrees";
+      drawn_in = spill.bucket_pin.r - arm.bucket_pin.r;
+      if (attitude < -110.0) {
+        EXPECT_EQ(drawn_in, 0.0) << "the lip is not there yet";
+      }
+    }
+    EXPECT_GT(drawn_in, 0.5);
+  }
+}
+
 // Mouth up at any attitude of the stick, as far as the bucket's range goes.
 TEST(PassScript, ALevelBucketIsAsLevelAsItsRangeAllows) {
   const MachineModel m = berm::app_bench::zx200();

@@ -51,7 +51,7 @@ TEST(TruckFill, TheRestIsPlannedInTheFewestEqualPasses) {
 TEST(TruckFill, OfABucketThatWouldOverloadTheTruckAPartIsAllowed) {
   TruckFill fill(4500.0, full_bucket);
   fill.add_pass(3000.0, 0.0);
-  const double rest = 4500.0 * TruckFill::aim_share - 3000.0;
+  const double rest = 4500.0 * TruckFill::part_share - 3000.0;
   EXPECT_EQ(fill.allowed_kg(1600.0), rest) << "overload";
   EXPECT_EQ(fill.allowed_kg(1450.0), 1450.0) << "within the limits";
   EXPECT_EQ(fill.allowed_kg(1300.0), 1300.0) << "the rest is another pass's";

@@ -47,13 +47,13 @@ TEST(TraceWriter, HasTheDocumentedColumnsAndFormat) {
   berm_heartbeat heartbeat{};
   heartbeat.kernel_state = 3;
   heartbeat.stop_reason = 9;
-  trace.row(0.01, joints, heartbeat, 1500.5, 0.25, movers);
-  EXPECT_THROW(trace.row(0.02, joints, heartbeat, 0, 0, {}), std::runtime_error);
+  trace.row(0.01, joints, heartbeat, {1500.5, 3000.25, 12.0}, 0.25, movers);
+  EXPECT_THROW(trace.row(0.02, joints, heartbeat, {}, 0, {}), std::runtime_error);
   trace.finish();
   EXPECT_EQ(text_of(path),
             "time_s,swing_rad,boom_rad,stick_rad,bucket_rad,swing_rad_s,boom_rad_s,stick_rad_s,bucket_rad_s,stop_state,stop_reason,payload_kg,"
-            "clearance_m,truck_1_x_m,truck_1_y_m,truck_1_z_m,truck_1_yaw_rad\n"
-            "0.010000,0.100000,-0.200000,0.300000,0.000000,0.000000,0.000000,0.000000,0.000000,3,9,1500.500000,0.250000,1.000000,-2.000000,0.500000,"
+            "in_trucks_kg,spilled_kg,clearance_m,truck_1_x_m,truck_1_y_m,truck_1_z_m,truck_1_yaw_rad\n"
+            "0.010000,0.100000,-0.200000,0.300000,0.000000,0.000000,0.000000,0.000000,0.000000,3,9,1500.500000,3000.250000,12.000000,0.250000,1.000000,-2.000000,0.500000,"
             "3.000000\n");
 }
 

@@ -37,6 +37,8 @@ TEST(World, PassesMoveSoilFromTheBenchIntoTheTruck) {
     EXPECT_EQ(truth.payload_kg, 0);
     EXPECT_NEAR(truth.truck_load_kg[0] - before, payload, 1);
     EXPECT_NEAR(truth.dug_kg, truth.truck_load_kg[0] + truth.payload_kg + truth.spilled_kg, 1e-6);
+    EXPECT_NEAR(w.soil_masses().in_trucks, truth.truck_load_kg[0], 1e-6);
+    EXPECT_EQ(w.soil_masses().spilled, truth.spilled_kg);
     EXPECT_LT(truth.spilled_kg, 1);
   }
   EXPECT_GT(w.truth().load_height_stddev_m, 0.01);
