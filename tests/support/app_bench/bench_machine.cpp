@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "app/machine_loader.hpp"
+#include "app_bench/bench_cylinders.hpp"
 #include "motion/arm_kinematics.hpp"
 #include "motion/joint_response.hpp"
 #include "motion/reach_preview.hpp"
@@ -65,8 +66,11 @@ BenchMachine::BenchMachine(const MachineModel& machine, const Joints& start, std
 void BenchMachine::step(const berm_request& request) {
   ++cycle_;
   decide(request);
+  const Joints before = angle_;
+  const double carried = payload_;
   move();
   work_soil();
+  push_ = has_pressures && digging_ ? soil_push(machine_, before, angle_, std::max(0.0, payload_ - carried)) : PlaneForce{};
   site_.slump();
   measure();
   scan(request);
@@ -136,9 +140,10 @@ void BenchMachine::work_soil() {
         }
   }
   digging_ = !site_.on_truck(tip.x, tip.y) && tip.z < site_.height(tip.x, tip.y) + 0.1;
+  most_carried_ = digging_ ? payload_ : std::max(most_carried_, payload_);
   if (arm.bucket_attitude > radians(-140.0) && arm.tip.z > 0.2 && payload_ > 0.0) {
     const double share = std::clamp((arm.bucket_attitude - radians(-140.0)) / radians(50.0), 0.0, 1.0);
-    const double out = std::min(payload_, (200.0 + 2500.0 * share) * machine_.cycle);
+    const double out = std::min(std::max(0.0, payload_ - sticks * most_carried_), (200.0 + 2500.0 * share) * machine_.cycle);
     payload_ -= out;
     site_.dump(tip.x, tip.y, out);
   }
@@ -291,6 +296,11 @@ void BenchMachine::publish() {
   }
   for (std::size_t i = 0; i < 2; ++i) state.pan_angle_urad[i] = static_cast<std::int32_t>(std::lround(pan_[i] * 1e6));
   state.payload_kg = digging_ || !weighs ? -1 : static_cast<std::int32_t>(std::lround(payload_ * (1.0 + 0.03 * noise())));
+  const CylinderPressures pressure = has_pressures ? pressures(machine_, angle_, payload_, push_) : CylinderPressures{};
+  for (std::size_t i = 0; i < pressure.size(); ++i) {
+    state.cylinder_kpa[i][0] = static_cast<std::int32_t>(std::lround(pressure[i].bottom_kpa));
+    state.cylinder_kpa[i][1] = static_cast<std::int32_t>(std::lround(pressure[i].rod_kpa));
+  }
   state.kernel_state = kernel_runs ? BERM_STATE_RUN : BERM_STATE_STOPPED;
   state.stop_reason = kernel_runs ? std::uint8_t{BERM_STOP_NONE} : stop_reason;
   state.stop_category = kernel_runs ? 255 : 2;

@@ -12,6 +12,7 @@
 #include "contract/berm_contract.h"
 #include "motion/machine_model.hpp"
 #include "planning/script_set.hpp"
+#include "motion/soil_force.hpp"
 #include "planning/site_model.hpp"
 
 namespace berm::app_bench {
@@ -54,6 +55,8 @@ public:
   bool kernel_runs = true;        // false: STOPPED, for collision_reason, nothing moves but at creep speeds
   std::uint8_t stop_reason = BERM_STOP_COLLISION_PREDICTED;
   bool weighs = true;             // false: the on-board weighing says nothing
+  bool has_pressures = false;     // the cylinders' are published, and the soil resists
+  double sticks = 0.0;            // share of a load that stays in the bucket
   app::Joints most_speed{};       // rad/s, of each joint: what the kernel lets out of a request at most; by default the machine's largest
   app::Joints brake_share{1.0, 1.0, 1.0, 1.0};  // of the deceleration that was identified
 
@@ -79,7 +82,8 @@ private:
   std::array<std::int32_t, 4> measured_angle_{}, measured_velocity_{};  // urad, urad/s
   std::array<std::int32_t, 4> commanded_{}, permitted_low_{}, permitted_high_{};  // urad/s
   std::array<double, 2> pan_{}, pan_before_{};
-  double payload_ = 0.0;
+  double payload_ = 0.0, most_carried_ = 0.0;  // kg; since the last dig
+  app::PlaneForce push_;                // of the soil on the tip
   bool digging_ = false;                // the weighing is blind
   std::uint64_t cycle_ = 0;
   std::array<std::uint32_t, 2> mirror_{}, scanline_{};
