@@ -101,12 +101,15 @@ int trucks_enough(double hours) { return std::min(1000, 2 + static_cast<int>(360
 
 std::string scenario_text(const DrawnShift& shift) {
   constexpr double kFar = 19.0;  // m behind and to the right: where people wait
+  // The bench is as long as the machine may move back in the time: 68 moves of 84 m were made in 7.8 h.
+  constexpr double kLeastBack_m = 84.0, kBack_m_h = 12.0, kBehind_m = 12.0;
+  const double back = std::max(kLeastBack_m, kBack_m_h * shift.seconds / 3600.0);
   std::string out = fmt::format("# A shift of {:.2f} h, drawn from seed {}. Format: FORMAT.md.\n", shift.seconds / 3600, shift.seed);
   const auto add = [&out]<typename... Values>(fmt::format_string<Values...> format, Values&&... values) { out += fmt::format(format, std::forward<Values>(values)...); };
   add("schema = 1\nname = \"soak\"\nmachine = \"zx200_ring\"\nsite = \"shift\"\nplant = \"zx200_ring_plant\"\n\n[run]\nmax_time_s = {:.1f}\noperator_run_from_s = 0.5\n\n", shift.seconds);
-  add("[operator]\nreaction_s = [4.0, 12.0]\ntram_speed = 0.6\nfarthest_back_m = 84.0\nresets_after_s = [15.0, 60.0]\n\n");
+  add("[operator]\nreaction_s = [4.0, 12.0]\ntram_speed = 0.6\nfarthest_back_m = {:.1f}\nresets_after_s = [15.0, 60.0]\n\n", back);
   add("[start]\nswing_deg = 0.0\nboom_deg = 45.0\nstick_deg = -100.0\nbucket_deg = -100.0\n\n");
-  add("[terrain]\nx = [-96.0, 16.0]\ny = [-16.0, 16.0]\ncell = 0.1\ncrest_x = 6.0\ntoe_x = 7.5\ncrest_y = 3.6\ntoe_y = 5.0\nlower_z = -2.2\nroughness = 0.02\n\n");
+  add("[terrain]\nx = [{:.1f}, 16.0]\ny = [-16.0, 16.0]\ncell = 0.1\ncrest_x = 6.0\ntoe_x = 7.5\ncrest_y = 3.6\ntoe_y = 5.0\nlower_z = -2.2\nroughness = 0.02\n\n", -back - kBehind_m);
   add("[[dig_zone]]\nx = [3.9, 10.5]\ny = [-4.2, 4.2]\nfloor = -3.4\n\n");
   add("[soil]\ndensity_bank_kg_m3 = 1474.0\nswell = 1.10\nrepose_deg = 36.0\nbank_slope_deg = 50.0\nresistance = 0.5\nstick_fraction = 0.0\n\n");
   for (const DrawnSoil& s : shift.soil)

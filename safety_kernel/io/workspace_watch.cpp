@@ -46,9 +46,7 @@ sk_point WorkspaceWatch::head(int scanner, std::int64_t time_us, const JointHist
 
 bool WorkspaceWatch::learning(const sk_point& point) const {
   if (!begun_ || learned_us_ != kNotLearning) return true;
-  return lane_learned_us_ != kNotLearning && std::any_of(parameters_.lane, parameters_.lane + parameters_.lanes, [&](const berm_lane& lane) {
-    return sk_is_touched(sk_map_index(point.y_mm), sk_map_index(point.x_mm), lane.x_low_mm, lane.y_low_mm, lane.x_high_mm, lane.y_high_mm);
-  });
+  return lane_learned_us_ != kNotLearning && in_lane(sk_map_index(point.y_mm), sk_map_index(point.x_mm));
 }
 
 void WorkspaceWatch::take(const ScanBlocks& blocks, const JointHistory& joints, std::int64_t now_us) {
@@ -98,11 +96,36 @@ void WorkspaceWatch::settle(const berm_lane& rectangle) {
   for (int number = 0; number < monitors(); ++number) of(number).settle(rectangle);
 }
 
+bool WorkspaceWatch::in_lane(std::int32_t iy, std::int32_t ix) const {
+  return std::any_of(parameters_.lane, parameters_.lane + parameters_.lanes,
+                     [&](const berm_lane& lane) { return sk_is_touched(iy, ix, lane.x_low_mm, lane.y_low_mm, lane.x_high_mm, lane.y_high_mm); });
+}
+
+// In rectangles from the middle of a cell to the middle of another: rows in which the same cells are no lane's have theirs in common.
+void WorkspaceWatch::settle_beside_lanes() {
+  const auto middle = [](std::int32_t i) { return SK_MAP_ORIGIN_MM + SK_CELL_MM * i + SK_CELL_MM / 2; };
+  const auto alike = [this](std::int32_t one, std::int32_t other) {
+    for (std::int32_t ix = 0; ix < SK_MAP_CELLS; ++ix)
+      if (in_lane(one, ix) != in_lane(other, ix)) return false;
+    return true;
+  };
+  for (std::int32_t first_y = 0, end_y = 1; first_y < SK_MAP_CELLS; first_y = end_y++) {
+    while (end_y < SK_MAP_CELLS && alike(first_y, end_y)) ++end_y;
+    for (std::int32_t first_x = 0, end_x = 1; first_x < SK_MAP_CELLS; first_x = end_x++) {
+      if (in_lane(first_y, first_x)) continue;
+      while (end_x < SK_MAP_CELLS && !in_lane(first_y, end_x)) ++end_x;
+      settle({middle(first_x), middle(first_y), middle(end_x - 1), middle(end_y - 1)});
+    }
+  }
+}
+
 void WorkspaceWatch::end_learning(std::int64_t now_us) {
   if (!begun_) learned_us_ = now_us + parameters_.workspace_learn_us;
   begun_ = true;
   const bool all = learned_us_ != kNotLearning && now_us >= learned_us_, lanes = lane_learned_us_ != kNotLearning && now_us >= lane_learned_us_;
-  if (all) settle({SK_MAP_ORIGIN_MM, SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM});
+  // A truck that came while the map was learned is to be learned as long as any other.
+  if (all && lane_learned_us_ != kNotLearning) settle_beside_lanes();
+  else if (all) settle({SK_MAP_ORIGIN_MM, SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM, -SK_MAP_ORIGIN_MM});
   for (int i = 0; lanes && i < parameters_.lanes; ++i) settle(parameters_.lane[i]);
   if (all) learned_us_ = kNotLearning;
   if (lanes) lane_learned_us_ = kNotLearning;

@@ -66,7 +66,9 @@ class WorkspaceWatch {
   const MonitorWatch& of(int number) const { return number == kScanners ? scanners_ : lidar_[number - 1].monitor(); }
   sk_point head(int scanner, std::int64_t time_us, const JointHistory& joints) const;
   bool learning(const sk_point& point) const;
+  bool in_lane(std::int32_t iy, std::int32_t ix) const;
   void settle(const berm_lane& rectangle);
+  void settle_beside_lanes();
   void end_learning(std::int64_t now_us);
   bool foreign(std::int64_t now_us);
 

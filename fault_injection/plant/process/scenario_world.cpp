@@ -12,12 +12,13 @@ namespace berm::plant {
 
 namespace {
 
-constexpr double kSite = 100.0;  // m; no coordinate lies farther out
+constexpr double kSite = 100.0;    // m; no coordinate lies farther out, ...
+constexpr double kGround = 215.0;  // ... but a bench that the machine moves back along for 200 m
 constexpr std::size_t kMostMovers = 16;
 
 TerrainConfig read_terrain(StrictTable t) {
   TerrainConfig terrain;
-  const auto x = t.array<2>("x", -kSite, kSite), y = t.array<2>("y", -kSite, kSite);
+  const auto x = t.array<2>("x", -kGround, kSite), y = t.array<2>("y", -kSite, kSite);
   if (x[0] >= x[1]) t.fail("x", "low must be below high");
   if (y[0] >= y[1]) t.fail("y", "low must be below high");
   terrain.x_low = x[0], terrain.x_high = x[1], terrain.y_low = y[0], terrain.y_high = y[1];

@@ -146,5 +146,50 @@ TEST_F(WorkspaceWatchTest, WithHistogramsALaneIsForgottenAndALineIsNoObservation
   EXPECT_EQ(cell(h.state, 4050, 7050), SK_CELL_CLEAR);
 }
 
+// A truck that comes while the map is learned, as after every bench move, is learned as long as any other. Two lanes side by side and one across them.
+// verifies: SK-WM-55
+TEST_F(WorkspaceWatchTest, ATruckThatComesWhileTheMapIsLearnedIsLearnedToItsEnd) {
+  parameters.workspace_histogram = 1;
+  parameters.lanes = 3;
+  parameters.lane[1] = {-15000, -9000, -6000, -6000};
+  parameters.lane[2] = {3010, -9000, 6000, 12000};
+  watch = std::make_unique<WorkspaceWatch>(parameters);
+  watch->begin();
+  watch->step(kNow);
+  const std::int64_t came = kNow + parameters.workspace_learn_us / 2;
+  watch->trucks(true, true, came);
+  const sk_monitor_histogram& h = *watch->histogram();
+  const auto expect = [&](std::int64_t now, int in_lanes) {
+    watch->step(now);
+    for (std::int32_t iy = 0; iy < SK_MAP_CELLS; ++iy)
+      for (std::int32_t ix = 0; ix < SK_MAP_CELLS; ++ix) {
+        bool lane = false;
+        for (int i = 0; i < parameters.lanes; ++i)
+          lane = lane || sk_is_touched(iy, ix, parameters.lane[i].x_low_mm, parameters.lane[i].y_low_mm, parameters.lane[i].x_high_mm, parameters.lane[i].y_high_mm);
+        ASSERT_EQ(h.state[iy][ix], lane ? in_lanes : SK_CELL_CLEAR) << iy << ' ' << ix << " at " << now;
+      }
+  };
+  expect(kNow + parameters.workspace_learn_us, SK_CELL_LEARNING);
+  expect(came + parameters.workspace_learn_us - 1, SK_CELL_LEARNING);
+  expect(came + parameters.workspace_learn_us, SK_CELL_CLEAR);
+}
+
+// The plain version's rims, as well.
+// verifies: SK-WM-55
+TEST_F(WorkspaceWatchTest, OfATruckThatComesWhileTheMapIsLearnedNothingIsSettledBefore) {
+  watch->begin();
+  watch->step(kNow);
+  const std::int64_t came = kNow + parameters.workspace_learn_us / 2;
+  watch->trucks(true, true, came);
+  auto& flags = const_cast<sk_monitor&>(watch->monitor()).accumulated_flag;
+  const auto at = [&flags](std::int32_t x_mm, std::int32_t y_mm) -> auto& { return flags[sk_map_index(y_mm)][sk_map_index(x_mm)]; };
+  at(4050, 7050) = at(4050, 3050) = SK_FLAG_CHANGED;
+  watch->step(kNow + parameters.workspace_learn_us);
+  EXPECT_EQ(at(4050, 3050), SK_FLAG_SET);
+  EXPECT_EQ(at(4050, 7050), SK_FLAG_CHANGED);
+  watch->step(came + parameters.workspace_learn_us);
+  EXPECT_EQ(at(4050, 7050), SK_FLAG_SET);
+}
+
 }  // namespace
 }  // namespace berm::kernel::test

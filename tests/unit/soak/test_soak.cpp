@@ -42,6 +42,19 @@ TEST(DrawnShift, ThePlantReadsItWithPeopleDustAndWeather) {
   }
 }
 
+// A machine that goes back 11 m an hour comes to the shift's end before it comes to the bench's, where the ground goes on under the tail.
+TEST(DrawnShift, TheBenchLastsAsLongAsTheShift) {
+  const test::Scratch folder;
+  for (const double hours : {0.5, 8.0, 10.0}) {
+    const std::string file = folder.path("scenario.toml");
+    std::ofstream(file) << scenario_text(draw_shift(hours, 1));
+    const plant::Scenario s = plant::load_scenario(file, BERM_PLANT_PROFILES);
+    ASSERT_TRUE(s.operator_config);
+    EXPECT_GE(s.operator_config->farthest_back_m, 11.0 * hours);
+    EXPECT_LE(s.world.terrain.x_low, -s.operator_config->farthest_back_m - 10.0);
+  }
+}
+
 TEST(DrawnShift, PeopleEnterAndWalkBy) {
   int enter = 0, pass = 0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed)
