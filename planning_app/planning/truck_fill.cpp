@@ -21,7 +21,12 @@ double TruckFill::next_goal_kg() const {
 }
 
 double TruckFill::allowed_kg(double kg, double stays_kg) const {
-  if (stays_kg > 0.0) return kg > stays_kg ? stays_kg + allowed_kg(kg - stays_kg) : kg;
+  if (stays_kg > 0.0) {
+    // Of a bucket that may be emptied so much does not come out. One of which a part is poured keeps more than that, and every kilogram that leaves it counts.
+    const double comes = kg - stays_kg;
+    const bool all = comes <= 0.0 || allowed_kg(comes) == comes;
+    return all ? kg : allowed_kg(comes);
+  }
   if (loaded_ + kg > most_share * target_) return std::max(0.0, part_share * target_ - loaded_);
   return kg;
 }

@@ -19,7 +19,7 @@ public:
   int passes_left() const;
   // What the next pass should bring: the rest in equal parts, so that the last is no handful.
   double next_goal_kg() const;
-  // What a bucket of this much may pour and keep stuck, of which stays_kg stick in it and do not reach the truck: less when it would overload it.
+  // What may leave a bucket of this much over the truck: all, of which stays_kg stick in it and do not leave it, or a part where that would overload the truck.
   double allowed_kg(double kg, double stays_kg = 0.0) const;
   // Whether a bucket that holds at most so much may hold more than is allowed: it has to be weighed before it pours.
   bool must_weigh(double heaped_kg) const;

@@ -50,10 +50,18 @@ TEST(StickingSoil, AHandfulSaysNothing) {
 TEST(TruckFill, WhatStaysInTheBucketDoesNotCountForTheTruck) {
   TruckFill fill(18000.0, 1560.0);
   fill.add_pass(16500.0, 0.0);
-  const double without = fill.allowed_kg(1600.0);
-  ASSERT_LT(without, 1600.0);
-  EXPECT_NEAR(fill.allowed_kg(1600.0, 150.0), without + 150.0, 1e-9);
+  const double most = TruckFill::most_share * 18000.0 - 16500.0;
+  EXPECT_LT(fill.allowed_kg(most + 100.0), most);
+  EXPECT_DOUBLE_EQ(fill.allowed_kg(most + 100.0, 101.0), most + 100.0) << "it may be emptied, for 101 kg stay in it";
   EXPECT_DOUBLE_EQ(fill.allowed_kg(100.0, 150.0), 100.0);
+}
+
+// What is poured of a part is weighed by what is left in the bucket, and what sticks is among that.
+TEST(TruckFill, OfAPartThatIsPouredAllReachesTheTruck) {
+  TruckFill fill(18000.0, 1560.0);
+  fill.add_pass(16500.0, 0.0);
+  EXPECT_DOUBLE_EQ(fill.allowed_kg(1600.0, 50.0), fill.allowed_kg(1600.0));
+  EXPECT_NEAR(16500.0 + fill.allowed_kg(1600.0, 50.0), TruckFill::part_share * 18000.0, 1e-9);
 }
 
 }  // namespace
