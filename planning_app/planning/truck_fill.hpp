@@ -25,7 +25,7 @@ public:
   bool must_weigh(double heaped_kg) const;
 
   // Shares of the target: what passes are planned up to; when it is full; what is kept back rather than loaded, a weighing's error below the target; and what
-  // a part of a bucket that holds more is poured up to, for it comes out up to 0.7 % larger.
+  // a part of a bucket that holds more is poured up to, for it may come out larger.
   static constexpr double aim_share = 0.990, full_share = 0.985, most_share = 0.995, part_share = 0.988;
   static constexpr double worth_share = 0.06;    // of a full bucket; a pass for less is not worth its time
 
