@@ -27,7 +27,8 @@ double TruckFill::allowed_kg(double kg, double stays_kg) const {
     const bool all = comes <= 0.0 || allowed_kg(comes) == comes;
     return all ? kg : allowed_kg(comes);
   }
-  if (loaded_ + kg > most_share * target_) return std::max(0.0, part_share * target_ - loaded_);
+  // No part is smaller than what a pass is worth: of a truck that is not full there is room for that.
+  if (loaded_ + kg > most_share * target_) return std::max(std::min(rest_kg(), worth_share * full_bucket_), part_share * target_ - loaded_);
   return kg;
 }
 

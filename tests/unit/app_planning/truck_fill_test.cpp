@@ -58,6 +58,17 @@ TEST(TruckFill, OfABucketThatWouldOverloadTheTruckAPartIsAllowed) {
   EXPECT_EQ(fill.allowed_kg(900.0), 900.0) << "enough is left";
 }
 
+// Less than the weighing can tell would be no part at all, and the pass for nothing.
+TEST(TruckFill, APartIsWorthAPass) {
+  for (const double missing : {0.061, 0.065, 0.08}) {
+    TruckFill fill(18000.0, full_bucket);
+    fill.add_pass(18000.0 * TruckFill::aim_share - missing * full_bucket, 0.0);
+    ASSERT_FALSE(fill.full()) << missing;
+    EXPECT_GE(fill.allowed_kg(390.0), TruckFill::worth_share * full_bucket) << missing;
+    EXPECT_LE(fill.loaded_kg() + fill.allowed_kg(390.0), TruckFill::aim_share * 18000.0) << missing;
+  }
+}
+
 TEST(TruckFill, OnlyABucketThatMayHoldTooMuchHasToBeWeighed) {
   TruckFill fill(18000.0, full_bucket);
   EXPECT_FALSE(fill.must_weigh(1600.0));
