@@ -109,6 +109,7 @@ private:
   DumpPoint dump_point(const Observation& o, double goal_kg) const;
   bool more_fits(const Observation& o) const;
   void begin_pass_search(const Observation& o, const Joints& lifted_from);
+  static constexpr double empty_share = 0.05;  // of a full bucket: what holds no more than that and what sticks is empty
   double share_that_may_trail() const;
   std::uint32_t pass_events(const Observation& o);
   bool carries_level(const Observation& o) const;

@@ -24,11 +24,6 @@ double milliseconds_since(std::chrono::steady_clock::time_point began) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
 }
 
-Moments less(Moments all, const Moments part) {
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] -= part[i];
-  return all;
-}
-
 double millimetres(double metres) { return std::round(1000.0 * metres) / 1000.0; }
 
 // The tip's planned way through the soil, [r, z]: without the entry above the surface and the lift at the end.
@@ -128,18 +123,16 @@ double Sequencer::stuck_kg() const {
 
 // Whether the implements' own weight can be learned: on the first way back of a soil that sticks, and until the bucket has been weighed there, it cannot.
 bool Sequencer::knows_what_stuck() const {
-  constexpr double nothing = 0.06;  // of a full bucket
-  return sticking_.sticks() ? stage_ != Stage::pass || after_.known() : recent_.kg() < nothing * full_bucket_kg_;
+  return sticking_.sticks() ? stage_ != Stage::pass || after_.known() : recent_.kg() < empty_share * full_bucket_kg_;
 }
 
 void Sequencer::feel(const Observation& o) {
   constexpr double gravity = 9.81;
-  const Moments held = holding_moments(machine_, o.pressure);
+  const Moments held = without_load(machine_, o.angle, holding_moments(machine_, o.pressure), stuck_kg());
   if (stage_ == Stage::pass && emptied_ && !load_check_.keeps_rest()) holds_nothing_ = true;
-  const Moments stuck = moments_of_load(machine_, o.angle, stuck_kg());
-  if (holds_nothing_ && o.running() && knows_what_stuck()) weight_.learn(o.angle, less(held, stuck), machine_.cycle);
+  if (holds_nothing_ && o.running() && knows_what_stuck()) weight_.learn(o.angle, held, machine_.cycle);
   if ((stage_ != Stage::dig && stage_ != Stage::curl) || !weight_.known(o.angle)) return;
-  PlaneForce soil = force_on_bucket(machine_, o.angle, less(held, stuck), weight_.of(o.angle));
+  PlaneForce soil = force_on_bucket(machine_, o.angle, held, weight_.of(o.angle));
   soil.z += gravity * std::min(heaped_kg_, filled_.kg());
   filled_.add(resistance(machine_, o.angle, o.velocity, soil), machine_.cycle);
 }

@@ -28,13 +28,14 @@ double Sequencer::share_that_may_trail() const {
 }
 
 std::uint32_t Sequencer::pass_events(const Observation& o) {
-  constexpr double open_at_least = 0.25, open_at_most = 2.0, empty_share = 0.05;
+  constexpr double open_at_least = 0.25, open_at_most = 2.0;
   const bool opening = script_.of(bucket).reached(RuleMark::opens);
   const std::uint32_t weighed = load_check_.weighed() ? event_weighed : event_none;
   if (!opening || emptied_) return emptied_ ? event_emptied | event_empties | weighed : weighed;
   if (load_check_.pours_part()) return weighed;
   if (load_check_.keeps_rest()) {
     emptied_ = true;
+    script_.interrupted();  // a part may have been poured without the bucket rising to where the arm goes on
     return event_emptied | event_empties | weighed;
   }
   if (open_since_s_ < 0.0 && o.angle[bucket] > poses_.dump[bucket] - radians(30.0)) open_since_s_ = o.time_s;

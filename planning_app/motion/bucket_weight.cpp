@@ -17,10 +17,10 @@ double weight_in_bucket(const MachineModel& machine, const Joints& angle, const 
   return std::max(0.0, ((held[0] - empty[0]) - (held[1] - empty[1])) / (gravity * way));
 }
 
-Moments moments_of_load(const MachineModel& machine, const Joints& angle, double kg) {
+Moments without_load(const MachineModel& machine, const Joints& angle, const Moments& held, double kg) {
   const ArmPoints arm = forward(machine, angle);
   const double r = 0.5 * (arm.bucket_pin.r + arm.tip.r), weight = gravity * kg;
-  return {weight * (r - arm.boom_pin.r), weight * (r - arm.stick_pin.r), weight * (r - arm.bucket_pin.r)};
+  return {held[0] - weight * (r - arm.boom_pin.r), held[1] - weight * (r - arm.stick_pin.r), held[2] - weight * (r - arm.bucket_pin.r)};
 }
 
 }  // namespace berm::app

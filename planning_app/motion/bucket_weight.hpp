@@ -10,7 +10,7 @@ namespace berm::app {
 // kg beyond the empty implements; nothing but weight may act on the bucket, and it moves gently. Negative when the boom stands too steep to tell.
 double weight_in_bucket(const MachineModel& machine, const Joints& angle, const Moments& held, const Moments& empty);
 
-// The moments with which so much in the bucket is held, as if it lay halfway to the tip: where it lies, only the bucket's own pin can tell.
-Moments moments_of_load(const MachineModel& machine, const Joints& angle, double kg);
+// What is held besides so much in the bucket, as if that lay halfway to the tip: where it lies, only the bucket's own pin can tell.
+Moments without_load(const MachineModel& machine, const Joints& angle, const Moments& held, double kg);
 
 }  // namespace berm::app

@@ -21,15 +21,10 @@ double TruckFill::next_goal_kg() const {
 }
 
 double TruckFill::allowed_kg(double kg, double stays_kg) const {
-  if (stays_kg > 0.0) {
-    // Of a bucket that may be emptied so much does not come out. One of which a part is poured keeps more than that, and every kilogram that leaves it counts.
-    const double comes = kg - stays_kg;
-    const bool all = comes <= 0.0 || allowed_kg(comes) == comes;
-    return all ? kg : allowed_kg(comes);
-  }
-  // No part is smaller than what a pass is worth: of a truck that is not full there is room for that.
-  if (loaded_ + kg > most_share * target_) return std::max(std::min(rest_kg(), worth_share * full_bucket_), part_share * target_ - loaded_);
-  return kg;
+  if (loaded_ + std::max(0.0, kg - stays_kg) <= most_share * target_) return kg;
+  // A part: the bucket keeps more than sticks in it, and every kilogram that leaves it counts. No smaller than what a pass is worth: of a truck that is not
+  // full there is room for that.
+  return std::max({0.0, std::min(rest_kg(), worth_share * full_bucket_), part_share * target_ - loaded_});
 }
 
 bool TruckFill::must_weigh(double heaped_kg) const { return loaded_ + heaped_kg > most_share * target_; }

@@ -270,14 +270,14 @@ SoilMasses World::soil_masses() const {
 Truth World::truth() const {
   const State& w = *state_;
   Truth out;
-  const double density = w.loose_density();
-  out.payload_kg = payload_kg();
+  const SoilMasses soil = soil_masses();
+  out.payload_kg = soil.bucket;
   for (const Truck& t : w.truck) {
     out.truck_load_kg.push_back(t.load_kg());
     out.truck_bed.push_back({t.parked_x() - t.shifted_x(), t.parked_y() - t.shifted_y(), t.yaw(), t.config().length, t.config().width, t.config().wall_top});
   }
-  out.spilled_kg = w.book.spilled * density;
-  out.dug_kg = w.book.dug * density;
+  out.spilled_kg = soil.spilled;
+  out.dug_kg = w.book.dug * w.loose_density();
   if (const Truck* t = w.shown()) {
     out.load_centre_offset_m = t->heap().centre_offset();
     out.load_height_stddev_m = t->heap().height_stddev();

@@ -1,5 +1,7 @@
 #include "app_bench/bench_cylinders.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace berm::app_bench {

@@ -295,7 +295,7 @@ void BenchMachine::publish() {
     state.permitted_high_urad_s[j] = permitted_high_[j];
   }
   for (std::size_t i = 0; i < 2; ++i) state.pan_angle_urad[i] = static_cast<std::int32_t>(std::lround(pan_[i] * 1e6));
-  state.payload_kg = digging_ || !weighs ? -1 : static_cast<std::int32_t>(std::lround(payload_ * (1.0 + 0.03 * noise())));
+  state.payload_kg = digging_ || !weighs ? -1 : static_cast<std::int32_t>(std::lround(std::max(0.0, payload_ * (1.0 + 0.03 * noise()) + weighing_error_kg)));
   const CylinderPressures pressure = has_pressures ? pressures(machine_, angle_, payload_, push_) : CylinderPressures{};
   for (std::size_t i = 0; i < pressure.size(); ++i) {
     state.cylinder_kpa[i][0] = static_cast<std::int32_t>(std::lround(pressure[i].bottom_kpa));

@@ -11,8 +11,8 @@
 #include "app_bench/bench_site.hpp"
 #include "contract/berm_contract.h"
 #include "motion/machine_model.hpp"
-#include "planning/script_set.hpp"
 #include "motion/soil_force.hpp"
+#include "planning/script_set.hpp"
 #include "planning/site_model.hpp"
 
 namespace berm::app_bench {
@@ -55,6 +55,7 @@ public:
   bool kernel_runs = true;        // false: STOPPED, for collision_reason, nothing moves but at creep speeds
   std::uint8_t stop_reason = BERM_STOP_COLLISION_PREDICTED;
   bool weighs = true;             // false: the on-board weighing says nothing
+  double weighing_error_kg = 0.0;
   bool has_pressures = false;     // the cylinders' are published, and the soil resists
   double sticks = 0.0;            // share of a load that stays in the bucket
   app::Joints most_speed{};       // rad/s, of each joint: what the kernel lets out of a request at most; by default the machine's largest

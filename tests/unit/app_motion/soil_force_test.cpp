@@ -78,10 +78,7 @@ TEST(BucketWeight, WhatSticksIsNoPartOfTheImplements) {
   for (int k = 0; k < 600; ++k) {
     const double t = k / 600.0, stuck = k < 200 ? 0.0 : k < 400 ? 210.0 : 130.0;
     const Joints q{0.0, radians(45.0 - 40.0 * t), radians(-60.0 - 35.0 * t), radians(-100.0 + 65.0 * t)};
-    Moments m = held_by(machine, q, {}, stuck, {});
-    const Moments part = moments_of_load(machine, q, stuck);
-    for (std::size_t i = 0; i < m.size(); ++i) m[i] -= part[i];
-    weight.learn(q, m, machine.cycle);
+    weight.learn(q, without_load(machine, q, held_by(machine, q, {}, stuck, {}), stuck), machine.cycle);
   }
   const Joints q{0.0, radians(28.0), radians(-56.0), radians(-126.0)};
   EXPECT_NEAR(weight_in_bucket(machine, q, held_by(machine, q, {}, 1400.0, {}), weight.of(q)), 1400.0, 1.0);

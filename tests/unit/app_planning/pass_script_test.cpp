@@ -11,6 +11,15 @@ namespace {
 
 using namespace berm::app;
 
+// Without a dump point.
+PassTask on_the_bench() {
+  PassTask task;
+  task.truck_bearing = radians(96.0);
+  task.next_entry = {7.4, -1.6};
+  task.truck_top = task.wall_top = berm::app_bench::bench_bed().wall_top;
+  return task;
+}
+
 // A bucket may stand open when the swing begins. It has to be closed and opened again over the bed before the arm goes where an opened bucket empties, or the
 // arm never comes to where the bucket may open.
 TEST(PassScript, ABucketThatStandsOpenWhenTheSwingBeginsOpensOverTheBed) {
@@ -52,10 +61,7 @@ TEST(PassScript, TheBucketOpensEarlierWhereItIsHeldLevel) {
   const ScriptSet scripts = berm::app_bench::shipped_scripts();
   const SiteModel site = berm::app_bench::bench_with_truck();
   const Skyline sky(m, site, ground_of(TerrainMap()));
-  PassTask task;
-  task.truck_bearing = radians(96.0);
-  task.next_entry = {7.4, -1.6};
-  task.truck_top = task.wall_top = berm::app_bench::bench_bed().wall_top;
+  PassTask task = on_the_bench();
   const auto before_spill = [&](double dump_radius) {
     task.dump_radius = dump_radius;
     const auto poses = pass_poses(m, task);
@@ -75,10 +81,7 @@ TEST(PassScript, TheBucketOpensEarlierWhereItIsHeldLevel) {
 // What sticks lets go last, when the bucket is open farthest: it has to fall where the load fell, not beyond the far wall.
 TEST(PassScript, ABucketThatOpensFartherKeepsItsLipOverTheBed) {
   const MachineModel m = berm::app_bench::zx200();
-  PassTask task;
-  task.truck_bearing = radians(96.0);
-  task.next_entry = {7.4, -1.6};
-  task.truck_top = task.wall_top = berm::app_bench::bench_bed().wall_top;
+  PassTask task = on_the_bench();
   for (const double dump_radius : {6.2, 6.8, 7.2}) {
     task.dump_radius = dump_radius;
     task.open_farther = 0.0;
@@ -99,10 +102,7 @@ TEST(PassScript, ABucketThatOpensFartherKeepsItsLipOverTheBed) {
 // A part of a load slides while the bucket tilts on as far as that takes: the lip stays short of where soil falls beside the far wall, and the pin as high as it was.
 TEST(PassScript, ALoadThatIsPouredInPartKeepsItsLipOverTheBed) {
   const MachineModel m = berm::app_bench::zx200();
-  PassTask task;
-  task.truck_bearing = radians(96.0);
-  task.next_entry = {7.4, -1.6};
-  task.truck_top = task.wall_top = berm::app_bench::bench_bed().wall_top;
+  PassTask task = on_the_bench();
   for (const double dump_radius : {6.2, 6.8, 7.2}) {
     task.dump_radius = dump_radius;
     const auto poses = pass_poses(m, task);
