@@ -12,6 +12,7 @@ constexpr double rescan_after = 0.5;    // s
 constexpr double rescan_every = 6.0;    // s; the kernel's map forgets, and who stood in the way may have left
 constexpr double one_way = 4.0;         // s of creeping in one direction before the next is tried
 constexpr double call_after = 30.0;     // s: two rounds of creeping and four of looking have not helped
+constexpr double call_after_intruder = 38.0;  // s: of whoever came and left the kernel knows by then that he did
 constexpr double again_within = 1.5;    // s of motion; a stop after less is the same trouble
 constexpr double same_place = 1.0;      // m; a stop at the same place
 constexpr double same_within = 30.0;    // s after the last is the same trouble too
@@ -91,7 +92,8 @@ bool Recovery::retreating(const Observation& o) const {
 
 // What a person must do, each advice once a trouble: what keeps the machine may become another thing meanwhile. True when the call was made just now.
 bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
-  if (!(o.latched || (by_place(o.stop_reason) && o.time_s - since_s_ > call_after))) return false;
+  const double after = o.stop_reason == BERM_STOP_INTRUDER ? call_after_intruder : call_after;
+  if (!(o.latched || (by_place(o.stop_reason) && o.time_s - since_s_ > after))) return false;
   if (std::find(told_.begin(), told_.end(), advice_for(o)) != told_.end()) return false;
   told_.emplace_back(advice_for(o));
   waits_for_reset_ = o.latched;
