@@ -37,8 +37,8 @@ std::optional<int> read(int argc, char** argv, Options& o) {
   app.add_option("--range-stddev", o.stage.range_stddev, "of the scanner's clock, m; 0: the receivers' own errors alone")
       ->check(CLI::Range(0.0, 0.5))->capture_default_str();
   app.add_option("--window", o.stage.window_percent, "transmission of the exit window, percent")->check(CLI::Range(1.0, 100.0))->capture_default_str();
-  app.add_option("--json", o.json, "the table as JSON to this file");
-  app.add_option("--picture", o.picture, "SVG: one scanline of each receiver in clear air and in dust, and the return of one pulse");
+  berm::config::output(app.add_option("--json", o.json, "the table as JSON to this file"));
+  berm::config::output(app.add_option("--picture", o.picture, "SVG: one scanline of each receiver in clear air and in dust, and the return of one pulse"));
   return config::parse_options(app, argc, argv);
 }
 

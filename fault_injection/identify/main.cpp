@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
       "berm identify"};
   app.add_option("--machine", options.machine,
                  "machine file to start from: a name or a TOML file; its present braking table only guides where tests begin")->capture_default_str();
-  app.add_option("--out", options.out, "the new machine file (default: NAME_measured.toml)");
+  app.add_option("--out", options.out, "the new machine file (default: NAME_measured.toml); may be the one to start from");
   app.add_option("--seed", options.seed, "seed of the first repetition; the next ones count up")->capture_default_str();
   app.add_option("--repetitions", options.repetitions, "runs of every test")->capture_default_str()->check(CLI::Range(1, 100));
   app.add_option("--allowance", options.allowance, "added to every measured bound, as a share of it")->capture_default_str()->check(CLI::Range(0.0, 2.0));
@@ -33,8 +33,8 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 7));
   app.add_option("--scenario", options.scenario, "site with the heaviest payload: a name or a TOML file")->capture_default_str();
   app.add_option("--scenario-empty", options.scenario_empty, "the same with an empty bucket")->capture_default_str();
-  app.add_option("--json", options.json, "write every entry with what was measured as one JSON object");
-  auto* picture = app.add_option("--picture", options.picture, "where the picture goes (SVG; default: braking_table.svg or step_responses.svg); \"\" for none");
+  berm::config::output(app.add_option("--json", options.json, "write every entry with what was measured as one JSON object"));
+  auto* picture = berm::config::output(app.add_option("--picture", options.picture, "where the picture goes (SVG; default: braking_table.svg or step_responses.svg); \"\" for none"));
   app.add_option("--plant-out", options.plant_out,
                  "folder in which the simulated machine leaves what was true (trace.csv, truth.json), for others to judge by; not read here");
   app.add_flag("--steps", steps,

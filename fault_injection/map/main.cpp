@@ -135,8 +135,8 @@ int main(int argc, char** argv) {
   berm::run::Options options;
   CLI::App app{"Plays a recorded Velodyne VLP-16 capture (pcap or pcapng) over UDP into a running kernel and shows the kernel's height map.", "berm map"};
   app.add_option("FILE", options.file, "capture with native packets of 1206 bytes")->required();
-  app.add_option("--json", options.json, "write packets, rejected, points, cell_m, cells (x_m, y_m, height_m, status)");
-  app.add_option("--picture", options.picture, "where the picture goes (SVG)")->capture_default_str();
+  berm::config::output(app.add_option("--json", options.json, "write packets, rejected, points, cell_m, cells (x_m, y_m, height_m, status)"));
+  berm::config::output(app.add_option("--picture", options.picture, "where the picture goes (SVG)"))->capture_default_str();
   app.add_option("--mount", options.mount, "the lidar's place in the base frame: x,y,z in metres, yaw in degrees")->capture_default_str();
   app.add_option("--port", options.port, "UDP port of the packets in the capture")->capture_default_str();
   app.add_option("--speed", options.speed, "times the recorded rhythm")->capture_default_str()->check(CLI::Range(0.01, 100.0));

@@ -30,7 +30,7 @@ int run(int argc, char** argv) {
                "berm soak"};
   app.add_option("--hours", hours, "of simulated time")->capture_default_str()->check(CLI::Range(0.01, 10.0));
   app.add_option("--seed", seed, "seed of every random draw")->capture_default_str();
-  app.add_option("--json", json, "write the report as one flat JSON object");
+  berm::config::output(app.add_option("--json", json, "write the report as one flat JSON object"));
   app.add_option("--out", out, "folder for scenario.toml (what was drawn), trace.csv (a row each 0.1 s), truth.json, app.jsonl and result.json");
   app.add_flag("--picture", picture, "site.svg as well; needs --out");
   app.add_flag("--journal", journal, "the kernel's journal as well; it grows by some 14 gigabytes an hour");

@@ -100,8 +100,8 @@ int run(int argc, char** argv) {
       "berm trucks"};
   app.add_option("--scenes", o.scenes, "this many with a truck, and this many without")->required()->check(CLI::Range(1, 1000000));
   app.add_option("--seed", o.seed, "seed of every draw")->capture_default_str();
-  app.add_option("--json", o.json, "write the result");
-  app.add_option("--table", o.table, "writes a row for each scene (CSV): errors, the recogniser's own deviations, evidence, times");
+  berm::config::output(app.add_option("--json", o.json, "write the result"));
+  berm::config::output(app.add_option("--table", o.table, "writes a row for each scene (CSV): errors, the recogniser's own deviations, evidence, times"));
   app.add_option("--only", o.only, "this one scene alone")->check(CLI::Range(0, 999999));
   app.add_option("--jobs", o.jobs, "so many scenes at a time; their CPU times are larger on a computer that has more to do")->check(CLI::Range(1, 256))->capture_default_str();
   auto* with = app.add_flag("--trucks", o.trucks, "only the scenes with a truck");

@@ -74,11 +74,11 @@ int run(int argc, char** argv) {
   app.add_option("--runs", options.runs, "number of runs")->check(CLI::Range(1, 10000000))->capture_default_str();
   app.add_option("--seed", options.seed, "seed of every draw")->capture_default_str();
   app.add_option("--only", options.only, "this one run, in detail")->check(CLI::Range(0, 10000000));
-  app.add_option("--trace", options.trace, "with --only: CSV of the kernel's motion");
+  berm::config::output(app.add_option("--trace", options.trace, "with --only: CSV of the kernel's motion"));
   app.add_option("--machine", options.machine, "machine, name or file")->capture_default_str();
   app.add_option("--jobs", options.jobs, "threads (0: one a core)")->check(CLI::Range(0, 1024))->capture_default_str();
-  app.add_option("--json", options.json, "result for scripts");
-  app.add_option("--picture", options.picture, "SVG of the obstacles by outcome");
+  berm::config::output(app.add_option("--json", options.json, "result for scripts"));
+  berm::config::output(app.add_option("--picture", options.picture, "SVG of the obstacles by outcome"));
   if (const auto status = config::parse_options(app, argc, argv)) return *status;
   if (!options.trace.empty() && options.only < 0) {
     fmt::print(stderr, "berm validate: --trace needs --only\n");

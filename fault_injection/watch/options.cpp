@@ -41,10 +41,10 @@ std::optional<int> read_options(int argc, char** argv, Options& o) {
   app.add_option("--machine", o.machine, "machine, name or file; its workspace is watched whatever it says (without: the scenario's, or zx200_ring)");
   app.add_flag("--histogram", o.histogram, "the kernel compares with histograms of heights (workspace.histogram), whatever the machine says");
   app.add_option("--jobs", o.jobs, "trials or runs at a time (0: one a core)")->check(CLI::Range(0, 256))->capture_default_str();
-  app.add_option("--json", o.json, "result for scripts");
-  app.add_option("--picture", o.picture, "with --scenario: SVG of the monitor's maps at the first alarm, or at the end");
+  berm::config::output(app.add_option("--json", o.json, "result for scripts"));
+  berm::config::output(app.add_option("--picture", o.picture, "with --scenario: SVG of the monitor's maps at the first alarm, or at the end"));
   app.add_option("--out", o.out, "with --scenario: folder for trace.csv, truth.json, journal.mcap, site.svg and result.json");
-  app.add_option("--trace", o.trace, "with --only: CSV of the trial");
+  berm::config::output(app.add_option("--trace", o.trace, "with --only: CSV of the trial"));
   if (const auto status = config::parse_options(app, argc, argv)) return status;
   const std::string wrong = refusal(o);
   if (wrong.empty()) return std::nullopt;

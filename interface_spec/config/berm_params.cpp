@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Compiles a machine file and a site file (TOML) into the kernel's parameter block, or shows a block.", "berm_params"};
   app.add_option("MACHINE", machine, "machine profile, TOML");
   app.add_option("SITE", site, "site, TOML");
-  app.add_option("-o,--out", out, "where the block goes");
+  berm::config::output(app.add_option("-o,--out", out, "where the block goes"));
   app.add_option("--show", show, "print what a block says");
   if (const auto status = berm::config::parse_options(app, argc, argv)) return *status;
   try {

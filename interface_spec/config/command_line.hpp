@@ -1,28 +1,124 @@
-// One way for all commands to read their options: --help to standard output and status 0; anything wrong is one line and status 2.
+// One way for all commands to read their options: --help to standard output and status 0; anything wrong is one line and status 2. Numbers are finite and
+// of the type they go to; files that a command writes are none that it reads, and none twice; what does not reach standard output is told of.
 #pragma once
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace berm::config {
 
+namespace command_line {
+
+inline constexpr const char* kOutput = "OUTPUT";
+
+inline bool of_type(const CLI::Option& option, const char* type) { return option.get_type_name().find(type) == 0; }
+
+// What CLI11 lets through: a number that is none is within any range, and a negative or too large one wraps round.
+inline std::string wrong_number(const CLI::Option& option, const std::string& text) {
+  const std::string name = option.get_name();
+  char* end = nullptr;
+  if (of_type(option, "FLOAT")) return std::isfinite(std::strtod(text.c_str(), &end)) ? "" : fmt::format("{}: {} is no number", name, text);
+  if (!of_type(option, "UINT")) return "";
+  if (text.find('-') != std::string::npos) return fmt::format("{}: {} is negative", name, text);
+  errno = 0;
+  const unsigned long long value = std::strtoull(text.c_str(), &end, 10);
+  return errno == ERANGE ? fmt::format("{}: {} is beyond {}", name, text, value) : "";
+}
+
+inline bool same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error)) return true;
+  return std::filesystem::weakly_canonical(a, error) == std::filesystem::weakly_canonical(b, error);
+}
+
+// Before any work is done: a result that cannot be written is lost with hours of it.
+inline std::string wrong_output(const std::string& option, const std::string& file) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::is_directory(file, error)) return fmt::format("{}: {}: is a folder", option, file);
+  const fs::path folder = fs::path(file).has_parent_path() ? fs::path(file).parent_path() : ".";
+  if (!fs::is_directory(folder, error)) return fmt::format("{}: {}: its folder does not exist", option, file);
+  const bool written_into = fs::exists(file, error) && !fs::is_regular_file(file, error);  // a device; else the folder gets a new file
+  if (access(written_into ? file.c_str() : folder.c_str(), W_OK) != 0) return fmt::format("{}: {}: cannot be written: {}", option, file, std::strerror(errno));
+  return "";
+}
+
+inline std::string wrong_values(const CLI::App& app) {
+  struct Named {
+    std::string option, file;
+  };
+  std::vector<Named> read, written;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& text : option->results()) {
+      if (std::string wrong = wrong_number(*option, text); !wrong.empty()) return wrong;
+      if (text.empty() || !(of_type(*option, kOutput) || of_type(*option, "TEXT"))) continue;
+      (of_type(*option, kOutput) ? written : read).push_back({option->get_name(), text});
+    }
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    const auto& [option, file] = written[i];
+    if (std::string wrong = wrong_output(option, file); !wrong.empty()) return wrong;
+    std::error_code error;
+    if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error)) continue;  // /dev/null may be named twice
+    for (const Named& other : read)
+      if (std::filesystem::is_regular_file(other.file, error) && same_file(file, other.file))
+        return fmt::format("{}: {} is {} too, and would be overwritten", option, file, other.option);
+    for (std::size_t k = 0; k < i; ++k)
+      if (same_file(file, written[k].file)) return fmt::format("{}: {} is {} too", option, file, written[k].option);
+  }
+  return "";
+}
+
+// What a command printed is its result as much as its files are: on a full disk it must not end as if all were well.
+inline void watch_standard_output(const std::string& command) {
+  static std::string name;
+  const bool watched = !name.empty();
+  name = command;
+  if (watched) return;
+  std::atexit([] {
+    errno = 0;
+    std::cout.flush();
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+    fmt::print(stderr, "{}: standard output: cannot be written{}{}\n", name, errno == 0 ? "" : ": ", errno == 0 ? "" : std::strerror(errno));
+    std::fflush(stderr);
+    _exit(2);
+  });
+}
+
+}  // namespace command_line
+
+// Of an option: the file that the command writes.
+inline CLI::Option* output(CLI::Option* option) { return option->type_name(command_line::kOutput); }
+
 // The exit status when the program should end now.
 inline std::optional<int> parse_options(CLI::App& app, int argc, char** argv) {
-  try {
-    app.parse(argc, argv);
-    return std::nullopt;
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    std::string what = error.what();
+  const auto refused = [&app](std::string what) {
     std::replace(what.begin(), what.end(), '\n', ' ');
     fmt::print(stderr, "{}: {} (see --help)\n", app.get_name(), what);
     return 2;
+  };
+  command_line::watch_standard_output(app.get_name());
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    return refused(error.what());
   }
+  if (const std::string wrong = command_line::wrong_values(app); !wrong.empty()) return refused(wrong);
+  return std::nullopt;
 }
 
 }  // namespace berm::config

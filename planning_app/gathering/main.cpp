@@ -96,11 +96,11 @@ int main(int argc, char** argv) {
       "point was kept.",
       "berm gather"};
   app.add_option("FILE", options.files, "recordings, each of a scanner of its own")->required();
-  app.add_option("--json", options.json,
+  berm::config::output(app.add_option("--json", options.json,
                  "write scans, points_in, points_kept, deleted, merged, overflowed, ignored, scans_without_plane, epochs, "
-                 "points_per_second, bytes");
-  app.add_option("--pcd", options.pcd, "write the cloud");
-  app.add_option("--picture", options.picture, "write a view from above (PNG)");
+                 "points_per_second, bytes"));
+  berm::config::output(app.add_option("--pcd", options.pcd, "write the cloud"));
+  berm::config::output(app.add_option("--picture", options.picture, "write a view from above (PNG)"));
   app.add_option("--mount", options.mounts,
                  "a scanner's place in the cloud's frame: x,y,z in metres, yaw in degrees; once for all files or once for each")
       ->take_all();

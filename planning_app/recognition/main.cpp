@@ -76,10 +76,10 @@ int main(int argc, char** argv) {
       "with scanline and time; its VIEWPOINT is the sensor's place in the middle of the sweep. Exit status 0: found; 1: no truck; 2: bad input.",
       "berm recognize"};
   app.add_option("FILE", options.file, "the sweep (PCD)")->required();
-  app.add_option("--json", options.json,
+  berm::config::output(app.add_option("--json", options.json,
                  "write found, reason, class, corners_m, yaw_deg, length_m, width_m, height_m, height_sd_m, open_rear, covariance (12 x 12, of the corners), "
-                 "pose_covariance (8 x 8: middle x y z, yaw, pitch, roll, length, width; m, rad), milliseconds");
-  app.add_option("--picture", options.picture, "write a view from above (SVG)");
+                 "pose_covariance (8 x 8: middle x y z, yaw, pitch, roll, length, width; m, rad), milliseconds"));
+  berm::config::output(app.add_option("--picture", options.picture, "write a view from above (SVG)"));
   app.add_option("--classes", options.classes, "file of truck classes")->capture_default_str();
   if (const auto status = berm::config::parse_options(app, argc, argv)) return *status;
   try {

@@ -1,11 +1,12 @@
 // berm replay: reproduces every decision of a journal, or names the first that differs.
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <string>
 
 #include "record/replay.hpp"
@@ -37,6 +38,11 @@ struct Options {
   std::string file, json, parameters;
 };
 
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code none;  // where one does not exist
+  return std::filesystem::equivalent(a, b, none);
+}
+
 // Exit status when the program should end now, otherwise -1.
 int read_options(int argc, char** argv, Options& options) {
   for (int i = 1; i < argc; ++i) {
@@ -57,7 +63,10 @@ int read_options(int argc, char** argv, Options& options) {
       options.file = word;
     }
   }
-  return options.file.empty() ? fail("which file? (see --help)") : -1;
+  if (options.file.empty()) return fail("which file? (see --help)");
+  for (const std::string& read : {options.file, options.parameters})
+    if (same_file(options.json, read)) return fail("--json: " + read + " is read, and would be overwritten");
+  return -1;
 }
 
 bool write_json(const std::string& path, const ReplayResult& r) {
@@ -113,5 +122,6 @@ int main(int argc, char** argv) {
   if (!usable) return fail(error);
   print(result, options.file, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   if (!options.json.empty() && !write_json(options.json, result)) return fail(options.json + ": " + std::strerror(errno));
+  if (std::fflush(stdout) != 0) return fail(std::string("standard output: ") + std::strerror(errno));
   return result.reproduced() ? EXIT_SUCCESS : kNotReproduced;
 }
