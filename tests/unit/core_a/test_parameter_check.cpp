@@ -140,7 +140,7 @@ TEST(ParameterCheck, AcceptsTheDemonstrationMachine) {
 // verifies: SK-PC-58, SK-PC-59, SK-PC-60, SK-PC-61, SK-PC-62, SK-PC-63, SK-PC-66
 // verifies: SK-PC-69, SK-PC-70, SK-PC-71, SK-PC-72, SK-PC-73, SK-PC-74, SK-PC-75
 // verifies: SK-PC-78, SK-PC-79, SK-PC-80, SK-PC-81, SK-PC-82, SK-PC-83, SK-PC-84, SK-PC-86, SK-PC-87, SK-PC-88, SK-PC-89
-// verifies: SK-PC-90, SK-PC-101
+// verifies: SK-PC-90, SK-PC-91, SK-PC-92, SK-PC-93, SK-PC-94, SK-PC-95, SK-PC-101
 TEST(ParameterCheck, EachFieldBeyondEachLimit) {
   berm_parameters ok = valid_parameters();
   ok.dust_stop_permille = 1000;  // so that what is above it is above the other's limit too

@@ -124,7 +124,7 @@ TEST_F(Ring, WithoutAReaderEveryRecordIsLost) {
   EXPECT_EQ(ring->offered, 3U);
 }
 
-// verifies: SK-JO-1, IF-JR-1
+// verifies: SK-JO-1, IF-JR-1, SK-LI-4
 TEST_F(Ring, EveryInputComesBack) {
   offer(5, 3);
   in->clock_fault = in->app_connected = true;
