@@ -74,7 +74,7 @@ class LoadRun {
     append_soil(check);
     plant.start(check);
     if (!plant.wait_ended(kConnectPatience_s)) throw std::runtime_error("the plant does not end its check of the scenario");
-    if (plant.exit_status() != 0) throw ToldAlready();
+    expect_content(plant);
   }
 
   // The same of the app's scripts.
@@ -86,7 +86,7 @@ class LoadRun {
     check.arguments = {"--quiet", options_.scripts};
     checker.start(check);
     if (!checker.wait_ended(kConnectPatience_s)) throw std::runtime_error("berm_scripts does not end");
-    if (checker.exit_status() != 0) throw ToldAlready();
+    expect_content(checker);
   }
 
   void append_soil(ChildOptions& plant) const {

@@ -38,6 +38,11 @@ std::string scripts_folder() { return (std::filesystem::path(BERM_DATA_DIR) / "p
 std::string find_scenario(const std::string& name) { return find_file("scenario", "fault_injection/scenarios", name); }
 std::string find_soil(const std::string& name) { return find_file("soil", "fault_injection/soils", name); }
 
+void expect_content(const ChildProcess& child) {
+  if (WIFSIGNALED(child.exit_status())) throw std::runtime_error(child.name() + " died: " + child.describe_end());
+  if (child.exit_status() != 0) throw ToldAlready();
+}
+
 void compile_parameter_file(const std::string& machine, const std::string& site, const std::string& path) {
   ChildProcess compiler;
   ChildOptions options;
@@ -46,7 +51,7 @@ void compile_parameter_file(const std::string& machine, const std::string& site,
   compiler.start(options);
   constexpr double kPatience_s = 20.0;
   if (!compiler.wait_ended(kPatience_s)) throw std::runtime_error("berm_params does not end");
-  if (!WIFEXITED(compiler.exit_status()) || WEXITSTATUS(compiler.exit_status()) != 0) throw ToldAlready();
+  expect_content(compiler);
 }
 
 }  // namespace berm::run

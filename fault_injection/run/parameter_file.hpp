@@ -6,6 +6,8 @@
 
 namespace berm::run {
 
+class ChildProcess;
+
 // A name ("zx200") is looked up among the files that come with Berm; anything with a slash or ".toml" is a path. Throws std::runtime_error with what there is.
 std::string find_machine(const std::string& name);
 std::string find_site(const std::string& name);
@@ -21,6 +23,10 @@ class ToldAlready : public std::exception {
  public:
   const char* what() const noexcept override { return ""; }
 };
+
+// Of a child that has ended and tells what is wrong with its input: ToldAlready unless it exited with 0; where a signal ended it, it could not
+// tell, and std::runtime_error does.
+void expect_content(const ChildProcess& child);
 
 // Compiles machine and site into a block at path with berm_params, which tells what is wrong; then throws ToldAlready.
 void compile_parameter_file(const std::string& machine, const std::string& site, const std::string& path);

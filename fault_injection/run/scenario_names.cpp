@@ -5,32 +5,15 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
-#include <toml.hpp>
 
+#include "config/toml_file.hpp"
 #include "run/trace_reader.hpp"
 
 namespace berm::run {
 
 namespace {
-
-toml::value parse_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path + ": cannot be opened");
-  try {
-    return toml::parse(file, path);
-  } catch (const std::exception& error) {
-    std::istringstream text(error.what());
-    std::string line, where;
-    std::getline(text, line);
-    for (std::string next; std::getline(text, next);)
-      if (where.empty() && next.find(" | ") != std::string::npos) where = next;
-    throw std::runtime_error(fmt::format("{}: not TOML: {}{}", path, line, where.empty() ? "" : " near" + where));
-  }
-}
 
 double number(const toml::value& value) { return value.is_integer() ? static_cast<double>(value.as_integer()) : value.as_floating(); }
 double number(const toml::value& table, const char* key) { return number(toml::find(table, key)); }
@@ -40,7 +23,7 @@ std::vector<Point2> rectangle(double x0, double y0, double x1, double y1) { retu
 }  // namespace
 
 ScenarioNames scenario_names(const std::string& path) {
-  const auto file = parse_file(path);
+  const auto file = config::parse_toml_file(path);
   const auto name = [&](const char* key) {
     if (!file.is_table() || !file.contains(key) || !toml::find(file, key).is_string())
       throw std::runtime_error(fmt::format("{}: {}: missing, or no name in quotes", path, key));
@@ -50,14 +33,14 @@ ScenarioNames scenario_names(const std::string& path) {
 }
 
 std::size_t lidar_count(const std::string& machine) {
-  const auto file = parse_file(machine);
+  const auto file = config::parse_toml_file(machine);
   return file.is_table() && file.contains("lidar") && toml::find(file, "lidar").is_array() ? toml::find(file, "lidar").as_array().size() : 0;
 }
 
 void describe_site(const std::string& machine, const std::string& site, SitePictureInput& picture) {
-  const auto m = toml::find(parse_file(machine), "kinematics");
+  const auto m = toml::find(config::parse_toml_file(machine), "kinematics");
   picture.arm = {number(m, "boom_pin_x"), number(m, "boom_pin_z"), number(m, "boom"), number(m, "stick"), number(m, "bucket")};
-  const auto s = parse_file(site);
+  const auto s = config::parse_toml_file(site);
   for (const auto& zone : toml::find(s, "dig_zone").as_array()) {
     const auto& x = toml::find(zone, "x").as_array();
     const auto& y = toml::find(zone, "y").as_array();

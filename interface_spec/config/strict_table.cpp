@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <toml.hpp>
+
+#include "config/toml_file.hpp"
 
 namespace berm::config {
 
@@ -22,17 +22,7 @@ StrictTable::StrictTable(std::string file, std::string path, std::shared_ptr<con
 }
 
 StrictTable StrictTable::parse_file(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw ConfigError(fmt::format("{}: cannot be read", file));
-  try {
-    return StrictTable(file, "", std::make_shared<Node>(Node{toml::parse(stream, file)}));
-  } catch (const toml::exception& error) {
-    throw ConfigError(fmt::format("{}: line {}: not valid TOML", file, error.location().line()));
-  } catch (const ConfigError&) {
-    throw;
-  } catch (const std::exception&) {  // what toml11 throws for unreadable streams and numbers that fit nowhere
-    throw ConfigError(fmt::format("{}: cannot be read as TOML", file));
-  }
+  return StrictTable(file, "", std::make_shared<Node>(Node{parse_toml_file(file)}));
 }
 
 void StrictTable::fail(const std::string& key, const std::string& reason) const {

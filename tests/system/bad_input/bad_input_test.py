@@ -40,6 +40,13 @@ def scenarios():
         assert not out.exists() or not any(out.iterdir()), f"left behind: {list(out.iterdir())}"
 
 
+def files_nested_too_deep():
+    deep = scratch / "deep.toml"
+    deep.write_text("a = " + "[" * 10000 + "]" * 10000 + "\n")
+    for program in (("berm_params", deep, SITE, "-o", scratch / "never.params"), ("berm_load", "--scenario", deep), ("berm_load", "--soil", deep)):
+        one_clear_line(run(*program), "deep.toml: line 1: nested more than 100 deep")
+
+
 def scenario_fields():
     source = (ROOT / "fault_injection/scenarios/bench.toml").read_text()
     path = scratch / "field.toml"
@@ -121,6 +128,6 @@ def captures():
 
 
 try:
-    main([unknown_options, help_is_no_error, scenarios, scenario_fields, ground_without_its_recording, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures])
+    main([unknown_options, help_is_no_error, scenarios, files_nested_too_deep, scenario_fields, ground_without_its_recording, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures])
 finally:
     shutil.rmtree(scratch)

@@ -1,0 +1,80 @@
+// What lies too deep in a TOML file is refused before toml11's recursion meets it, and nothing else is.
+#include "config/toml_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "config/strict_table.hpp"
+#include "edited_file.hpp"
+
+namespace berm::config::test {
+namespace {
+
+std::string times(std::size_t count, const std::string& text) {
+  std::string all;
+  for (std::size_t i = 0; i < count; ++i) all += text;
+  return all;
+}
+
+// What is said behind the file's name.
+std::string verdict(const std::string& text) {
+  const Scratch scratch;
+  const std::string path = scratch.write("file.toml", text);
+  try {
+    StrictTable::parse_file(path);
+  } catch (const ConfigError& error) {
+    return std::string(error.what()).substr(path.size());
+  }
+  return "read";
+}
+
+// verifies: IF-CF-24
+TEST(TomlFile, TooDeepIsRefusedInEachForm) {
+  const std::string refused = ": line 2: nested more than 100 deep";
+  for (const std::size_t n : {101, 10000, 100000}) {
+    EXPECT_EQ(verdict("b = 1\na = " + times(n, "[") + times(n, "]")), refused) << n;
+    EXPECT_EQ(verdict("b = 1\na = " + times(n, "{a = ") + "1" + times(n, "}")), refused) << n;
+    EXPECT_EQ(verdict("b = 1\na" + times(n, ".a") + " = 1\n"), refused) << n;
+    EXPECT_EQ(verdict("b = 1\n[a" + times(n, ".a") + "]\n"), refused) << n;
+    EXPECT_EQ(verdict("b = 1\n[[a" + times(n, " . \"a\"") + "]]\n"), refused) << n;
+  }
+  EXPECT_EQ(verdict("b = 1\na = " + times(10, "{a.a.a.a.a.a.a.a.a.a.a = ") + "1" + times(10, "}")), refused);
+  EXPECT_EQ(verdict("a = [" + times(10000, "[\n")), ": line 100: nested more than 100 deep");
+}
+
+// verifies: IF-CF-24
+TEST(TomlFile, NotSoDeepIsRead) {
+  EXPECT_EQ(verdict("a = " + times(100, "[") + times(100, "]")), "read");
+  EXPECT_EQ(verdict("a = " + times(99, "{a = ") + "1" + times(99, "}")), "read");
+  EXPECT_EQ(verdict("a" + times(99, ".a") + " = 1.5\n"), "read");
+  EXPECT_EQ(verdict("[a" + times(99, ".a") + "]\na" + times(99, ".a") + " = 1.5\n"), "read");
+}
+
+// verifies: IF-CF-24
+TEST(TomlFile, WhatNestsNothingIsNotCounted) {
+  const std::string deep = times(200, "[{.");
+  EXPECT_EQ(verdict("# " + deep + "\na = 1 # " + deep), "read");
+  EXPECT_EQ(verdict("a = \"\\\"" + deep + "\\\\\"\nb = '" + deep + "\\'\n'" + deep + "' = 1\n"), "read");
+  EXPECT_EQ(verdict("a = \"\"\"\n" + deep + "\n\"\" \\\"\"\" " + deep + "\"\"\"\"\"\n"), "read");
+  EXPECT_EQ(verdict("b = '''\n" + deep + "\n'' " + deep + "''''\nc = ''\n"), "read");
+  EXPECT_EQ(verdict("a = [" + times(1000, "1.5, ") + "]\nb = [\n" + times(1000, "[1.5, 2.5],\n") + "]\n"), "read");
+  std::string tables;
+  for (int i = 0; i < 1000; ++i) tables += "[t" + std::to_string(i) + ".a]\nb.c = {d = [1.5]}\n";
+  EXPECT_EQ(verdict(tables), "read");
+}
+
+// verifies: IF-CF-24
+TEST(TomlFile, BehindATextItIsCountedAgain) {
+  for (const char* text : {R"("\"")", R"("\\")", "''", R"('\')", "\"\"\"\n\"\"\"\"\"", "''''''''", "'#'"})
+    EXPECT_NE(verdict("a = [" + std::string(text) + ", " + times(10000, "[")).find("nested more than 100 deep"), std::string::npos) << text;
+}
+
+TEST(TomlFile, OtherRefusalsStayAsTheyAre) {
+  EXPECT_EQ(verdict("a = = 1\n"), ": line 1: not valid TOML");
+  EXPECT_EQ(verdict(""), "read");
+  const Scratch scratch;
+  EXPECT_THROW(parse_toml_file(scratch.path("none.toml")), ConfigError);
+  EXPECT_THROW(parse_toml_file(scratch.folder()), ConfigError);
+}
+
+}  // namespace
+}  // namespace berm::config::test
