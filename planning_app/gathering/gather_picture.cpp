@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "points/file_bytes.hpp"
+
 namespace berm::app {
 namespace {
 
@@ -72,8 +74,12 @@ double write_cloud_picture(const std::string& path, const std::vector<ScanPoint>
   image.width = static_cast<png_uint_32>(width);
   image.height = static_cast<png_uint_32>(height);
   image.format = PNG_FORMAT_RGB;
-  if (png_image_write_to_file(&image, path.c_str(), 0, pixels.data(), 0, nullptr) == 0)
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, nullptr) == 0)
     throw PointFileError(fmt::format("{}: {}", path, static_cast<const char*>(image.message)));
+  bytes.resize(size);
+  write_file_bytes(path, bytes);  // libpng itself would remove what stood there when it fails
   return step;
 }
 

@@ -1,7 +1,11 @@
 """berm gather: made-up sweeps and real recordings into one cloud; refusals are one line."""
 import json
 import math
+import os
 import pathlib
+import resource
+import signal
+import stat
 import struct
 import tempfile
 
@@ -83,6 +87,24 @@ def refusals():
     assert done.returncode == 0 and "--picture" in done.stdout
 
 
+def a_picture_that_cannot_be_written_costs_nothing():
+    near, _ = sweep("pictured.pcd", 2.0)
+    device = scratch / "device"  # the full device's numbers: never the system's own node, which is not to be lost
+    try:
+        os.mknod(device, 0o600 | stat.S_IFCHR, os.makedev(1, 7))
+    except PermissionError:
+        print("SKIPPED part: only root makes device nodes")
+    else:
+        one_clear_line(run("berm_gather", near, "--picture", device), "device: cannot be written: No space left on device")
+        assert stat.S_ISCHR(device.stat().st_mode), "the device is gone"
+    old = scratch / "old.png"
+    old.write_bytes(b"old")
+    full = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))  # below the picture's size; the signal for it is ignored
+    done = run("berm_gather", near, "--picture", old, preexec_fn=lambda: (signal.signal(signal.SIGXFSZ, signal.SIG_IGN), full()), restore_signals=False)
+    one_clear_line(done, "old.png: cannot be written: File too large")
+    assert old.read_bytes() == b"old" and not list(scratch.glob("old.png.*")), "the old picture is gone, or half a new one is left"
+
+
 def real_recordings():
     if not REAL_DATA.exists():
         print(f"SKIPPED: no recordings at {REAL_DATA}")
@@ -94,4 +116,4 @@ def real_recordings():
     assert len((scratch / "vlp.pcd").read_bytes()) > 24 * result["points_kept"]
 
 
-main([what_stood_before_the_wall_goes, what_is_seen_again_is_merged, refusals, real_recordings])
+main([what_stood_before_the_wall_goes, what_is_seen_again_is_merged, refusals, a_picture_that_cannot_be_written_costs_nothing, real_recordings])
