@@ -26,6 +26,7 @@ namespace berm::run {
 namespace {
 
 constexpr std::size_t kVlp16Bytes = 1206;
+constexpr double kLongestGap_s = 3600.0;  // the sensor's own clock begins anew every hour: what comes later is another recording
 
 struct Options {
   std::string file;
@@ -37,6 +38,16 @@ struct Options {
   std::uint16_t port = 2368;
   double speed = 1.0;
 };
+
+// A gap is waited for as it was recorded: one of years, of a wrong clock, would never end.
+void check_rhythm(const std::string& file, const std::vector<CapturedDatagram>& datagrams) {
+  double latest_s = datagrams.front().time_s;
+  for (const auto& datagram : datagrams) {
+    if (datagram.time_s - latest_s > kLongestGap_s)
+      throw std::runtime_error(fmt::format("{}: packet {}: time: {:.0f} s after what came before, more than {:.0f}", file, datagram.packet, datagram.time_s - latest_s, kLongestGap_s));
+    latest_s = std::max(latest_s, datagram.time_s);
+  }
+}
 
 // Sends the datagrams in the rhythm of the recording. Returns how many went out.
 std::size_t play(const std::vector<CapturedDatagram>& datagrams, std::uint16_t kernel_port, double speed) {
@@ -93,6 +104,7 @@ int run(const Options& options) {
   const auto native = std::count_if(datagrams.begin(), datagrams.end(), [](const auto& d) { return d.payload.size() == kVlp16Bytes; });
   if (native == 0)
     throw std::runtime_error(fmt::format("{}: no lidar packet: none of its {} UDP datagrams is {} bytes to port {}", options.file, capture.size(), kVlp16Bytes, options.port));
+  check_rhythm(options.file, datagrams);
 
   const RunFolder folder;
   const auto uids = choose_uids();

@@ -64,7 +64,7 @@ std::vector<CapturedDatagram> read_capture(const std::string& path) {
     if (result == PCAP_ERROR_BREAK) return datagrams;
     if (result != 1) throw std::runtime_error(fmt::format("{}: packet {}: {}", path, number, pcap_geterr(file.get())));
     if (header->caplen < header->len) throw std::runtime_error(fmt::format("{}: packet {}: only {} of {} bytes were captured", path, number, header->caplen, header->len));
-    CapturedDatagram datagram{static_cast<double>(header->ts.tv_sec) + static_cast<double>(header->ts.tv_usec) * 1e-6, 0, {}};
+    CapturedDatagram datagram{number, static_cast<double>(header->ts.tv_sec) + static_cast<double>(header->ts.tv_usec) * 1e-6, 0, {}};
     if (udp_payload(link_type, bytes, header->caplen, datagram)) datagrams.push_back(std::move(datagram));
   }
 }

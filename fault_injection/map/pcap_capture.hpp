@@ -1,6 +1,7 @@
 // UDP payloads of a capture file (pcap or pcapng).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -8,7 +9,8 @@
 namespace berm::run {
 
 struct CapturedDatagram {
-  double time_s;  // capture time
+  std::size_t packet;  // its number in the file, from 1
+  double time_s;       // capture time
   std::uint16_t destination_port;
   std::vector<std::uint8_t> payload;
 };

@@ -118,6 +118,10 @@ def captures():
     noise.write_bytes(os.urandom(4000))
     for path in (foreign, noise, scratch / "missing.pcap"):
         one_clear_line(run("berm_map", path, "--json", scratch / "map.json", "--picture", scratch / "map.svg"), path.name)
+    ethernet = bytes(12) + b"\x08\x00" + b"\x45\x00" + struct.pack(">HHHBBH", 20 + 8 + 1206, 0, 0, 64, 17, 0) + bytes(8) + struct.pack(">HHHH", 1, 2368, 8 + 1206, 0) + bytes(1206)
+    years = scratch / "years.pcap"
+    years.write_bytes(foreign.read_bytes()[:24] + b"".join(struct.pack("<IIII", second, 0, len(ethernet), len(ethernet)) + ethernet for second in (1, 3601, 2000000000)))
+    one_clear_line(run("berm_map", years, "--json", scratch / "map.json", "--picture", scratch / "map.svg", timeout=20), "years.pcap: packet 3: time: 1999996399 s", "3600")
     if CAPTURE.exists():
         truncated = scratch / "truncated.pcap"
         truncated.write_bytes(CAPTURE.read_bytes()[:100001])
