@@ -123,6 +123,7 @@ PointCloud parse_pcd(std::string_view bytes, const std::string& name) {
   cloud.viewpoint = header.viewpoint;
   const Wanted wanted{header.find("x"), header.find("y"), header.find("z"), header.find("scanline"), header.find("time")};
   cloud.scanlines = wanted[3] != nullptr;
+  cloud.times = wanted[4] != nullptr;
   const std::string_view data = bytes.substr(header.data_begin);
   Intake intake(cloud);
   if (header.data == PcdData::kAscii) {

@@ -22,6 +22,7 @@ struct PointCloud {
   std::string file;                          // as the reader was given it
   std::string format;                        // "pcd", "pcap" or "lms"
   bool scanlines = true;                     // false: the file says none, and all points bear the number 0
+  bool times = true;                         // false: the file says none, and all points bear the time 0
   std::array<double, 3> viewpoint{0, 0, 0};  // the scanner's optical centre in the file's frame, metres
 };
 

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "config/command_line.hpp"
 #include "points/file_bytes.hpp"
@@ -53,6 +54,8 @@ nlohmann::ordered_json json_of(const RecognisedTruck& truck) {
 int run(const Options& options) {
   const TruckRangeSet ranges = read_truck_ranges(options.classes);
   const PointCloud cloud = read_pcd_cloud(options.file);
+  for (const auto& [there, field] : {std::pair(cloud.scanlines, "scanline"), std::pair(cloud.times, "time")})
+    if (!there) throw PointFileError(fmt::format("{}: {}: is missing", options.file, field));
   const RecognisedTruck truck = recognise_truck(cloud.points, cloud.viewpoint, ranges);
   if (!options.json.empty()) write_file_bytes(options.json, json_of(truck).dump(1) + "\n");
   if (truck.found) {

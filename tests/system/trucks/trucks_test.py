@@ -135,6 +135,12 @@ def what_is_malformed_is_refused():
         done = run(program, *options, "--json", out)
         one_clear_line(done, word)
         assert not out.exists(), f"{program} {options}: left a result"
+    for left, missing in (("time", "scanline"), ("scanline", "time")):  # else a cloud that is no sweep would be one without a truck
+        lacking = scratch / "lacking.pcd"
+        lacking.write_text(f"VERSION 0.7\nFIELDS x y z {left}\nSIZE 4 4 4 4\nTYPE F F F {'F' if left == 'time' else 'U'}\nCOUNT 1 1 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3 0\n")
+        done = run("berm_recognize", lacking, "--json", scratch / "refused.json")
+        one_clear_line(done, f"lacking.pcd: {missing}: is missing")
+        assert done.returncode == 2 and not (scratch / "refused.json").exists()
     nobody = scratch / "empty.pcd"
     nobody.write_text("VERSION 0.7\nFIELDS x y z scanline time\nSIZE 4 4 4 4 8\nTYPE F F F U F\nCOUNT 1 1 1 1 1\nWIDTH 0\nHEIGHT 1\nPOINTS 0\nDATA ascii\n")
     done = run("berm_recognize", nobody)
