@@ -50,7 +50,7 @@ public:
       if (!(std::abs(value[i]) <= kCoordinateLimit)) fail(kName[i], fmt::format("is not finite or beyond {:g} m", kCoordinateLimit));
     if (!(value[3] >= 0.0 && value[3] <= std::numeric_limits<std::uint32_t>::max()) || value[3] != std::floor(value[3]))
       fail("scanline", "is no whole number from 0 to 4294967295");
-    if (!std::isfinite(value[4])) fail("time", "is not finite");
+    if (!(std::abs(value[4]) <= kTimeLimit)) fail("time", fmt::format("is not finite or beyond {:g} s", kTimeLimit));
     const auto scanline = static_cast<std::uint32_t>(value[3]);
     if (!cloud_.points.empty()) {
       const ScanPoint& last = cloud_.points.back();
@@ -100,7 +100,7 @@ void read_ascii(std::string_view data, const PcdHeader& header, const Wanted& wa
 void read_binary(std::string_view data, const PcdHeader& header, const Wanted& wanted, bool field_major, Intake& intake) {
   if (data.size() / header.point_bytes < header.points)
     intake.fail("POINTS", fmt::format("claims {} points of {} bytes and {} bytes are there", header.points, header.point_bytes, data.size()));
-  if (data.size() / header.point_bytes > header.points) intake.fail("POINTS", fmt::format("claims {} points and the data go on", header.points));
+  if (data.size() != header.points * header.point_bytes) intake.fail("POINTS", fmt::format("claims {} points and the data go on", header.points));
   for (std::uint64_t i = 0; i < header.points; ++i) {
     std::array<double, 5> value{};
     for (std::size_t k = 0; k < 5; ++k) {
@@ -135,6 +135,7 @@ PointCloud parse_pcd(std::string_view bytes, const std::string& name) {
     const std::size_t packed = load<std::uint32_t>(data.data());
     const std::size_t whole = load<std::uint32_t>(data.data() + 4);
     if (packed > data.size() - 8) intake.fail("DATA", fmt::format("claims {} compressed bytes and {} are there", packed, data.size() - 8));
+    if (packed < data.size() - 8) intake.fail("DATA", fmt::format("claims {} compressed bytes and the data go on", packed));
     if (whole != header.points * header.point_bytes)
       intake.fail("DATA", fmt::format("claims {} bytes for {} points of {} bytes", whole, header.points, header.point_bytes));
     const auto unpacked = lzf_decompress(data.substr(8, packed), whole);

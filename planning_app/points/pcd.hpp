@@ -11,8 +11,9 @@
 namespace berm::app {
 
 constexpr double kCoordinateLimit = 1e7;  // metres either way
+constexpr double kTimeLimit = 1e10;       // seconds either way: three centuries of any clock
 
-// Throws PointFileError: unreadable, malformed or truncated, a value that is not finite or beyond its limit, scanlines that run backwards, or a time
+// Throws PointFileError: unreadable, malformed or truncated, data that go on, a VIEWPOINT that is turned, a value that is not finite or beyond its limit, scanlines that run backwards, or a time
 // that runs backwards within a scanline.
 std::vector<ScanPoint> read_pcd(const std::string& path);
 

@@ -103,6 +103,7 @@ TEST(Pcd, CompressedIsFieldByField) {
   std::string claims = data;
   std::memcpy(claims.data() + 4, "\xFF\xFF\xFF\xFF", 4);
   expect_refused(head + claims, "DATA");
+  expect_refused(head + data + "x", "DATA");
 }
 
 TEST(Pcd, RefusalsNameFileFieldAndLimit) {
@@ -119,6 +120,13 @@ TEST(Pcd, RefusalsNameFileFieldAndLimit) {
   expect_refused(pcd_header("1", "ascii") + "1 2 3 -1 0\n", "scanline");
   expect_refused(pcd_header("1", "ascii") + "1 2 3 1.5 0\n", "scanline");
   expect_refused(pcd_header("1", "ascii") + "1 2 3 0 inf\n", "time");
+  expect_refused(pcd_header("1", "ascii") + "1 2 3 0 1e300\n", "time");
+  expect_refused(pcd_header("1", "ascii") + "1 2 3 0 -1.1e10\n", "time");
+  expect_refused(pcd_header("1", "binary") + std::string(25, '\0'), "POINTS");
+  expect_refused(pcd_header("0", "binary") + "x", "POINTS");
+  for (const char* turn : {"0 0 0 0", "2 0 0 0", "0.7071 0 0 0.7071", "nan 0 0 0", "1 0 0 x", "1 0 0 0.01"})
+    expect_refused(pcd_header("0", "ascii", "VIEWPOINT 0 0 0 " + std::string(turn) + "\n"), "VIEWPOINT");
+  EXPECT_EQ(refusal(pcd_header("0", "ascii", "VIEWPOINT 0 0 0 -1 0 -0.0 1e-9\n")), "accepted");
   expect_refused(pcd_header("2", "ascii") + "1 2 3 5 0\n1 2 3 4 0\n", "scanline");
   expect_refused(pcd_header("2", "ascii") + "1 2 3 5 1\n1 2 3 5 0.5\n", "time");
   expect_refused(pcd_header("1", "ascii") + "1 2 3 0 0\n1 2 3 0 0\n", "POINTS");
