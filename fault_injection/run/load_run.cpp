@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
@@ -22,6 +23,7 @@
 #include "run/interruption.hpp"
 #include "run/kernel_session.hpp"
 #include "run/memory_watch.hpp"
+#include "run/out_folder.hpp"
 #include "run/parameter_file.hpp"
 #include "run/recognised_truck.hpp"
 #include "run/recorder.hpp"
@@ -99,9 +101,7 @@ class LoadRun {
     } else {
       out_ = options_.out;
     }
-    std::error_code error;
-    std::filesystem::create_directories(out_, error);
-    if (error) throw std::runtime_error(fmt::format("{}: {}", out_, error.message()));
+    if (!options_.out_held) result_.options.out_held = std::make_shared<const OutFolder>(out_);  // until whoever reads its files is done with the result
     if (options_.out.empty()) return;
     events_file_.open(events_path() + ".part");
     if (!events_file_) throw std::runtime_error(events_path() + ".part: cannot write");

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+
+#include "run/out_folder.hpp"
 
 namespace berm::run {
 
@@ -24,6 +27,7 @@ struct RunOptions {
   bool realtime = false;
   std::string json;
   std::string out;  // empty: a temporary folder, removed afterwards
+  std::shared_ptr<const OutFolder> out_held;  // out, of a caller that has taken it before the run; else the run takes it. Held as long as a copy of these is
   std::optional<ProcessFault> fault;
   bool quiet = false;
   bool picture = true;       // site.svg

@@ -3,12 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
-#include <filesystem>
+#include <memory>
 
 #include "config/command_line.hpp"
 #include "config/whole_file.hpp"
 #include "run/kernel_session.hpp"
 #include "run/load_run.hpp"
+#include "run/out_folder.hpp"
 #include "run/parameter_file.hpp"
 #include "soak/drawn_shift.hpp"
 #include "soak/shift_report.hpp"
@@ -41,7 +42,7 @@ int run(int argc, char** argv) {
   }
   berm::run::RunFolder own;
   if (out.empty()) out = own.file("shift");
-  std::filesystem::create_directories(out);
+  const auto held = std::make_shared<const berm::run::OutFolder>(out);
   const std::string scenario = out + "/scenario.toml";
   berm::config::write_whole_file(scenario, berm::soak::scenario_text(berm::soak::draw_shift(hours, seed)));
   berm::run::RunOptions options;
@@ -49,6 +50,7 @@ int run(int argc, char** argv) {
   options.trucks = berm::soak::trucks_enough(hours);
   options.seed = seed;
   options.out = out;
+  options.out_held = held;
   options.quiet = true;
   options.report_when_interrupted = true;
   options.journal = journal;

@@ -1,0 +1,29 @@
+#include "run/out_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <string.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+namespace berm::run {
+
+OutFolder::OutFolder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw std::runtime_error(fmt::format("{}: {}", path, error.message()));
+  fd_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd_ < 0) throw std::runtime_error(fmt::format("{}: {}", path, strerror(errno)));
+  if (flock(fd_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;  // a file system that knows no locks must not keep a run from it
+  close(fd_);
+  throw std::runtime_error(fmt::format("{}: in use: another run is writing to this folder", path));
+}
+
+OutFolder::~OutFolder() { close(fd_); }
+
+}  // namespace berm::run
