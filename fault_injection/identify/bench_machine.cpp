@@ -56,6 +56,7 @@ void on_bench(const config::MachineFile& machine, const BenchPlace& place, const
       interruption.check();
       if (!plant.runs()) throw std::runtime_error("the plant ended before the tests: " + plant.describe_end());
     };
+    link.while_silent(watch);  // a terminal's interrupt ends the plant, and then nothing comes any more
     while (!link.heard(100)) watch();
     Driver driver(link, machine, watch);
     tests(driver, link);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kMicro = 1e-6;
 constexpr double kCycle_s = 0.01;
-constexpr int kPatience_ms = 5000, kFirstPatience_ms = 20000;
+constexpr int kPatience_ms = 5000, kFirstPatience_ms = 20000, kWatch_ms = 100;
 constexpr std::uint32_t kMachineSource = 0xE8;
 constexpr std::uint8_t kNoStop = 255, kRunState = 2, kStoppingState = 3;  // as the contract numbers them; the machine does not look at the state
 
@@ -125,7 +125,10 @@ Reading MachineLink::next() {
     berm_can_frame frame;
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - std::chrono::steady_clock::now()).count();
     if (left <= 0) throw std::runtime_error(fmt::format("{}: the machine is silent for {} s after cycle {}", address_, patience / 1000, cycle_));
-    if (!bus_.receive(frame, static_cast<int>(left))) continue;
+    if (!bus_.receive(frame, std::min(static_cast<int>(left), kWatch_ms))) {
+      if (while_silent_) while_silent_();
+      continue;
+    }
     berm_sim_clock clock;
     if (!berm_decode_sim_clock(&frame, &clock)) {
       take(frame);

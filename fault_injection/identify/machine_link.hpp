@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "can/can_transport.hpp"
 #include "identify/machine_shape.hpp"
@@ -34,6 +36,8 @@ class MachineLink {
 
   // Waits at most this long for anything on the bus; true when there is something.
   bool heard(int milliseconds) const;
+  // Asked ten times a second while nothing comes: what it throws ends the wait. Who waits for a machine that has gone would hear of it seconds later.
+  void while_silent(std::function<void()> watch) { while_silent_ = std::move(watch); }
   // Waits for the machine's first cycle.
   Reading first();
   // Answers the newest reading with a velocity command, and gives the next. Throws std::runtime_error when the machine is silent or sends no valid
@@ -54,6 +58,7 @@ class MachineLink {
   void answer(const std::optional<Joints>& velocity, bool enable, std::uint8_t category, bool valid);
 
   std::string address_;
+  std::function<void()> while_silent_;
   can::Transport bus_;
   std::uint32_t cycle_ = 0;
   std::uint8_t velocity_counter_ = 0, heartbeat_counter_ = 0, alive_ = 0;

@@ -7,14 +7,18 @@ verifies: IF-CF-6, IF-CF-7, IF-CF-23
 """
 import csv
 import json
+import os
 import pathlib
 import shutil
+import signal
 import struct
+import subprocess
 import tempfile
+import time
 import tomllib
 import zlib
 
-from berm_command import ROOT, main, one_clear_line, run
+from berm_command import BIN, ROOT, main, one_clear_line, run
 
 MACHINE = ROOT / "interface_spec/config/machines/zx200.toml"
 SITE = ROOT / "interface_spec/config/sites/bench.toml"
@@ -240,6 +244,20 @@ def bad_input():
         assert not out.exists(), f"a machine file after --steps {arguments}"
 
 
+def a_terminals_interrupt_ends_it_at_once():
+    """It goes to the simulated machine as well, which ends and says nothing any more: that must not be waited out."""
+    out = scratch / "interrupted.toml"
+    process = subprocess.Popen([str(BIN / "berm_identify"), "--out", str(out), "--picture", ""], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               start_new_session=True, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+    assert process.stdout.readline().startswith("seed"), "no tests are made"
+    begin = time.monotonic()
+    os.killpg(process.pid, signal.SIGINT)
+    errors = process.communicate(timeout=60)[1]
+    took = time.monotonic() - begin
+    assert process.returncode == 2 and errors == "berm identify: interrupted: nothing is written\n" and not out.exists(), (process.returncode, errors)
+    assert took < 2.5, f"{took:.1f} s"
+
+
 def help_is_no_error():
     done = run("berm_identify", "--help")
     assert done.returncode == 0 and "--allowance" in done.stdout
@@ -248,6 +266,6 @@ def help_is_no_error():
 try:
     main([bounds_hold_the_true_stops, entries_say_what_was_measured, only_what_was_measured_changes, same_seed_same_bytes, from_its_own_result_the_same_table,
           the_result_is_a_good_machine_file, step_responses_find_the_true_joints, step_fits_say_how_surely, steps_again_are_the_same_bytes,
-          a_table_that_falls_or_has_holes_is_refused, the_kernel_refuses_such_a_block, bad_input, help_is_no_error])
+          a_table_that_falls_or_has_holes_is_refused, the_kernel_refuses_such_a_block, bad_input, a_terminals_interrupt_ends_it_at_once, help_is_no_error])
 finally:
     shutil.rmtree(scratch)
