@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <exception>
 #include <memory>
 
@@ -41,7 +42,8 @@ int run(int argc, char** argv) {
     return 2;
   }
   berm::run::RunFolder own;
-  if (out.empty()) out = own.file("shift");
+  const bool kept = !out.empty();
+  if (!kept) out = own.file("shift");
   const auto held = std::make_shared<const berm::run::OutFolder>(out);
   const std::string scenario = out + "/scenario.toml";
   berm::config::write_whole_file(scenario, berm::soak::scenario_text(berm::soak::draw_shift(hours, seed)));
@@ -58,7 +60,10 @@ int run(int argc, char** argv) {
   options.silence_s = kSilence_s;
   options.trace_every = kTraceEvery;
   options.progress_every_s = kProgressEvery_s;
-  fmt::print("seed {}, {:.2f} h; run again: ./berm load --scenario {} --seed {} --trucks {}\n", seed, hours, scenario, seed, options.trucks);
+  // A scenario that goes with this run's own folder can be run by nobody; the same draw can.
+  fmt::print("seed {}, {:.2f} h; run again: {}\n", seed, hours,
+             kept ? fmt::format("./berm load --scenario {} --seed {} --trucks {}", scenario, seed, options.trucks) : fmt::format("./berm soak --hours {} --seed {}", hours, seed));
+  std::fflush(stdout);
   const auto report = berm::soak::shift_json(berm::run::load_trucks(options), hours);
   fmt::print("{}", berm::soak::shift_text(report));
   if (!json.empty()) berm::config::write_whole_file(json, report.dump(2) + "\n");

@@ -3,9 +3,10 @@ import csv
 import json
 import pathlib
 import shutil
+import subprocess
 import tempfile
 
-from berm_command import ROOT, load, main, run
+from berm_command import BIN, ROOT, load, main, run
 
 KEYS = ("hours", "trucks", "tonnes_per_hour", "needless_stops", "memory_growth_kib_per_hour", "realtime_factor", "kernel_stops", "own_motion_stops", "soil",
         "pass_seconds_median", "pass_seconds_p95", "kinematic_ratio_median", "dig_surface_error_m", "plan_ms_max", "closest_approach_m", "stuck")
@@ -23,6 +24,21 @@ def short_shift():
     checked = run("berm_plant", "--scenario", out / "scenario.toml", "--can", "udp:239.255.66.1:45000", "--scan-port", "45001", "--out", out / "again", "--check")
     assert checked.returncode == 0, checked.stderr
     shutil.rmtree(out)
+
+
+def how_it_runs_again():
+    """By the scenario that is left, or where none is, by the same draw."""
+    for out in (None, pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))):
+        command = [str(BIN / "berm_soak"), "--hours", "0.025", "--seed", "7", *(("--out", str(out)) if out else ())]
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        again = process.stdout.readline().split("run again: ")[1].strip()
+        process.terminate()
+        process.communicate(timeout=120)
+        if out is None:
+            assert again == "./berm soak --hours 0.025 --seed 7", again
+        else:
+            assert again.startswith(f"./berm load --scenario {out}/scenario.toml --seed 7 --trucks ") and (out / "scenario.toml").exists(), again
+            shutil.rmtree(out)
 
 
 def bench_move():
@@ -71,4 +87,4 @@ def by_hand():
     shutil.rmtree(folder)
 
 
-main([short_shift, bench_move, by_hand])
+main([short_shift, how_it_runs_again, bench_move, by_hand])
