@@ -342,7 +342,7 @@ class LoadRun {
     result_.memory = memory_.growth();
     result_.measures = measure_shift(out_, machine_, options_, result_.truth, result_.app_events, result_.stop_events);
     if (recorder_.lost() > 0) result_.notes.push_back(fmt::format("the launcher missed {} decisions: stops and the picture may lack some", recorder_.lost()));
-    if (options_.fault && !injected_) result_.notes.emplace_back("the run ended before the fault was due");
+    result_.fault_struck = injected_;
     if (!options_.out.empty()) write_out();
   }
 

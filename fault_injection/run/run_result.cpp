@@ -190,6 +190,11 @@ std::vector<std::string> shortcomings(const RunResult& r) {
   std::vector<std::string> reasons;
   if (r.contacts > 0) reasons.push_back(fmt::format("{} contact(s)", r.contacts));
   if (!r.interrupted.empty()) reasons.push_back(fmt::format("interrupted ({}) after {:.1f} s", r.interrupted, r.truth.value("simulated_seconds", 0.0)));
+  if (r.options.fault && !r.fault_struck) {
+    // Nothing was shown of it, whatever else went well.
+    if (r.interrupted.empty()) reasons.push_back(fmt::format("the run ended before the fault ({:g} s): after {:.1f} s", r.options.fault->at_s, r.truth.value("simulated_seconds", 0.0)));
+    return reasons;
+  }
   // The journal's end must not be felt: such a run is judged as any other.
   if (r.options.fault && r.options.fault->kind != FaultKind::kill_journal) {
     const auto standstill = standstill_after_fault(r);

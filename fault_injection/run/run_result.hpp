@@ -20,6 +20,7 @@ struct RunResult {
   std::vector<nlohmann::json> app_events;
   double wall_seconds = 0.0;
   std::string interrupted;                  // the signal that ended the run: "Interrupt", "Terminated"; empty: none did
+  bool fault_struck = false;                // that of --fault
   int contacts = 0;
   int pids[4] = {};                         // plant, kernel, app, journal
   std::map<std::string, int> stops;

@@ -52,4 +52,11 @@ def killed_kernel_stops_the_machine():
     check("kill-kernel", 0.05)
 
 
-main([killed_app_stops_the_machine, stopped_app_stops_the_machine, killed_kernel_stops_the_machine])
+def a_fault_after_the_end_is_said_to_be_one():
+    status, result, out, text = load("--scenario", "short", "--seed", 4, "--fault", "kill-app@99999")
+    assert status == 1 and result["standstill_after_fault_s"] is None, text[-500:]
+    assert "berm load: the run ended before the fault (99999 s)" in text and "did not come to a standstill" not in text, text[-500:]
+    shutil.rmtree(out)
+
+
+main([killed_app_stops_the_machine, stopped_app_stops_the_machine, killed_kernel_stops_the_machine, a_fault_after_the_end_is_said_to_be_one])

@@ -70,6 +70,24 @@ json recognised(int truck, double x, double yaw_deg) {
   return {{"event", "recognised"}, {"truck", truck}, {"x_m", x}, {"y_m", 6.0}, {"yaw_deg", yaw_deg}, {"length_m", 5.0}, {"width_m", 2.4}, {"wall_top_m", 0.3}};
 }
 
+// A run of one full truck, with a fault due at 999 s.
+RunResult with_fault(FaultKind kind, bool struck) {
+  RunResult r = with_events({});
+  r.options.fault = ProcessFault{kind, 999.0};
+  r.fault_struck = struck;
+  return r;
+}
+
+TEST(Shortcomings, AFaultThatTheRunDidNotReachIsOne) {
+  for (const FaultKind kind : {FaultKind::kill_app, FaultKind::kill_kernel, FaultKind::kill_journal})
+    EXPECT_THAT(shortcomings(with_fault(kind, false)), testing::ElementsAre("the run ended before the fault (999 s): after 60.0 s"));
+  EXPECT_THAT(shortcomings(with_fault(FaultKind::kill_app, true)), testing::ElementsAre("the machine did not come to a standstill after the fault"));
+  EXPECT_THAT(shortcomings(with_fault(FaultKind::kill_journal, true)), testing::IsEmpty());
+  RunResult interrupted = with_fault(FaultKind::kill_app, false);
+  interrupted.interrupted = "Interrupt";
+  EXPECT_THAT(shortcomings(interrupted), testing::ElementsAre("interrupted (Interrupt) after 60.0 s"));
+}
+
 TEST(Recognition, IsJudgedByTheWorstCornerInSpaceOfEachTrucksFirstAnswer) {
   RunResult r = with_events({recognised(1, 1.0, 180.0), recognised(1, 9.0, 180.0), recognised(2, 1.0, 180.0)});
   json bed = recognised(1, 1.03, 180.0);
