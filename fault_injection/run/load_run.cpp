@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -59,10 +60,14 @@ class LoadRun {
     check_scenario(scenario);
     check_scripts();
     prepare_out();
-    begin_ = Clock::now();
-    start_processes(scenario);
-    follow();
-    finish();
+    try {
+      begin_ = Clock::now();
+      start_processes(scenario);
+      follow();
+      finish();
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(error.what() + what_is_left());
+    }
     return std::move(result_);
   }
 
@@ -105,6 +110,15 @@ class LoadRun {
     if (options_.out.empty()) return;
     events_file_.open(events_path() + ".part");
     if (!events_file_) throw std::runtime_error(events_path() + ".part: cannot write");
+  }
+
+  // Of a run that failed: what the journal and the app's events have until then is kept, for it can be replayed and read.
+  std::string what_is_left() const {
+    if (options_.out.empty()) return "";
+    std::string names;
+    for (const auto& part : {journal_file() + ".part", events_path() + ".part"})
+      if (std::error_code none; std::filesystem::exists(part, none)) names += (names.empty() ? "" : ", ") + std::filesystem::path(part).filename().string();
+    return names.empty() ? "" : fmt::format("; not complete, in {}: {}", out_, names);
   }
 
   [[nodiscard]] std::string events_path() const { return out_ + "/app.jsonl"; }
@@ -294,7 +308,7 @@ class LoadRun {
       if (!event.is_object()) continue;
       if (event.value("event", "") == "pass") ++passes_;
       say(app_event_words(event, recorder_.time_s()));
-      if (events_file_.is_open()) events_file_ << event.dump() << std::endl;
+      if (events_file_.is_open() && events_file_ && !(events_file_ << event.dump() << std::endl)) events_error_ = strerror(errno);  // told of at the end
       result_.app_events.push_back(std::move(event));
     }
   }
@@ -350,7 +364,7 @@ class LoadRun {
     if (options_.picture) write_picture();
     config::write_whole_file(out_ + "/result.json", flat_json(result_).dump(2) + "\n");
     events_file_.close();
-    if (!events_file_) throw std::runtime_error(events_path() + ".part: not all could be written");
+    if (!events_file_) throw std::runtime_error(fmt::format("{}.part: not all could be written: {}", events_path(), events_error_));
     std::filesystem::rename(events_path() + ".part", events_path());
     result_.notes.push_back(fmt::format("trace.csv, truth.json,{} app.jsonl,{} and result.json are in {}", options_.journal ? " journal.mcap," : "", options_.picture ? " site.svg" : "", out_));
   }
@@ -387,6 +401,7 @@ class LoadRun {
   RunResult result_;
   MemoryWatch memory_;
   std::ofstream events_file_;  // the app's events as they come, so that a run that is cut off leaves them
+  std::string events_error_;
   int trucks_away_ = 0, passes_ = 0, bench_moves_ = 0;
   double next_progress_s_ = 0.0;
   bool injected_ = false, init_told_ = false;

@@ -81,6 +81,13 @@ void tell_pace(int fd, std::uint64_t cycle) {
   }
 }
 
+// The name that a descriptor was opened under, for messages.
+std::string name_of(int fd) {
+  char name[4096];
+  const ssize_t size = readlink(("/proc/self/fd/" + std::to_string(fd)).c_str(), name, sizeof name);
+  return size > 0 ? std::string(name, static_cast<std::size_t>(size)) : "the journal's file";
+}
+
 // Until the kernel is gone and the ring is empty. False with one line in error.
 bool follow(KernelLink& link, JournalFile& file, int pace, std::string& error) {
   RingReader reader(link.ring(), link.tail());
@@ -121,7 +128,7 @@ int main(int argc, char** argv) {
   std::string error;
   if (!link.connect(options.socket, error)) return fail(error);
   const std::string part = options.out + ".part";
-  const std::string shown = options.fd >= 0 ? "the journal's file" : part;
+  const std::string shown = options.fd >= 0 ? name_of(options.fd) : part;
   if (options.fd < 0) options.fd = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (options.fd < 0) return fail(part + ": " + std::strerror(errno));
   JournalFile file(options.fd);

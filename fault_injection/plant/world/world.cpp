@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <fstream>
 #include <iomanip>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 
+#include "config/whole_file.hpp"
 #include "plant/machine/implement_shape.hpp"
 #include "plant/oracle/oracle.hpp"
 #include "plant/process/world_config.hpp"
@@ -360,7 +361,7 @@ void World::write_terrain(const std::string& path) const {
   const State& w = *state_;
   const HeightGrid& g = w.terrain.grid();
   const auto write = [&](const std::string& file, auto height) {
-    std::ofstream out(file);
+    std::ostringstream out;
     out << std::setprecision(6) << g.x_low() << ',' << g.y_low() << ',' << g.cell_x() << ',' << g.count_x() << ',' << g.count_y() << '\n';
     out << std::fixed << std::setprecision(4);
     for (int iy = 0; iy < g.count_y(); ++iy) {
@@ -372,8 +373,7 @@ void World::write_terrain(const std::string& path) const {
       }
       out << '\n';
     }
-    out.close();
-    if (!out) throw std::runtime_error(file + ": cannot write");
+    config::write_whole_file(file, out.view());
   };
   write(path, [&](int ix, int iy) { return g.at(ix, iy); });
   write(path + ".truck", [&](int ix, int iy) {

@@ -1,8 +1,10 @@
 """Bad input gets one clear line and a non-zero exit, and leaves nothing half-written."""
+import json
 import os
 import pathlib
 import shutil
 import struct
+import subprocess
 import tempfile
 
 from berm_command import BIN, REAL_DATA, ROOT, main, one_clear_line, run
@@ -131,7 +133,32 @@ def captures():
     assert not (scratch / "map.json").exists() and not (scratch / "map.svg").exists(), "a map of a bad capture"
 
 
+def no_room_for_its_files():
+    """A full disk: what fails is named with the reason, nothing half-written has a final name, and what can be read on is kept and told of."""
+    for size, kept, missing in (("64k", {"app.jsonl.part"}, {"terrain_start.csv", "terrain_start.csv.truck"}), ("2m", {"journal.mcap.part", "terrain_start.csv"}, {"journal.mcap"})):
+        disk = scratch / f"disk-{size}"
+        disk.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", str(disk)], capture_output=True, check=False).returncode != 0:
+            print("SKIPPED part: no small disk can be mounted")
+            return
+        try:
+            out = disk / "run"
+            done = run("berm_load", "--seed", 1, "--out", out)
+            failed = out / ("terrain_start.csv: cannot be written" if size == "64k" else "trace.csv")
+            assert done.returncode == 2 and f"berm_plant: {failed}: No space left on device" in done.stderr, done.stderr
+            assert f"berm load: the plant failed: exit 1; not complete, in {out}: " in done.stderr, done.stderr
+            left = {path.name for path in out.iterdir()}
+            assert kept <= left and not missing & left and not {"trace.csv", "truth.json", "result.json"} & left, left
+            assert all(name in done.stderr.splitlines()[-1] for name in left if name.endswith(".part")), (left, done.stderr)
+            if "journal.mcap.part" in left:
+                assert f"berm_journal: {out}/journal.mcap.part: No space left on device" in done.stderr, done.stderr
+                replayed = run("berm_replay", out / "journal.mcap.part", "--json", scratch / "replayed.json")
+                assert replayed.returncode == 1 and json.loads((scratch / "replayed.json").read_text())["mismatches"] == 0, replayed.stderr
+        finally:
+            subprocess.run(["umount", str(disk)], check=True)
+
+
 try:
-    main([unknown_options, help_is_no_error, scenarios, files_nested_too_deep, scenario_fields, ground_without_its_recording, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures])
+    main([unknown_options, help_is_no_error, scenarios, files_nested_too_deep, scenario_fields, ground_without_its_recording, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures, no_room_for_its_files])
 finally:
     shutil.rmtree(scratch)

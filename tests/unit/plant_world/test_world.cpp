@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 
 #include <chrono>
 #include <cstring>
@@ -226,6 +228,26 @@ TEST(World, TerrainFileHasItsHeaderAndRows) {
   EXPECT_EQ(rows, 320);
   EXPECT_NE(file_text(path + ".truck").find("-0.9200"), std::string::npos) << "the empty bed's floor";
   EXPECT_THROW(w.write_terrain("/nonexistent/terrain.csv"), std::runtime_error);
+}
+
+TEST(World, TerrainFileIsWholeOrNotThere) {
+  const World w(bench::site(), bench::machine(), 1, 1);
+  const test::Scratch scratch;
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit little{65536, before.rlim_max};
+  const auto signalled = signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &little);
+  std::string why;
+  try {
+    w.write_terrain(scratch.path("terrain.csv"));
+  } catch (const std::runtime_error& error) {
+    why = error.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  signal(SIGXFSZ, signalled);
+  EXPECT_EQ(why, scratch.path("terrain.csv") + ": cannot be written: File too large");
+  EXPECT_TRUE(scratch.names().empty()) << scratch.names().front();
 }
 
 }  // namespace
