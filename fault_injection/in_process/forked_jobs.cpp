@@ -20,6 +20,8 @@ namespace berm::in_process {
 
 namespace {
 
+constexpr int kAsk_ms = 100;
+
 struct Job {
   int number = -1;
   pid_t pid = -1;
@@ -102,16 +104,17 @@ void end_all(const std::vector<Job>& running) {
 }  // namespace
 
 void run_in_processes(int count, int at_a_time, const std::function<void(int, const Say&)>& do_one,
-                      const std::function<void(int, const std::string&)>& told) {
+                      const std::function<void(int, const std::string&)>& told, const std::function<bool()>& stop) {
   if (at_a_time == 0) at_a_time = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::vector<Job> running;
   int next = 0;
   try {
     while (next < count || !running.empty()) {
+      if (stop && stop()) return end_all(running);
       while (next < count && static_cast<int>(running.size()) < at_a_time) running.push_back(begin(next++, do_one));
       std::vector<pollfd> ready;
       for (const Job& job : running) ready.push_back({job.output, POLLIN, 0});
-      if (poll(ready.data(), ready.size(), -1) < 0 && errno != EINTR) fail("poll");
+      if (poll(ready.data(), ready.size(), stop ? kAsk_ms : -1) < 0 && errno != EINTR) fail("poll");
       for (std::size_t i = ready.size(); i-- > 0;) {
         if (ready[i].revents == 0 || listen(running[i], told)) continue;
         const Job ended = running[i];

@@ -9,14 +9,16 @@
 
 namespace berm::in_process {
 
-void run_trials(int count, int jobs, const std::function<void(int)>& do_one, const std::function<void(int, int)>& done) {
+int run_trials(int count, int jobs, const std::function<void(int)>& do_one, const std::function<void(int, int)>& done, const std::function<bool()>& stop) {
   if (jobs == 0) jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::atomic<int> next = 0;
   int finished = 0;
   std::mutex telling;
   std::exception_ptr wrong;
   const auto work = [&] {
-    for (int i = next++; i < count; i = next++) {
+    while (!stop || !stop()) {
+      const int i = next++;
+      if (i >= count) return;
       try {
         do_one(i);
       } catch (...) {
@@ -34,6 +36,7 @@ void run_trials(int count, int jobs, const std::function<void(int)>& do_one, con
   work();
   for (auto& worker : workers) worker.join();
   if (wrong) std::rethrow_exception(wrong);
+  return finished;
 }
 
 }  // namespace berm::in_process

@@ -1,5 +1,6 @@
 // ./berm validate: the validation sweep of leger-1998 section 2.5, whole instead of partitioned.
 #include <fmt/format.h>
+#include <string.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +13,7 @@
 #include "config/strict_table.hpp"
 #include "config/whole_file.hpp"
 #include "in_process/workers.hpp"
+#include "run/interruption.hpp"
 #include "run/parameter_file.hpp"
 #include "validate/report.hpp"
 #include "validate/trial_run.hpp"
@@ -39,21 +41,25 @@ Bench make_bench(const std::string& machine) {
   return bench;
 }
 
-void run_all(const Bench& bench, const Options& options, const SwingLimits& limits, Sweep& sweep) {
+// The signal that ended it before its time; 0 when none did.
+int run_all(const Bench& bench, const Options& options, const SwingLimits& limits, Sweep& sweep) {
+  const run::Interruption interruption;  // before the threads
   const auto begin = std::chrono::steady_clock::now();
   sweep.results.resize(static_cast<std::size_t>(options.runs));
   const bool progress = isatty(STDERR_FILENO) != 0;
   const auto do_one = [&](int run) {
     sweep.results[static_cast<std::size_t>(run)] = run_trial(bench, draw_trial(options.seed, run, bench.profile.shape, limits), {});
   };
-  in_process::run_trials(options.runs, options.jobs, do_one, [&](int finished, int run) {
+  const int done = in_process::run_trials(options.runs, options.jobs, do_one, [&](int finished, int run) {
     const TrialResult& r = sweep.results[static_cast<std::size_t>(run)];
     if (r.outcome == Outcome::miss) fmt::print(stderr, "MISS in run {}: {}\n", run, r.why);
     if (progress) fmt::print(stderr, "\r{} of {} runs", finished, options.runs);
     else if (finished % 500 == 0) fmt::print(stderr, "{} of {} runs\n", finished, options.runs);
-  });
+  }, [&] { return interruption.asked(); });
   if (progress) fmt::print(stderr, "\n");
   sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  sweep.results.resize(static_cast<std::size_t>(done));
+  return done < options.runs ? interruption.take() : 0;
 }
 
 void tell_one(const TrialResult& r) {
@@ -96,12 +102,15 @@ int run(int argc, char** argv) {
   Sweep sweep;
   sweep.seed = options.seed;
   sweep.machine = options.machine;
-  run_all(bench, options, limits, sweep);
+  sweep.asked = options.runs;
+  const int signal = run_all(bench, options, limits, sweep);
+  if (signal != 0) fmt::print(stderr, "berm validate: interrupted ({}) after {} of {} runs\n", strsignal(signal), sweep.results.size(), options.runs);
+  if (sweep.results.empty()) return 1;
   const auto result = flat_json(sweep);
   fmt::print("{}", summary_text(sweep));
   if (!options.json.empty()) config::write_whole_file(options.json, result.dump(1) + "\n");
   if (!options.picture.empty()) write_picture(options.picture, sweep);
-  const bool held = result["misses"] == 0 && result["needless_stops"].get<double>() <= 0.005 * options.runs;
+  const bool held = signal == 0 && result["misses"] == 0 && result["needless_stops"].get<double>() <= 0.005 * options.runs;
   return held ? 0 : 1;
 }
 

@@ -67,7 +67,7 @@ ordered_json flat_json(const Sweep& sweep) {
   for (const auto& r : sweep.results)
     if (r.outcome != Outcome::right)
       failures.push_back({{"run", r.trial.run}, {"kind", r.outcome == Outcome::miss ? "miss" : "needless stop"}, {"why", r.why}, {"scenario", describe(r.trial)}, {"command", command(sweep, r.trial)}});
-  return {{"machine", sweep.machine}, {"seed", sweep.seed}, {"runs", sweep.results.size()}, {"misses", t.misses}, {"needless_stops", t.needless}, {"needless_past_hidden_space", t.hidden}, {"governed_runs", t.governed},
+  return {{"machine", sweep.machine}, {"seed", sweep.seed}, {"asked", sweep.asked}, {"runs", sweep.results.size()}, {"misses", t.misses}, {"needless_stops", t.needless}, {"needless_past_hidden_space", t.hidden}, {"governed_runs", t.governed},
           {"time_lost_s_p95", t.time_lost_p95}, {"closest_approach_m", t.closest_m}, {"stopped_runs", t.stopped}, {"nominal_contacts", t.nominal_hits},
           {"wall_seconds", sweep.wall_seconds}, {"failures", failures}};
 }
@@ -77,7 +77,8 @@ std::string summary_text(const Sweep& sweep) {
   const auto n = static_cast<double>(std::max<std::size_t>(sweep.results.size(), 1));
   std::string text = fmt::format("\nValidation sweep ({}, seed {}; a simulation, judged by the oracle)\n", sweep.machine, sweep.seed);
   const auto row = [&text](const std::string& name, const std::string& value) { text += fmt::format("  {:<30}{}\n", name, value); };
-  row("runs", fmt::format("{}", sweep.results.size()));
+  const bool whole = sweep.results.size() == static_cast<std::size_t>(sweep.asked);
+  row("runs", whole ? fmt::format("{}", sweep.asked) : fmt::format("{} of {}: interrupted", sweep.results.size(), sweep.asked));
   row("misses (contact)", fmt::format("{}", t.misses));
   row("needless stops", fmt::format("{} ({:.2f} %)", t.needless, 100.0 * t.needless / n));
   row("  past hidden space", fmt::format("{}: the obstacle hid it until shortly before; the others {:.2f} %", t.hidden, 100.0 * (t.needless - t.hidden) / n));
@@ -121,7 +122,7 @@ void write_picture(const std::string& path, const Sweep& sweep) {
   for (const auto& r : sweep.results)
     if (r.outcome != Outcome::right) draw(r, r.outcome == Outcome::miss ? "fill:#d00000;stroke:#600000" : "fill:#c000c080;stroke:#c000c0");
   panel.axes(2.0, "x, m", "y, m");
-  panel.title(fmt::format("{} obstacles by outcome, seed {} (simulation)", sweep.results.size(), sweep.seed));
+  panel.title(fmt::format("{} of {} obstacles by outcome, seed {} (simulation)", sweep.results.size(), sweep.asked, sweep.seed));
   const char* legend[][2] = {{"#4a904a", "passed"}, {"#b08000", "passed, slowed"}, {"#3060c0", "stopped, rightly"}, {"#c000c0", "needless stop"}, {"#d00000", "miss"}};
   std::string extra;
   double y = 60;

@@ -12,6 +12,7 @@ namespace berm::validate {
 struct Sweep {
   std::uint64_t seed = 1;
   std::string machine;  // as it was asked for
+  int asked = 0;            // runs; fewer are over when it is interrupted
   std::vector<TrialResult> results;
   double wall_seconds = 0.0;
 };

@@ -47,7 +47,8 @@ void run_share(const Bench& bench, const std::vector<Intrusion>& trials, const i
 
 }  // namespace
 
-void run_campaign(const Bench& bench, int count, int jobs, Campaign& campaign, const std::function<void(const IntrusionResult&)>& done) {
+void run_campaign(const Bench& bench, int count, int jobs, Campaign& campaign, const std::function<void(const IntrusionResult&)>& done,
+                  const std::function<bool()>& stop) {
   const auto shares = shared_preparations(bench, campaign.seed, count);
   const auto before = [](const IntrusionResult& a, const IntrusionResult& b) { return a.intrusion.run < b.intrusion.run; };
   in_process::run_in_processes(
@@ -57,7 +58,8 @@ void run_campaign(const Bench& bench, int count, int jobs, Campaign& campaign, c
         IntrusionResult result = result_of(line, [&](int run) { return draw_intrusion(campaign.seed, run, bench.intrusion_site); });
         const auto at = std::upper_bound(campaign.results.begin(), campaign.results.end(), result, before);
         done(*campaign.results.insert(at, std::move(result)));
-      });
+      },
+      stop);
 }
 
 }  // namespace berm::watch

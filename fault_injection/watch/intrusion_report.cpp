@@ -205,6 +205,7 @@ std::string summary_text(const Campaign& campaign) {
   const ordered_json j = flat_json(campaign);
   std::string text = fmt::format("\nIntrusions ({}{}, seed {}; a simulation, judged by the plant's truth)\n", campaign.machine,
                                  campaign.histogram ? ", histograms" : "", campaign.seed);
+  if (campaign.results.size() < static_cast<std::size_t>(campaign.asked)) text += fmt::format("  interrupted: {} of {}\n", campaign.results.size(), campaign.asked);
   text += fmt::format("  {:<26}{:>5} {:>7} {:>7} {:>9} {:>11} {:>9} {:>10} {:>10}\n", "", "runs", "judged", "unsafe", "contacts", "undetected*",
                       "detected", "p50", "p95");
   text += row_of("all", j);

@@ -1,5 +1,6 @@
 // berm watch: intruders against the Workspace Monitor.
 #include <fmt/format.h>
+#include <string.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -8,6 +9,7 @@
 
 #include "config/machine_file.hpp"
 #include "config/whole_file.hpp"
+#include "run/interruption.hpp"
 #include "run/parameter_file.hpp"
 #include "watch/intrusion_campaign.hpp"
 #include "watch/options.hpp"
@@ -26,6 +28,7 @@ bool can_be_written_again(const std::string& path) {
 
 int watch_intrusions(const Options& options) {
   Campaign campaign;
+  int signal = 0;
   campaign.machine = options.machine.empty() ? drawn_machine : options.machine;
   campaign.seed = options.seed;
   campaign.asked = options.only >= 0 ? 1 : options.intrusions;
@@ -36,6 +39,7 @@ int watch_intrusions(const Options& options) {
     campaign.results.push_back(run_intrusion(bench, draw(options.only), options.trace));
     fmt::print("{}", detail_text(campaign.results.front()));
   } else {
+    const run::Interruption interruption;  // before the processes, which a terminal's signal meets as well
     const auto begin = std::chrono::steady_clock::now();
     const bool progress = isatty(STDERR_FILENO) != 0;
     const auto seconds = [begin] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
@@ -47,14 +51,18 @@ int watch_intrusions(const Options& options) {
       if (!progress) fmt::print(stderr, "{} of {} intrusions\n", finished, options.intrusions);
       campaign.wall_seconds = seconds();
       if (can_be_written_again(options.json)) config::write_whole_file(options.json, flat_json(campaign).dump(1) + "\n");
-    });
+    }, [&] { return interruption.asked(); });
     if (progress) fmt::print(stderr, "\n");
     campaign.wall_seconds = seconds();
+    const bool whole = campaign.results.size() == static_cast<std::size_t>(campaign.asked);
+    if (!whole) signal = interruption.take();
+    if (signal != 0) fmt::print(stderr, "berm watch: interrupted ({}) after {} of {} intrusions\n", strsignal(signal), campaign.results.size(), campaign.asked);
+    if (campaign.results.empty()) return 1;
     fmt::print("{}", summary_text(campaign));
   }
   const auto result = flat_json(campaign);
   if (!options.json.empty()) config::write_whole_file(options.json, result.dump(1) + "\n");
-  return result["unsafe"] == 0 && result["undetected"] == 0 ? 0 : 1;
+  return signal == 0 && result["unsafe"] == 0 && result["undetected"] == 0 ? 0 : 1;
 }
 
 int watch_one_scenario(const Options& o) {

@@ -6,10 +6,15 @@ verifies: SK-WM-51
 import csv
 import json
 import math
+import os
 import pathlib
+import re
+import signal
+import subprocess
 import tempfile
+import time
 
-from berm_command import main, one_clear_line, run
+from berm_command import BIN, main, one_clear_line, run
 
 SEED = 1
 TRIALS = 6
@@ -109,4 +114,20 @@ def bad_input_is_one_line():
         assert done.returncode == 2, done.returncode
 
 
-main([trials_are_judged_the_same_again, one_trial_is_repeated_alone, a_person_of_a_scenario_is_detected, quiet_hours_count_what_they_simulate, bad_input_is_one_line])
+def an_interrupt_ends_it_with_what_was_done():
+    """The terminal's, which goes to every process of the group."""
+    out = scratch / "interrupted.json"
+    process = subprocess.Popen([str(BIN / "berm_watch"), "--intrusions", "100000", "--seed", str(SEED), "--json", str(out)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               start_new_session=True, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+    time.sleep(20)
+    os.killpg(process.pid, signal.SIGINT)
+    words, errors = process.communicate(timeout=120)
+    assert process.returncode == 1, (process.returncode, errors)
+    done = int(re.search(r"berm watch: interrupted \(Interrupt\) after ([0-9]+) of 100000 intrusions\n", errors)[1])
+    assert done > 0, "nothing was done yet: this shows little"
+    result = json.loads(out.read_text())
+    assert result["asked"] == 100000 and result["runs"] == done, result
+    assert f"interrupted: {done} of 100000" in words, words
+
+
+main([an_interrupt_ends_it_with_what_was_done, trials_are_judged_the_same_again, one_trial_is_repeated_alone, a_person_of_a_scenario_is_detected, quiet_hours_count_what_they_simulate, bad_input_is_one_line])

@@ -43,6 +43,20 @@ TEST(ForkedJobs, ALineLongerThanAPipeIsOneLine) {
   EXPECT_EQ(came, long_line);
 }
 
+TEST(ForkedJobs, ThatAreToldToStopAreEnded) {
+  int told = 0;
+  const auto begin = std::chrono::steady_clock::now();
+  run_in_processes(
+      20, 2,
+      [](int job, const Say& say) {
+        say(std::to_string(getpid()));
+        if (job > 0) std::this_thread::sleep_for(std::chrono::seconds(60));
+      },
+      [&told](int, const std::string&) { ++told; }, [&told] { return told >= 2; });
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
+  EXPECT_LE(told, 3);
+}
+
 TEST(ForkedJobs, NoJobsAreDone) { run_in_processes(0, 2, [](int, const Say&) {}, [](int, const std::string&) { FAIL(); }); }
 
 // Each of three waits until all three are there; a fourth and a fifth come when one has ended.

@@ -49,6 +49,25 @@ TEST(Workers, WhatATrialThrowsIsThrownAndEndsTheRest) {
   EXPECT_LT(begun, 1000);
 }
 
+TEST(Workers, ThatAreToldToStopHaveDoneTheFirst) {
+  for (const int jobs : {1, 3}) {
+    std::vector<std::atomic<int>> begun(1000);
+    std::atomic<bool> stop{false};
+    int told = 0;
+    const int done = run_trials(
+        1000, jobs, [&](int i) { ++begun[static_cast<std::size_t>(i)]; },
+        [&](int finished, int) {
+          told = finished;
+          if (finished == 10) stop = true;
+        },
+        [&] { return stop.load(); });
+    EXPECT_EQ(done, told);
+    EXPECT_GE(done, 10);
+    EXPECT_LE(done, 10 + 2 * jobs);
+    for (int i = 0; i < 1000; ++i) EXPECT_EQ(begun[static_cast<std::size_t>(i)], i < done ? 1 : 0) << i;
+  }
+}
+
 TEST(Workers, OfNothingThereIsNothing) {
   run_trials(0, 4, [](int) { FAIL(); }, [](int, int) { FAIL(); });
 }
