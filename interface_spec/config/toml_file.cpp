@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -16,6 +15,7 @@ namespace berm::config {
 namespace {
 
 constexpr std::size_t kDeepest = 100;  // ours are 5 deep; toml11 needs some kB of stack for each
+constexpr std::size_t kLargest = std::size_t{1} << 24;  // bytes; ours have 20 kB, and a device has no end
 
 // How deep arrays, inline tables and dotted keys lie in one another. A dot of a number counts too, until its value ends.
 class Depth {
@@ -86,7 +86,11 @@ toml::value parse_toml_file(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw ConfigError(fmt::format("{}: cannot be read", file));
   try {
-    std::string text(std::istreambuf_iterator<char>(stream), {});
+    std::string text(kLargest + 1, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    if (stream.bad()) throw ConfigError(fmt::format("{}: cannot be read", file));
+    if (text.size() > kLargest) throw ConfigError(fmt::format("{}: more than {} bytes", file, kLargest));
     if (const std::size_t line = Depth(text).too_deep_line(); line != 0)
       throw ConfigError(fmt::format("{}: line {}: nested more than {} deep", file, line, kDeepest));
     std::istringstream lines(std::move(text));

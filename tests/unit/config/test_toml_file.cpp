@@ -68,6 +68,16 @@ TEST(TomlFile, BehindATextItIsCountedAgain) {
     EXPECT_NE(verdict("a = [" + std::string(text) + ", " + times(10000, "[")).find("nested more than 100 deep"), std::string::npos) << text;
 }
 
+// A device has no end: reading all of it would take all memory.
+TEST(TomlFile, WhatHasNoEndIsRefused) {
+  try {
+    StrictTable::parse_file("/dev/zero");
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(), "/dev/zero: more than 16777216 bytes");
+  }
+}
+
 TEST(TomlFile, OtherRefusalsStayAsTheyAre) {
   EXPECT_EQ(verdict("a = = 1\n"), ": line 1: not valid TOML");
   EXPECT_EQ(verdict(""), "read");
