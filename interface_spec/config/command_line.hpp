@@ -18,6 +18,8 @@
 #include <string>
 #include <vector>
 
+#include "config/output_file.hpp"
+
 namespace berm::config {
 
 namespace command_line {
@@ -38,24 +40,6 @@ inline std::string wrong_number(const CLI::Option& option, const std::string& te
   return errno == ERANGE ? fmt::format("{}: {} is beyond {}", name, text, value) : "";
 }
 
-inline bool same_file(const std::string& a, const std::string& b) {
-  std::error_code error;
-  if (std::filesystem::equivalent(a, b, error)) return true;
-  return std::filesystem::weakly_canonical(a, error) == std::filesystem::weakly_canonical(b, error);
-}
-
-// Before any work is done: a result that cannot be written is lost with hours of it.
-inline std::string wrong_output(const std::string& option, const std::string& file) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  if (fs::is_directory(file, error)) return fmt::format("{}: {}: is a folder", option, file);
-  const fs::path folder = fs::path(file).has_parent_path() ? fs::path(file).parent_path() : ".";
-  if (!fs::is_directory(folder, error)) return fmt::format("{}: {}: its folder does not exist", option, file);
-  const bool written_into = fs::exists(file, error) && !fs::is_regular_file(file, error);  // a device; else the folder gets a new file
-  if (access(written_into ? file.c_str() : folder.c_str(), W_OK) != 0) return fmt::format("{}: {}: cannot be written: {}", option, file, std::strerror(errno));
-  return "";
-}
-
 inline std::string wrong_values(const CLI::App& app) {
   struct Named {
     std::string option, file;
@@ -69,7 +53,7 @@ inline std::string wrong_values(const CLI::App& app) {
     }
   for (std::size_t i = 0; i < written.size(); ++i) {
     const auto& [option, file] = written[i];
-    if (std::string wrong = wrong_output(option, file); !wrong.empty()) return wrong;
+    if (const std::string why = why_not_written(file); !why.empty()) return fmt::format("{}: {}: {}", option, file, why);
     std::error_code error;
     if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error)) continue;  // /dev/null may be named twice
     for (const Named& other : read)

@@ -121,16 +121,18 @@ private:
   void read_viewpoint(PcdHeader& out) const {
     if (lines_.count("VIEWPOINT") == 0) return;
     const Words& words = line("VIEWPOINT", 7);
+    constexpr double kFarthest = 1e7, kWritten = 1e-6;  // m; as the digits of a file may have a rotation
     std::array<double, 7> value{};
     for (std::size_t i = 0; i < 7; ++i) {
       const auto [end, error] = std::from_chars(words[i].data(), words[i].data() + words[i].size(), value[i]);
-      const bool number = error == std::errc{} && end == words[i].data() + words[i].size() && std::isfinite(value[i]);
-      if (i < 3 && !(number && std::abs(value[i]) <= 1e7)) fail("VIEWPOINT", "is no finite place within 1e7 m");
-      // Points are taken as they stand in the file; who turned them by it would get others.
-      constexpr double kWritten = 1e-6;  // as the digits of a file may have it
-      if (i >= 3 && !(number && std::abs((i == 3 ? std::abs(value[i]) : value[i]) - (i == 3 ? 1.0 : 0.0)) <= kWritten))
-        fail("VIEWPOINT", "its rotation is not 1 0 0 0, and no other is taken");
+      if (error != std::errc{} || end != words[i].data() + words[i].size()) value[i] = NAN;
     }
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!(std::abs(value[i]) <= kFarthest)) fail("VIEWPOINT", "is no finite place within 1e7 m");
+    // Points are taken as they stand in the file; who turned them by it would get others.
+    value[3] = std::abs(value[3]) - 1.0;
+    for (std::size_t i = 3; i < 7; ++i)
+      if (!(std::abs(value[i]) <= kWritten)) fail("VIEWPOINT", "its rotation is not 1 0 0 0, and no other is taken");
     std::copy_n(value.begin(), 3, out.viewpoint.begin());
   }
 

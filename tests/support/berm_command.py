@@ -2,8 +2,10 @@
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import tempfile
+import time
 
 from journal_records import slowed_time
 
@@ -18,6 +20,21 @@ def run(program, *arguments, timeout=600, **options):
     command = [str(BIN / program), *map(str, arguments)]
     print("$", " ".join(command), flush=True)
     return subprocess.run(command, capture_output=True, text=True, timeout=timeout, **options)
+
+
+def interrupted(program, *arguments, after, of="stderr", patience=120):
+    """A terminal's interrupt, which goes to every process of the group, as soon as a line that begins so was said: the process, what it said on standard
+    output and error after that line, and how many seconds later it ended."""
+    command = [str(BIN / program), *map(str, arguments)]
+    print("$", " ".join(command), flush=True)
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+    line = next((line for line in getattr(process, of) if line.startswith(after)), None)
+    assert line is not None, f"it ended without '{after}'"
+    begin = time.monotonic()
+    os.killpg(process.pid, signal.SIGINT)
+    words, errors = process.communicate(timeout=patience)
+    return process, words, errors, time.monotonic() - begin
 
 
 def load(*arguments, timeout=600):

@@ -7,18 +7,14 @@ verifies: IF-CF-6, IF-CF-7, IF-CF-23
 """
 import csv
 import json
-import os
 import pathlib
 import shutil
-import signal
 import struct
-import subprocess
 import tempfile
-import time
 import tomllib
 import zlib
 
-from berm_command import BIN, ROOT, main, one_clear_line, run
+from berm_command import ROOT, interrupted, main, one_clear_line, run
 
 MACHINE = ROOT / "interface_spec/config/machines/zx200.toml"
 SITE = ROOT / "interface_spec/config/sites/bench.toml"
@@ -247,13 +243,7 @@ def bad_input():
 def a_terminals_interrupt_ends_it_at_once():
     """It goes to the simulated machine as well, which ends and says nothing any more: that must not be waited out."""
     out = scratch / "interrupted.toml"
-    process = subprocess.Popen([str(BIN / "berm_identify"), "--out", str(out), "--picture", ""], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                               start_new_session=True, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
-    assert process.stdout.readline().startswith("seed"), "no tests are made"
-    begin = time.monotonic()
-    os.killpg(process.pid, signal.SIGINT)
-    errors = process.communicate(timeout=60)[1]
-    took = time.monotonic() - begin
+    process, _, errors, took = interrupted("berm_identify", "--out", out, "--picture", "", after="seed", of="stdout")
     assert process.returncode == 2 and errors == "berm identify: interrupted: nothing is written\n" and not out.exists(), (process.returncode, errors)
     assert took < 2.5, f"{took:.1f} s"
 

@@ -6,15 +6,11 @@ verifies: SK-WM-51
 import csv
 import json
 import math
-import os
 import pathlib
 import re
-import signal
-import subprocess
 import tempfile
-import time
 
-from berm_command import BIN, main, one_clear_line, run
+from berm_command import interrupted, main, one_clear_line, run
 
 SEED = 1
 TRIALS = 6
@@ -117,14 +113,10 @@ def bad_input_is_one_line():
 def an_interrupt_ends_it_with_what_was_done():
     """The terminal's, which goes to every process of the group."""
     out = scratch / "interrupted.json"
-    process = subprocess.Popen([str(BIN / "berm_watch"), "--intrusions", "100000", "--seed", str(SEED), "--json", str(out)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                               start_new_session=True, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
-    time.sleep(20)
-    os.killpg(process.pid, signal.SIGINT)
-    words, errors = process.communicate(timeout=120)
+    process, words, errors, _ = interrupted("berm_watch", "--intrusions", 100000, "--seed", SEED, "--json", out, after="50 of")
     assert process.returncode == 1, (process.returncode, errors)
     done = int(re.search(r"berm watch: interrupted \(Interrupt\) after ([0-9]+) of 100000 intrusions\n", errors)[1])
-    assert done > 0, "nothing was done yet: this shows little"
+    assert done > 0
     result = json.loads(out.read_text())
     assert result["asked"] == 100000 and result["runs"] == done, result
     assert f"interrupted: {done} of 100000" in words, words
