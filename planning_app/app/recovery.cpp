@@ -18,6 +18,8 @@ constexpr double same_place = 1.0;      // m; a stop at the same place
 constexpr double same_within = 30.0;    // s after the last is the same trouble too
 constexpr double back_after = 9.0, back_every = 20.0;  // s of trouble
 constexpr double back_by = radians(20.0), back_speed = radians(8.0), back_longest = 6.0;  // the width of a bucket and of a person at 6 m; 1/s; s
+constexpr double under_implements = radians(15.0);  // a bucket's half width and a cell at 4 m
+constexpr double swing_moves = radians(3.5);          // 1/s: faster than any creeping
 constexpr double back_looks = 9.5;      // s: two sweeps, for the kernel's map forgets with the second
 constexpr double shortest_pause = 0.5, longest_pause = 4.0;  // s between attempts
 constexpr double looks_for = 25.0;      // s of trouble in which what is too high is waited for; then it is tried again, and the operator called
@@ -131,6 +133,12 @@ void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
     log.event("stopped", with_place(o, {{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}}));
 }
 
+// Of what lies under the implements the bearing says nothing: the way they came was clear, and the other may lead over a cab.
+double Recovery::way_back(const Observation& o) const {
+  const double off = wrapped(o.angle[swing] - o.blocked_bearing);
+  return came_ != 0.0 && std::fabs(off) < under_implements ? -came_ : std::copysign(1.0, off);
+}
+
 // Away from what blocked, then a look from there. True while it goes on.
 bool Recovery::swing_back(const Observation& o, Advice& advice) {
   if (back_ == Back::none) {
@@ -165,7 +173,10 @@ Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log,
       retreat_ = {};
     }
   }
-  if (handed_back_) return advice;
+  if (handed_back_) {
+    if (std::fabs(o.velocity[swing]) > swing_moves) came_ = std::copysign(1.0, o.velocity[swing]);
+    return advice;
+  }
   advice.in_charge = true;
   const double ran = o.time_s - running_s_;
   if (retreating(o)) {
@@ -201,7 +212,7 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log, bo
     blocked_x_ = o.blocked_x;
     blocked_y_ = o.blocked_y;
     over_high_ = o.stop_reason == BERM_STOP_OVERPASS;
-    back_way_ = std::copysign(1.0, wrapped(o.angle[swing] - o.blocked_bearing));
+    back_way_ = way_back(o);
   }
   if (waits_for_reset_ && !o.latched) {  // he has reset, and what keeps the machine now is another trouble
     told_.clear();

@@ -41,6 +41,7 @@ private:
   Advice running(const Observation& o, const ProgressLog& log, bool too_high_stands);
   bool moved_by_hand(const Observation& o) const;
   bool retreating(const Observation& o) const;
+  double way_back(const Observation& o) const;
   bool swing_back(const Observation& o, Advice& advice);
   void look_again(const Observation& o, Advice& advice);
 
@@ -60,6 +61,7 @@ private:
   bool over_high_ = false;                    // it was for what is too high to pass over
   enum class Back { none, swings, looks } back_ = Back::none;
   double next_back_s_ = 0.0, back_began_s_ = 0.0, back_from_ = 0.0, back_way_ = 0.0;
+  double came_ = 0.0;                         // the way of the plan's last swing: 1, -1; 0: none yet
 };
 
 }  // namespace berm::app

@@ -23,7 +23,7 @@ const char* Sequencer::phase_name(std::uint16_t phase) {
 
 Sequencer::Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, const ScriptSet& scripts, TruckFinder& finder, const ProgressLog& log)
     : scripts_(scripts), machine_(machine), scale_(scale_of(machine)), heaped_kg_(machine.bucket_payload_kg), full_bucket_kg_(full_share * heaped_kg_), site_(site), log_(log), trucks_(trucks), ground_(site_), arm_(machine_), brakes_(most_brake_share * machine.joint[swing].acceleration_max), joint_watch_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_),
-      load_check_(scale_.load), fill_(site.place.target_kg, full_bucket_kg_), pour_(heaped_kg_) {
+      load_check_(scale_.load), reach_again_(machine_), fill_(site.place.target_kg, full_bucket_kg_), pour_(heaped_kg_) {
   scanners_.begin_full_sweep();
 }
 
@@ -49,6 +49,7 @@ void Sequencer::begin_script(const Script& script) {
   if (const std::string wrong = goal_out_of_range(machine_, script); !wrong.empty()) log_.event("script_goal", {{"goal", wrong}});
   script_ = script;
   script_.start();
+  reach_again_.end();
   script_s_ = -1.0;
 }
 
@@ -91,6 +92,7 @@ Joints Sequencer::tempos() const {
   constexpr double least = 0.2;  // a swing that hardly moves may be waiting for the very joint
   const double share = std::max(least, arm_.shares()[swing]);
   Joints tempo{1.0, 1.0, 1.0, 1.0};
+  if (reach_again_.active()) return tempo;
   for (const Joint j : {boom, stick, bucket})
     if (script_.of(j).waited_for(swing)) tempo[j] = share;
   // A bucket that still opens when the swing has turned round is timed by it no more.
@@ -109,14 +111,15 @@ Joints Sequencer::run_script(const Observation& o, std::uint32_t events) {
     script_.evaluate(o.angle, events);
     script_s_ = o.time_s;
   }
-  return arm_.toward(stage_ == Stage::pass ? pass_goals(o.angle) : script_.goals(), script_.paces(), tempos(), o.angle, o.velocity);
+  return arm_.toward(stage_ == Stage::pass ? pass_goals(o) : script_.goals(), script_.paces(), tempos(), o.angle, o.velocity);
 }
 
 // A load that is poured in part: meanwhile the arm keeps its lip over the bed's middle, and on the way back the bucket holds the rest level.
-Joints Sequencer::pass_goals(const Joints& angle) const {
+Joints Sequencer::pass_goals(const Observation& o) {
   Joints goals = script_.goals();
+  if (reach_again_.active()) return reach_again_.goals(goals, poses_.carry, o.angle, swing_stands_at_goal(o));
   if (load_check_.pours_part() && script_.of(bucket).reached(RuleMark::opens)) {
-    const Joints pose = part_pose(machine_, task_, poses_, forward(machine_, angle).bucket_attitude);
+    const Joints pose = part_pose(machine_, task_, poses_, forward(machine_, o.angle).bucket_attitude);
     for (const Joint j : {boom, stick}) goals[j] = pose[j];
   }
   if (load_check_.keeps_rest() && !script_.of(swing).at_last()) goals[bucket] = level_bucket(machine_, goals[boom] + goals[stick]);
@@ -223,7 +226,7 @@ Answer Sequencer::step(const Observation& o) {
   // While the operator trams the machine its stops are his.
   const Recovery::Advice advice = stage_ == Stage::being_moved ? Recovery::Advice{} : recovery_.step(o, log_, too_high_stands());
   if (advice.rescan) scanners_.begin_full_sweep();
-  if (advice.resumed) script_.interrupted();
+  if (advice.resumed) go_on_with_script(o);
   if (advice.resumed && advice.moved && begins_anew_where_moved()) begin_dig_from_here(o);
   if (advice.resumed && (stage_ == Stage::go_look || stage_ == Stage::look)) begin_look(o);
   if (standing_.step(o, works() && o.running() && !advice.in_charge)) go_on_from_a_stand(o);

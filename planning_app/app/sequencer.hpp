@@ -10,6 +10,7 @@
 #include "app/observation.hpp"
 #include "app/pour_watch.hpp"
 #include "app/progress_log.hpp"
+#include "app/reach_again.hpp"
 #include "app/recovery.hpp"
 #include "app/slow_down.hpp"
 #include "app/standing_watch.hpp"
@@ -66,7 +67,7 @@ private:
   Joints dig(const Observation& o);
   Joints curl(const Observation& o);
   Joints pass(const Observation& o);
-  Joints pass_goals(const Joints& angle) const;
+  Joints pass_goals(const Observation& o);
   void plan_next_dig(const Observation& o);
   void tell_region(const Observation& o, const RegionDig& next) const;
   DigNeeds needs_for(double kg) const;
@@ -93,6 +94,7 @@ private:
   void go_on_from_a_stand(const Observation& o);
   void begin_dig_from_here(const Observation& o);
   bool begins_anew_where_moved() const;
+  void go_on_with_script(const Observation& o);
   void take_load_back(const Observation& o);
   void keep_load();
   void miss_approach(const Observation& o);
@@ -185,6 +187,7 @@ private:
   bool called_for_truck_ = false;             // in this stage
   bool brings_load_ = false;                  // the bucket still holds what was meant for a truck that is gone
   LoadCheck load_check_;
+  ReachAgain reach_again_;
   DumpPoint dump_;
   struct Dump { BedPoint at; double kg; };
   std::vector<Dump> dumps_;                   // into this truck

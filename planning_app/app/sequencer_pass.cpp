@@ -31,6 +31,7 @@ std::uint32_t Sequencer::pass_events(const Observation& o) {
   constexpr double open_at_least = 0.25, open_at_most = 2.0;
   const bool opening = script_.of(bucket).reached(RuleMark::opens);
   const std::uint32_t weighed = load_check_.weighed() ? event_weighed : event_none;
+  if (reach_again_.active()) return weighed;
   if (!opening || emptied_) return emptied_ ? event_emptied | event_empties | weighed : weighed;
   if (load_check_.pours_part()) return weighed;
   if (load_check_.keeps_rest()) {
@@ -73,13 +74,13 @@ double Sequencer::lifted_kg() const {
 }
 
 Joints Sequencer::pass(const Observation& o) {
-  const bool over_bed = script_.of(bucket).reached(RuleMark::opens);
-  const double tilt = load_check_.step({o.time_s, o.payload_kg, forward(machine_, o.angle).bucket_attitude, over_bed, sticking_.stays_kg(std::max(0.0, o.payload_kg))}, fill_, log_);
+  const auto opens = [this] { return script_.of(bucket).reached(RuleMark::opens) && !reach_again_.active(); };
+  const double tilt = load_check_.step({o.time_s, o.payload_kg, forward(machine_, o.angle).bucket_attitude, opens(), sticking_.stays_kg(std::max(0.0, o.payload_kg))}, fill_, log_);
   Joints command = run_script(o, pass_events(o));
   if (tilt >= 0.0) command[bucket] = tilt;
   if (!script_.of(swing).reached(RuleMark::leaves)) enter_phase(BERM_PHASE_LIFT, o);
   else if (script_.of(swing).reached(RuleMark::returns)) enter_phase(BERM_PHASE_SWING_TO_DIG, o);
-  else enter_phase(script_.of(bucket).reached(RuleMark::opens) ? BERM_PHASE_DUMP : BERM_PHASE_SWING_TO_TRUCK, o);
+  else enter_phase(opens() ? BERM_PHASE_DUMP : BERM_PHASE_SWING_TO_TRUCK, o);
   // On the way at any tilt: some buckets are never seen level, and one that nothing has weighed is booked by its goal, up to 200 kg too low.
   if (phase_ == BERM_PHASE_SWING_TO_TRUCK || carries_level(o)) before_.add(o.payload_kg);
   watch_pour(o);

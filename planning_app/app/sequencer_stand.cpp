@@ -50,6 +50,15 @@ bool Sequencer::begins_anew_where_moved() const {
   return digs_or_comes_to_dig() || (stage_ == Stage::pass && script_.of(swing).reached(RuleMark::returns));
 }
 
+void Sequencer::go_on_with_script(const Observation& o) {
+  script_.interrupted();
+  if (stage_ != Stage::pass || emptied_) return;
+  reach_again_.resumed(script_, script_.goals(), o.angle);
+  if (!reach_again_.active()) return;
+  open_since_s_ = -1.0;
+  log_.event("reaches_again", {{"time_s", o.time_s}, {"aside_deg", degrees(o.angle[swing] - script_.goals()[swing])}});
+}
+
 // Where it had begun to pour, that counts as poured.
 void Sequencer::take_load_back(const Observation& o) {
   if (has_poured()) book_pass(o);

@@ -220,6 +220,33 @@ TEST(Recovery, SwingsBackToLookAtWhatStopsItAgainAndAgain) {
   EXPECT_EQ(calls, 1);
 }
 
+// What lies under the implements, on either side of the arm's bearing: back the way they came, which was clear. Beyond the truck's bed is its cab.
+TEST(Recovery, SwingsBackTheWayItCameFromWhatLiesUnderTheImplements) {
+  for (const double came : {1.0, -1.0})
+    for (const double beside_deg : {-6.0, 6.0}) {
+      Recovery recovery(berm::app_bench::zx200());
+      const ProgressLog log(-1);
+      Observation moving = permitted(0.0);
+      moving.velocity[swing] = came * radians(20.0);
+      recovery.step(moving, log);
+      double angle = radians(60.0), before = angle;
+      bool stops = true;
+      for (int k = 1; k < 3000 && std::fabs(angle - before) < radians(19.0); ++k) {
+        const double t = 0.01 * k;
+        Observation o = stops ? stopped(t, BERM_STOP_COLLISION_PREDICTED) : permitted(t);
+        o.angle[swing] = angle;
+        o.blocked_bearing = radians(60.0 + beside_deg);
+        o.blocked_x = 4.0 * std::cos(o.blocked_bearing);
+        o.blocked_y = 4.0 * std::sin(o.blocked_bearing);
+        const auto advice = recovery.step(o, log);
+        angle += 0.01 * advice.velocity[swing];
+        if (!advice.in_charge) stops = true;
+        else if (k % 30 == 29) stops = false;
+      }
+      EXPECT_NEAR(degrees(angle - before), -came * 19.0, 1.0) << "came " << came << ", place at " << beside_deg;
+    }
+}
+
 // What may not be passed over is ground like any other: looked at again, crept away from.
 TEST(Recovery, GoesRoundWhatMayNotBePassedOver) {
   Recovery recovery(berm::app_bench::zx200());

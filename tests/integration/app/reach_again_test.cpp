@@ -1,0 +1,103 @@
+// A pass that was stopped on its way to the truck, and goes on from where the stop and its mending left it.
+#include <gtest/gtest.h>
+
+#include "app_bench/events.hpp"
+#include "app_bench/loading.hpp"
+
+namespace {
+
+using namespace berm::app;
+using berm::app_bench::Loading;
+using berm::app_bench::start_pose;
+
+class ReachAgainOnTheBench : public testing::Test {
+protected:
+  static void stop(Loading& run) {
+    run.plant.kernel_runs = false;
+    for (int k = 0; k < 100; ++k) run.step();
+  }
+  static void expect_no_contact(const Loading& run) {
+    EXPECT_EQ(run.plant.findings().wall_contacts, 0);
+    EXPECT_EQ(run.plant.findings().ground_contacts, 0);
+  }
+  berm::app_bench::Events events_;
+};
+
+// Short of the dump and beyond it: the arm, which had begun to reach out, waits for the swing again.
+TEST_F(ReachAgainOnTheBench, TheArmWaitsUntilTheSwingStandsOverTheBed) {
+  for (const double moved_deg : {-25.0, -8.0, 9.0}) {
+    Loading run(1, start_pose(), events_.fd());
+    const std::size_t before = events_.named("reaches_again").size();
+    while (run.last.phase != BERM_PHASE_SWING_TO_TRUCK && run.seconds < 60.0) run.step();
+    double folded = 0.0;
+    while (run.plant.angle()[stick] < folded + radians(4.0) && run.seconds < 60.0) {
+      run.step();
+      folded = std::min(folded, run.plant.angle()[stick]);
+    }
+    ASSERT_EQ(run.last.phase, BERM_PHASE_SWING_TO_TRUCK) << "it was to reach out now";
+    stop(run);
+    const double out = run.plant.angle()[stick], over_bed = run.plant.angle()[swing];
+    run.plant.put(swing, over_bed + radians(moved_deg));
+    for (int k = 0; k < 100; ++k) run.step();
+    const double carried_kg = run.plant.payload_kg();
+    run.plant.kernel_runs = true;
+    const double resumed = run.seconds;
+    bool drew_in = false;
+    while (run.last.phase != BERM_PHASE_DUMP && run.seconds < resumed + 30.0) {
+      run.step();
+      const Joints& q = run.plant.angle();
+      drew_in = drew_in || q[stick] < out - radians(2.0);
+      if (std::fabs(q[swing] - over_bed) > radians(6.0)) {
+        ASSERT_LT(q[stick], out + radians(1.0)) << "reached out " << degrees(q[swing] - over_bed) << " degrees from the dump";
+      }
+      ASSERT_GT(run.plant.payload_kg(), 0.97 * carried_kg) << "spilled on the way";
+    }
+    ASSERT_LT(run.seconds, resumed + 30.0) << "the pass did not go on, from " << moved_deg;
+    EXPECT_TRUE(drew_in) << moved_deg;
+    while (run.plant.site().bed_mass() < 1000.0 && run.seconds < resumed + 40.0) run.step();
+    EXPECT_GE(run.plant.site().bed_mass(), 1000.0);
+    EXPECT_EQ(events_.named("reaches_again").size(), before + 1);
+    expect_no_contact(run);
+  }
+}
+
+// The bucket had begun to open: it is held level until it is over the bed again.
+TEST_F(ReachAgainOnTheBench, NothingIsPouredBesideTheBed) {
+  for (const double moved_deg : {-25.0, 9.0}) {
+    Loading run(1, start_pose(), events_.fd());
+    while (run.last.phase != BERM_PHASE_DUMP && run.seconds < 60.0) run.step();
+    ASSERT_LT(run.seconds, 60.0);
+    stop(run);
+    const double over_bed = run.plant.angle()[swing], carried_kg = run.plant.payload_kg();
+    ASSERT_GT(carried_kg, 1000.0);
+    run.plant.put(swing, over_bed + radians(moved_deg));
+    for (int k = 0; k < 100; ++k) run.step();
+    run.plant.kernel_runs = true;
+    const double resumed = run.seconds;
+    while (std::fabs(run.plant.angle()[swing] - over_bed) > radians(4.0) && run.seconds < resumed + 30.0) {
+      run.step();
+      ASSERT_GT(run.plant.payload_kg(), 0.97 * carried_kg) << "poured " << degrees(run.plant.angle()[swing] - over_bed) << " degrees from the dump";
+    }
+    ASSERT_LT(run.seconds, resumed + 30.0);
+    const double before_kg = run.plant.site().bed_mass();
+    while (run.last.phase != BERM_PHASE_SWING_TO_DIG && run.seconds < resumed + 40.0) run.step();
+    for (int k = 0; k < 200; ++k) run.step();  // the last of it slides when the swing has turned round
+    EXPECT_GE(run.plant.site().bed_mass() - before_kg, 0.9 * carried_kg) << "the pass did not go on, from " << moved_deg;
+    expect_no_contact(run);
+  }
+}
+
+// Where it stands over the bed nothing is begun anew.
+TEST_F(ReachAgainOnTheBench, OverTheBedItGoesOn) {
+  Loading run(1, start_pose(), events_.fd());
+  while (run.last.phase != BERM_PHASE_DUMP && run.seconds < 60.0) run.step();
+  for (int k = 0; k < 30; ++k) run.step();
+  stop(run);
+  run.plant.kernel_runs = true;
+  const double resumed = run.seconds;
+  while (run.last.phase != BERM_PHASE_SWING_TO_DIG && run.seconds < resumed + 8.0) run.step();
+  EXPECT_LT(run.seconds, resumed + 8.0);
+  EXPECT_TRUE(events_.named("reaches_again").empty());
+}
+
+}  // namespace
