@@ -1,11 +1,13 @@
 // berm truck_world: scenes for a truck recogniser, as files.
 #include <fmt/format.h>
+#include <string.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <exception>
 #include <filesystem>
 
+#include "run/interruption.hpp"
 #include "truck_world/options.hpp"
 #include "truck_world/scene_files.hpp"
 
@@ -22,22 +24,27 @@ int run(int argc, char** argv) {
 
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const auto begin = std::chrono::steady_clock::now();
-  const int first = o.only >= 0 ? o.only : 0, end = o.only >= 0 ? o.only + 1 : o.scenes;
-  int trucks = 0, look_alikes = 0;
-  for (int number = first; number < end; ++number) {
+  const int first = o.only >= 0 ? o.only : 0, end = o.only >= 0 ? o.only + 1 : o.scenes, asked = end - first;
+  const run::Interruption interruption;
+  int trucks = 0, look_alikes = 0, done = 0;
+  for (int number = first; number < end && !interruption.asked(); ++number) {
     const Scene scene = draw_scene(classes, o.scene, o.seed, number);
     write_scene(o.out, scene, o.picture);
     trucks += scene.truth.truck ? 1 : 0;
     look_alikes += scene.truth.look_alike.empty() ? 0 : 1;
-    const int done = number - first + 1;
-    if (terminal) fmt::print(stderr, "\r{} of {} scenes", done, end - first);
-    else if (done % 100 == 0) fmt::print(stderr, "{} of {} scenes\n", done, end - first);
+    done = number - first + 1;
+    if (terminal) fmt::print(stderr, "\r{} of {} scenes", done, asked);
+    else if (done % 100 == 0) fmt::print(stderr, "{} of {} scenes\n", done, asked);
   }
   if (terminal) fmt::print(stderr, "\n");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  fmt::print("{} scenes in {}: {} with a truck, {} with something like one, {} with neither; {:.1f} scenes/s\n", end - first, o.out, trucks,
-             look_alikes, end - first - trucks - look_alikes, (end - first) / std::max(seconds, 1e-9));
-  return 0;
+  const int signal = done < asked ? interruption.take() : 0;
+  if (signal != 0) fmt::print(stderr, "berm truck_world: interrupted ({}) after {} of {} scenes\n", strsignal(signal), done, asked);
+  if (done == 0) return 1;
+  const std::string of = done < asked ? fmt::format(" of {}", asked) : "";
+  fmt::print("{}{} scenes in {}{}: {} with a truck, {} with something like one, {} with neither; {:.1f} scenes/s\n", done, of, o.out,
+             of.empty() ? "" : " (interrupted)", trucks, look_alikes, done - trucks - look_alikes, done / std::max(seconds, 1e-9));
+  return signal == 0 ? 0 : 1;
 }
 
 }  // namespace

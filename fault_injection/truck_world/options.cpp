@@ -9,7 +9,7 @@ std::optional<int> read_options(int argc, char** argv, const std::string& classe
   CLI::App app{
       "Draws scenes with and without a truck, casts one sweep of a scanner over each, and writes the cloud and its truth. For N scenes:\n"
       "DIR/scene_000000.pcd (base frame, metres), .json (truth) and .labels.csv (what each point is of), and so on.\n"
-      "Exit status 0: all was written; 2: bad input, or something could not be written.",
+      "Exit status 0: all was written; 1: SIGINT or SIGTERM ended it, and every scene begun is whole; 2: bad input, or something could not be written.",
       "berm truck_world"};
   app.add_option("--scenes", o.scenes, "this many scenes, numbered from 0")->required()->check(CLI::Range(1, 1000000));
   app.add_option("--seed", o.seed, "seed of every draw")->capture_default_str();

@@ -1,5 +1,6 @@
 // berm trucks: drawn scenes with and without a truck through the app's recogniser, judged by the truth.
 #include <fmt/format.h>
+#include <string.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
@@ -7,6 +8,7 @@
 #include "config/command_line.hpp"
 #include "config/whole_file.hpp"
 #include "in_process/workers.hpp"
+#include "run/interruption.hpp"
 #include "truck_world/arrival.hpp"
 
 namespace berm::truck_world {
@@ -96,7 +98,8 @@ int run(int argc, char** argv) {
   o.scene.samples = kSamples;
   CLI::App app{
       "Draws N scenes with a truck and N without, gives one sweep over each to the planning app's truck recogniser, and judges the answers by the\n"
-      "truth. Failures are listed with the command that repeats them. Exit status 0: every truck was recognised and nothing else was.",
+      "truth. Failures are listed with the command that repeats them. Exit status 0: every truck was recognised and nothing else was.\n"
+      "SIGINT or SIGTERM ends it with the result of what was judged until then, and status 1.",
       "berm trucks"};
   app.add_option("--scenes", o.scenes, "this many with a truck, and this many without")->required()->check(CLI::Range(1, 1000000));
   app.add_option("--seed", o.seed, "seed of every draw")->capture_default_str();
@@ -123,11 +126,12 @@ int run(int argc, char** argv) {
   const app::TruckRangeSet ranges = app::read_truck_ranges(o.ranges);
   const int first = o.only >= 0 ? o.only : 0, count = o.only >= 0 ? 1 : o.scenes;
   const bool terminal = isatty(STDERR_FILENO) != 0;
+  const run::Interruption interruption;  // before the threads
   std::vector<Judged> judged(static_cast<std::size_t>(count));
   std::vector<bool> ready(judged.size(), false);
   Judged all;
   std::size_t told = 0;  // in the order of the scenes, whatever is done first
-  in_process::run_trials(
+  const int done = in_process::run_trials(
       count, o.jobs, [&](int k) { judged[static_cast<std::size_t>(k)] = trials_of(first + k, o, classes, ranges); },
       [&](int finished, int k) {
         ready[static_cast<std::size_t>(k)] = true;
@@ -136,14 +140,20 @@ int run(int argc, char** argv) {
           add(all, judged[told]);
         }
         if (terminal && finished % 10 == 0) fmt::print(stderr, "\r{} of {} scenes", finished, count);
-      });
+      },
+      [&] { return interruption.asked(); });
   if (terminal) fmt::print(stderr, "\n");
-  nlohmann::ordered_json json = summary(all.whole);
+  const int signal = done < count ? interruption.take() : 0;
+  if (signal != 0) fmt::print(stderr, "berm trucks: interrupted ({}) after {} of {} scenes\n", strsignal(signal), done, count);
+  if (done == 0) return 1;
+  nlohmann::ordered_json json{{"asked", count}, {"scenes", done}};
+  json.update(summary(all.whole));
   if (o.arriving) json["arriving"] = summary(all.arrived);
+  if (done < count) fmt::print("{} of {} scenes: interrupted\n", done, count);
   fmt::print("{}\n", json.dump(1));
   if (!o.table.empty()) config::write_whole_file(o.table, table(all.whole));
   if (!o.json.empty()) config::write_whole_file(o.json, json.dump(1) + "\n");
-  return json["trucks"] == json["recognised"] && json["false_accepts"] == 0 ? 0 : 1;
+  return signal == 0 && json["trucks"] == json["recognised"] && json["false_accepts"] == 0 ? 0 : 1;
 }
 
 }  // namespace

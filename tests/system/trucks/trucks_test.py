@@ -2,9 +2,10 @@
 import json
 import math
 import pathlib
+import re
 import tempfile
 
-from berm_command import main, one_clear_line, run
+from berm_command import interrupted, main, one_clear_line, run
 
 scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-trucks-"))
 SUMMARY = {"trucks", "recognised", "corner_error_m_p95", "yaw_error_deg_p95", "dimension_error_m_p95", "height_error_m_p95", "height_within_95", "nees_ratio", "non_trucks", "false_accepts",
@@ -106,6 +107,28 @@ def several_jobs_judge_the_same():
     assert judged(1) == judged(3)
 
 
+def an_interrupt_ends_trucks_with_what_was_judged():
+    out, rows = scratch / "interrupted.json", scratch / "interrupted.csv"
+    process, words, errors, _ = interrupted("berm_trucks", "--scenes", 100000, "--seed", SEED, "--list", "--jobs", 2, "--json", out, "--table", rows, after="found ", of="stdout")
+    assert process.returncode == 1, (process.returncode, errors)
+    done = int(re.search(r"^berm trucks: interrupted \(Interrupt\) after ([0-9]+) of 100000 scenes\n", errors)[1])
+    assert done > 0 and f"\n{done} of 100000 scenes: interrupted\n" in words, words
+    result = json.loads(out.read_text())
+    assert result["asked"] == 100000 and result["scenes"] == result["trucks"] == result["non_trucks"] == done, result
+    scenes = {int(line.split(",")[0]) for line in rows.read_text().splitlines()[1:]}
+    assert scenes == set(range(done)), scenes
+
+
+def an_interrupt_ends_truck_world_with_whole_scenes():
+    folder = scratch / "interrupted"
+    process, words, errors, _ = interrupted("berm_truck_world", "--scenes", 100000, "--seed", SEED, "--points", 9200, "--out", folder, after="100 of")
+    assert process.returncode == 1, (process.returncode, errors)
+    done = int(re.search(r"^berm truck_world: interrupted \(Interrupt\) after ([0-9]+) of 100000 scenes\n", errors, re.MULTILINE)[1])
+    assert done >= 100 and words.startswith(f"{done} of 100000 scenes in {folder} (interrupted): "), words
+    expected = {f"scene_{number:06d}{ending}" for number in range(done) for ending in (".pcd", ".labels.csv", ".json")}
+    assert {path.name for path in folder.iterdir()} == expected, "not the first scenes, each whole"
+
+
 def offline(content, number):
     """The same scene through files: what berm_recognize answers, and the truth."""
     folder = scratch / content
@@ -147,4 +170,5 @@ def what_is_malformed_is_refused():
     assert done.returncode == 1 and "no truck: " in done.stdout, (done.returncode, done.stdout, done.stderr)
 
 
-main([a_drawn_truck_is_found_and_bare_ground_is_none, the_height_is_known_as_well_as_it_says, what_tells_a_bed_from_a_pit, as_scanlines_arrive, several_jobs_judge_the_same, what_is_malformed_is_refused])
+main([a_drawn_truck_is_found_and_bare_ground_is_none, the_height_is_known_as_well_as_it_says, what_tells_a_bed_from_a_pit, as_scanlines_arrive, several_jobs_judge_the_same,
+      an_interrupt_ends_trucks_with_what_was_judged, an_interrupt_ends_truck_world_with_whole_scenes, what_is_malformed_is_refused])
