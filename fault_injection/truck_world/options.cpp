@@ -36,11 +36,10 @@ std::optional<int> read_options(int argc, char** argv, const std::string& classe
   app.add_flag("--picture", o.picture, "also DIR/scene_000000.svg, from above and from the side, with the truth over the points");
   if (const auto status = config::parse_options(app, argc, argv)) return status;
   o.scene.content = all ? Content::truck : none ? Content::no_truck : Content::either;
-  if (o.only >= o.scenes) {
-    fmt::print(stderr, "berm truck_world: --only: {} is not below --scenes {} (see --help)\n", o.only, o.scenes);
-    return 2;
-  }
-  return std::nullopt;
+  const std::string wrong = config::not_below("--only", o.only, "--scenes", o.scenes);
+  if (wrong.empty()) return std::nullopt;
+  fmt::print(stderr, "berm truck_world: {} (see --help)\n", wrong);
+  return 2;
 }
 
 }  // namespace berm::truck_world

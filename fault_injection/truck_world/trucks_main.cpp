@@ -121,6 +121,10 @@ int run(int argc, char** argv) {
   app.add_option("--classes", o.drawn, "file of truck classes that are drawn")->capture_default_str();
   app.add_option("--ranges", o.ranges, "file of truck classes that are recognised")->capture_default_str();
   if (const auto status = config::parse_options(app, argc, argv)) return *status;
+  if (const std::string wrong = config::not_below("--only", o.only, "--scenes", o.scenes); !wrong.empty()) {
+    fmt::print(stderr, "berm trucks: {} (see --help)\n", wrong);
+    return 2;
+  }
 
   const std::vector<TruckClass> classes = read_truck_classes(o.drawn);
   const app::TruckRangeSet ranges = app::read_truck_ranges(o.ranges);

@@ -90,6 +90,11 @@ int run(int argc, char** argv) {
     fmt::print(stderr, "berm validate: --trace needs --only\n");
     return 2;
   }
+  // Of runs that nobody counted any one may be repeated, as a failure's command does.
+  if (const std::string wrong = config::not_below("--only", options.only, "--runs", options.runs); app.count("--runs") > 0 && !wrong.empty()) {
+    fmt::print(stderr, "berm validate: {} (see --help)\n", wrong);
+    return 2;
+  }
   const Bench bench = make_bench(options.machine);
   // Where nobody watches the ground round the tail it must be fenced, as the kernel says when it starts: the sweep keeps to that.
   const double fence = bench.machine.tail.watched ? 0.0 : bench.machine.own_body_radius + bench.machine.tail.clearance;

@@ -157,7 +157,7 @@ ordered_json slowest_of(const Campaign& campaign, Some some) {
 }  // namespace
 
 std::string command_of(const Campaign& campaign, const IntrusionResult& r) {
-  return fmt::format("./berm watch --intrusions 1 --seed {} --only {} --machine {}{}", r.intrusion.seed, r.intrusion.run, campaign.machine,
+  return fmt::format("./berm watch --intrusions {} --seed {} --only {} --machine {}{}", r.intrusion.run + 1, r.intrusion.seed, r.intrusion.run, campaign.machine,
                      campaign.histogram ? " --histogram" : "");
 }
 

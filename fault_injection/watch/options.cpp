@@ -11,6 +11,7 @@ std::string refusal(const Options& o) {
   const int modes = (o.scenario.empty() ? 0 : 1) + (o.intrusions > 0 ? 1 : 0) + (o.quiet_hours > 0.0 ? 1 : 0);
   if (modes != 1) return "give exactly one of --scenario, --intrusions, --quiet-hours";
   if (o.only >= 0 && o.intrusions == 0) return "--only: goes with --intrusions alone";
+  if (const std::string beyond = config::not_below("--only", o.only, "--intrusions", o.intrusions); !beyond.empty()) return beyond;
   if (!o.trace.empty() && o.only < 0) return "--trace: needs --only";
   if (!o.picture.empty() && o.scenario.empty()) return "--picture: goes with --scenario alone";
   if (!o.out.empty() && o.scenario.empty()) return "--out: goes with --scenario alone";

@@ -86,6 +86,11 @@ inline void watch_standard_output(const std::string& command) {
 // Of an option: the file that the command writes.
 inline CLI::Option* output(CLI::Option* option) { return option->type_name(command_line::kOutput); }
 
+// Of a number that counts from 0: why it is none of so many; empty when it is one.
+inline std::string not_below(const char* option, int number, const char* of, int count) {
+  return number < count ? "" : fmt::format("{}: {} is not below {} {}", option, number, of, count);
+}
+
 // The exit status when the program should end now.
 inline std::optional<int> parse_options(CLI::App& app, int argc, char** argv) {
   const auto refused = [&app](std::string what) {

@@ -152,12 +152,16 @@ def what_is_malformed_is_refused():
     good = next((scratch / "truck").glob("*.pcd"))
     cases = (("berm_recognize", (scratch / "none.pcd",), "none.pcd"), ("berm_recognize", (short,), "short.pcd"), ("berm_recognize", (), "FILE"),
              ("berm_recognize", (good, "--classes", classes), "slack"), ("berm_trucks", (), "scenes"), ("berm_trucks", ("--scenes", 0), "scenes"),
+             ("berm_trucks", ("--scenes", 3, "--only", 3), "--only: 3 is not below --scenes 3"),
              ("berm_trucks", ("--scenes", 1, "--ranges", classes), "slack"))
     for program, options, word in cases:
         out = scratch / "refused.json"
         done = run(program, *options, "--json", out)
         one_clear_line(done, word)
-        assert not out.exists(), f"{program} {options}: left a result"
+        assert done.returncode == 2 and not out.exists(), f"{program} {options}: {done.returncode}, or left a result"
+    beyond = run("berm_truck_world", "--scenes", 3, "--only", 3, "--out", scratch / "beyond")
+    one_clear_line(beyond, "--only: 3 is not below --scenes 3")
+    assert beyond.returncode == 2 and not (scratch / "beyond").exists()
     for left, missing in (("time", "scanline"), ("scanline", "time")):  # else a cloud that is no sweep would be one without a truck
         lacking = scratch / "lacking.pcd"
         lacking.write_text(f"VERSION 0.7\nFIELDS x y z {left}\nSIZE 4 4 4 4\nTYPE F F F {'F' if left == 'time' else 'U'}\nCOUNT 1 1 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3 0\n")

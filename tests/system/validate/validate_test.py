@@ -96,6 +96,9 @@ def an_interrupt_ends_it_with_what_was_done():
 def bad_input_is_one_line():
     one_clear_line(run("berm_validate", "--runs", 0), "--runs")
     one_clear_line(run("berm_validate", "--trace", "t.csv"), "--only")
+    beyond = run("berm_validate", "--runs", 3, "--only", 3)
+    one_clear_line(beyond, "--only: 3 is not below --runs 3")
+    assert beyond.returncode == 2, beyond.returncode
     one_clear_line(run("berm_validate", "--machine", "no_such"), "no_such")
     one_clear_line(run("berm_validate", "--surprise"), "--surprise")
 

@@ -38,6 +38,8 @@ def trials_are_judged_the_same_again():
     assert result["detected"] >= 2, "hardly anybody was detected: the trials show nothing"
     assert sum(result["detected_by"].values()) == result["detected"]
     assert result["slowest"][0]["seen_to_stop_ms"] == result["seen_to_stop_ms_max"] and "--only" in result["slowest"][0]["command"]
+    of, number = map(int, re.search(r"--intrusions ([0-9]+) .*--only ([0-9]+) ", result["slowest"][0]["command"]).groups())
+    assert number < of, "the command that repeats a trial would be refused"
     assert 0 < result["detect_ms_p50"] <= result["detect_ms_p95"]
     assert 0 <= result["seen_to_stop_ms_p50"] <= result["seen_to_stop_ms_p95"] <= result["seen_to_stop_ms_max"]
     # From a point to the stop: at most the monitor's wait and two periods (3 s) and some cycles, once its cell is judged at all.
@@ -51,7 +53,7 @@ def trials_are_judged_the_same_again():
 
 def one_trial_is_repeated_alone():
     out, trace = scratch / "one.json", scratch / "one.csv"
-    done = run("berm_watch", "--intrusions", 1, "--seed", SEED, "--only", 1, "--json", out, "--trace", trace, timeout=100)
+    done = run("berm_watch", "--intrusions", TRIALS, "--seed", SEED, "--only", 1, "--json", out, "--trace", trace, timeout=100)
     one = json.loads(out.read_text())
     assert one["runs"] == 1 and one["detected"] == 1, done.stdout
     rows = list(csv.DictReader(open(trace, newline="")))
@@ -102,7 +104,7 @@ def quiet_hours_count_what_they_simulate():
 
 def bad_input_is_one_line():
     for words, named in ((("--seed", 1), "exactly one"), (("--intrusions", 3, "--quiet-hours", 1), "exactly one"), (("--intrusions", 0), "--intrusions"),
-                         (("--quiet-hours", -1), "--quiet-hours"), (("--intrusions", 3, "--trace", "t.csv"), "--only"), (("--intrusions", 3, "--picture", "p.svg"), "--picture"),
+                         (("--quiet-hours", -1), "--quiet-hours"), (("--intrusions", 3, "--trace", "t.csv"), "--only"), (("--intrusions", 3, "--only", 3), "--only: 3 is not below --intrusions 3"), (("--intrusions", 3, "--picture", "p.svg"), "--picture"),
                          (("--scenario", "no_such"), "no_such"), (("--intrusions", 1, "--machine", "no_such"), "no_such"), (("--scenario", "bench", "--max-time", 0), "--max-time"),
                          (("--surprise",), "--surprise")):
         done = run("berm_watch", *words, timeout=30)
