@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <sstream>
 #include <string_view>
@@ -80,6 +81,19 @@ class Depth {
   std::vector<std::size_t> outside_;  // the depth outside of each open bracket
 };
 
+// toml11's first line of it: [error] toml::insert_value: ... ("KEY") or (KEY) ... . The key as its own part of the file has it, without the header's;
+// empty for another error, and for a key that would not stay in a line.
+std::string key_defined_again(const std::string& error) {
+  const std::string_view line = std::string_view(error).substr(0, error.find('\n'));
+  if (line.find("toml::insert_value: ") == std::string_view::npos) return "";
+  const std::size_t open = line.find('('), close = line.rfind(')');
+  if (open == std::string_view::npos || close == std::string_view::npos || close < open) return "";
+  std::string_view key = line.substr(open + 1, close - open - 1);
+  if (key.size() > 2 && key.front() == '"' && key.back() == '"') key = key.substr(1, key.size() - 2);
+  if (std::any_of(key.begin(), key.end(), [](unsigned char c) { return std::iscntrl(c) != 0; })) return "";
+  return std::string(key);
+}
+
 }  // namespace
 
 toml::value parse_toml_file(const std::string& file) {
@@ -96,6 +110,8 @@ toml::value parse_toml_file(const std::string& file) {
     std::istringstream lines(std::move(text));
     return toml::parse(lines, file);
   } catch (const toml::exception& error) {
+    if (const std::string key = key_defined_again(error.what()); !key.empty())
+      throw ConfigError(fmt::format("{}: line {}: not valid TOML: {} is defined already", file, error.location().line(), key));
     throw ConfigError(fmt::format("{}: line {}: not valid TOML", file, error.location().line()));
   } catch (const ConfigError&) {
     throw;

@@ -40,7 +40,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 const std::vector<BadEdit>& bad_machine_edits() {
   static const std::vector<BadEdit> edits = {
       {"syntax", "schema = 1", "schema = = 1", "line 3", "not valid TOML"},
-      {"key twice", "schema = 1", "schema = 1\nschema = 1", "line", "not valid TOML"},
+      {"key twice", "schema = 1", "schema = 1\nschema = 1", "line 4", "not valid TOML: schema is defined already"},
       {"other schema", "schema = 1", "schema = 2", "schema", "2 is outside 1 .. 1"},
       {"schema as text", "schema = 1", "schema = \"1\"", "schema", "whole number"},
       {"no name", "name = \"zx200\"", "", "name", "is missing"},

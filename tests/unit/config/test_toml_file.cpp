@@ -78,6 +78,21 @@ TEST(TomlFile, WhatHasNoEndIsRefused) {
   }
 }
 
+TEST(TomlFile, AKeyThatIsDefinedAgainIsNamed) {
+  EXPECT_EQ(verdict("a = 1\nb = 2\na = 3\n"), ": line 3: not valid TOML: a is defined already");
+  EXPECT_EQ(verdict("[t]\na = 1\nb = 2\na = [\n3,\n4]\n"), ": line 4: not valid TOML: a is defined already");
+  EXPECT_EQ(verdict("[t]\na = 1\n[u]\n[t]\nb = 1\n"), ": line 4: not valid TOML: t is defined already");
+  EXPECT_EQ(verdict("[t.u]\na = 1\n[t.u]\na = 1\n"), ": line 3: not valid TOML: t.u is defined already");
+  EXPECT_EQ(verdict("t.a = 1\nt.a = 2\n"), ": line 2: not valid TOML: t.a is defined already");
+  EXPECT_EQ(verdict("t = {a = 1,\ta = 2}\n"), ": line 1: not valid TOML: a is defined already");
+  EXPECT_EQ(verdict("t = {a = 1}\nt.b = 2\n"), ": line 2: not valid TOML: t is defined already");
+  EXPECT_EQ(verdict("a = 1\n[a.b]\nc = 1\n"), ": line 2: not valid TOML: a is defined already");
+  EXPECT_EQ(verdict("[a]\nb = 1\n[[a]]\nb = 1\n"), ": line 3: not valid TOML: a is defined already");
+  EXPECT_EQ(verdict("a = [1]\n[[a]]\nb = 1\n"), ": line 2: not valid TOML: a is defined already");
+  EXPECT_EQ(verdict("\"a (b)\" = 1\n\"a (b)\" = 1\n"), ": line 2: not valid TOML: a (b) is defined already");
+  EXPECT_EQ(verdict("\"a\\nb\" = 1\n\"a\\nb\" = 1\n"), ": line 2: not valid TOML") << "its error would be two lines";
+}
+
 TEST(TomlFile, OtherRefusalsStayAsTheyAre) {
   EXPECT_EQ(verdict("a = = 1\n"), ": line 1: not valid TOML");
   EXPECT_EQ(verdict(""), "read");
