@@ -4,7 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -94,6 +99,60 @@ std::string key_defined_again(const std::string& error) {
   return std::string(key);
 }
 
+// toml11 takes the nearest that fits for a number that does not, and of a binary one what is left of it.
+class Fit {
+ public:
+  Fit(const std::string& file, std::string_view text) : file_(file) {
+    for (std::size_t at = text.find("0b"); at != std::string_view::npos && !binary_; at = text.find("0b", at + 2)) {
+      const std::size_t end = std::min(text.find_first_not_of("01_", at + 2), text.size());
+      binary_ = end - at - 2 >= kBits;
+    }
+  }
+
+  void check(const toml::value& value, const std::string& field) const {
+    if (value.is_table()) {
+      for (const auto& [key, inner] : value.as_table()) check(inner, field.empty() ? key : field + "." + key);
+    } else if (value.is_array()) {
+      std::size_t i = 0;
+      for (const toml::value& inner : value.as_array()) check(inner, inner.is_table() ? fmt::format("{}[{}]", field, i++) : field);
+    } else if (value.is_integer()) {
+      const std::int64_t x = value.as_integer();  // only those are looked at in the text that may be another's stand-in: that is slow
+      if ((x == Integer::max() || x == Integer::min() || binary_) && !integer_fits(written(value))) refuse(field, written(value), Integer::min(), Integer::max());
+    } else if (value.is_floating() && std::abs(value.as_floating()) == Floating::max()) {
+      if (!std::isfinite(std::strtod(written(value).c_str(), nullptr))) refuse(field, written(value), -Floating::max(), Floating::max());
+    }
+  }
+
+ private:
+  using Integer = std::numeric_limits<std::int64_t>;
+  using Floating = std::numeric_limits<double>;
+  static constexpr std::size_t kBits = 64;
+
+  // As the file has it, without the underscores.
+  static std::string written(const toml::value& value) {
+    const toml::source_location place = value.location();
+    std::string text = place.line_str().substr(place.column() - 1, place.region());
+    text.erase(std::remove(text.begin(), text.end(), '_'), text.end());
+    return text;
+  }
+
+  static bool integer_fits(const std::string& text) {
+    const std::string_view prefix = std::string_view(text).substr(0, 2);
+    const int base = prefix == "0x" ? 16 : prefix == "0o" ? 8 : prefix == "0b" ? 2 : 10;
+    const char* begin = text.data() + (base != 10 ? 2 : text.front() == '+' ? 1 : 0);
+    std::int64_t x = 0;
+    return std::from_chars(begin, text.data() + text.size(), x, base).ec == std::errc();
+  }
+
+  template <typename Number>
+  [[noreturn]] void refuse(const std::string& field, const std::string& text, Number low, Number high) const {
+    throw ConfigError(fmt::format("{}: {}: {} is outside {} .. {}", file_, field, text, low, high));
+  }
+
+  const std::string& file_;
+  bool binary_ = false;  // there is one of 64 digits or more
+};
+
 }  // namespace
 
 toml::value parse_toml_file(const std::string& file) {
@@ -107,8 +166,11 @@ toml::value parse_toml_file(const std::string& file) {
     if (text.size() > kLargest) throw ConfigError(fmt::format("{}: more than {} bytes", file, kLargest));
     if (const std::size_t line = Depth(text).too_deep_line(); line != 0)
       throw ConfigError(fmt::format("{}: line {}: nested more than {} deep", file, line, kDeepest));
+    const Fit fit(file, text);
     std::istringstream lines(std::move(text));
-    return toml::parse(lines, file);
+    toml::value value = toml::parse(lines, file);
+    fit.check(value, "");
+    return value;
   } catch (const toml::exception& error) {
     if (const std::string key = key_defined_again(error.what()); !key.empty())
       throw ConfigError(fmt::format("{}: line {}: not valid TOML: {} is defined already", file, error.location().line(), key));

@@ -218,6 +218,8 @@ def bad_input():
     out = scratch / "none.toml"
     broken = scratch / "broken.toml"
     broken.write_text(MACHINE.read_text().replace("boom = 5.648", "boom = -1.0"))
+    huge = scratch / "huge.toml"
+    huge.write_text(MACHINE.read_text().replace("boom = 5.648", "boom = 99999999999999999999"))
     inline = scratch / "inline.toml"
     inline.write_text(MACHINE.read_text().replace("[latency]", "latency = {command = 0.10, state = 0.02}\n[elsewhere]", 1).replace("[elsewhere]", "[kernel_unused]"))
     heavy = scratch / "heavy.toml"
@@ -226,7 +228,8 @@ def bad_input():
             (("--no-such-option",), ("no-such-option",)), (("--columns", 8), ("columns",)), (("--columns", 0), ("columns",)), (("--joint", "arm"), ("joint",)),
             (("--repetitions", 0), ("repetitions",)), (("--allowance", -0.1), ("allowance",)), (("--seed", "many"), ("seed",)),
             (("--machine", "no-such-machine"), ("no-such-machine",)), (("--machine", scratch / "missing.toml"), ("missing.toml",)),
-            (("--machine", broken), ("broken.toml", "kinematics.boom", "1 .. 12")), (("--machine", inline), ("inline.toml",)),
+            (("--machine", broken), ("broken.toml", "kinematics.boom", "1 .. 12")), (("--machine", huge), ("huge.toml: kinematics.boom: 99999999999999999999 is outside",)),
+            (("--machine", inline), ("inline.toml",)),
             (("--scenario", "no-such-scenario"), ("no-such-scenario",)), (("--scenario", heavy), ("heavy.toml", "start.ballast_kg", "1800")),
             (("--json", scratch / "no" / "x.json"), ("x.json", "folder"))):
         one_clear_line(run("berm_identify", *REDUCED, "--out", out, "--picture", "", *arguments, timeout=60), *words)

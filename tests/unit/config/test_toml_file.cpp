@@ -78,6 +78,7 @@ TEST(TomlFile, WhatHasNoEndIsRefused) {
   }
 }
 
+// verifies: IF-CF-1
 TEST(TomlFile, AKeyThatIsDefinedAgainIsNamed) {
   EXPECT_EQ(verdict("a = 1\nb = 2\na = 3\n"), ": line 3: not valid TOML: a is defined already");
   EXPECT_EQ(verdict("[t]\na = 1\nb = 2\na = [\n3,\n4]\n"), ": line 4: not valid TOML: a is defined already");
@@ -91,6 +92,26 @@ TEST(TomlFile, AKeyThatIsDefinedAgainIsNamed) {
   EXPECT_EQ(verdict("a = [1]\n[[a]]\nb = 1\n"), ": line 2: not valid TOML: a is defined already");
   EXPECT_EQ(verdict("\"a (b)\" = 1\n\"a (b)\" = 1\n"), ": line 2: not valid TOML: a (b) is defined already");
   EXPECT_EQ(verdict("\"a\\nb\" = 1\n\"a\\nb\" = 1\n"), ": line 2: not valid TOML") << "its error would be two lines";
+}
+
+// verifies: IF-CF-1
+// toml11 makes 9223372036854775807 of it, and of a binary one its last 64 digits.
+TEST(TomlFile, ANumberThatFitsNowhereIsNamedAsItStands) {
+  const std::string integers = " is outside -9223372036854775808 .. 9223372036854775807";
+  EXPECT_EQ(verdict("[t]\na = 99_999_999_999_999_999_999\n"), ": t.a: 99999999999999999999" + integers);
+  for (const char* number : {"9223372036854775808", "-9223372036854775809", "+99999999999999999999", "0xFFFFFFFFFFFFFFFF", "0o7777777777777777777777"})
+    EXPECT_EQ(verdict("b = 1\na.c = [1, " + std::string(number) + "] # more\n"), ": a.c: " + std::string(number) + integers);
+  const std::string binary = "0b1" + std::string(63, '0');
+  EXPECT_EQ(verdict("[[u]]\n[[u]]\na = " + binary + "101\n"), ": u[1].a: " + binary + "101" + integers);
+  EXPECT_EQ(verdict("a = [[1], [" + binary + "]]\n"), ": a: " + binary + integers);
+  EXPECT_NE(verdict("a = -1e999\n").find(": a: -1e999 is outside -1.79"), std::string::npos);
+}
+
+TEST(TomlFile, TheLastNumberThatFitsIsRead) {
+  EXPECT_EQ(verdict("a = [9223372036854775807, -9223372036854775808, +9_223_372_036_854_775_807, 0x7FFFFFFFFFFFFFFF, 0o777777777777777777777]\n"), "read");
+  EXPECT_EQ(verdict("a = 0b" + std::string(63, '1') + "\nb = 1\nc = -1_0\n"), "read");
+  EXPECT_EQ(verdict("a = 0b" + std::string(10, '0') + std::string(63, '1') + "\nb = 1\nc = -1_0\nd = 0xF\ne = +5\n"), "read");
+  EXPECT_EQ(verdict("a = [1.7976931348623157e308, -1.7976931348623157e308, inf, -inf, nan, 1e-999]\n"), "read");
 }
 
 TEST(TomlFile, OtherRefusalsStayAsTheyAre) {
