@@ -3,7 +3,6 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -11,14 +10,13 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
-#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "config/output_file.hpp"
+#include "config/standard_output.hpp"
 
 namespace berm::config {
 
@@ -65,22 +63,6 @@ inline std::string wrong_values(const CLI::App& app) {
   return "";
 }
 
-// What a command printed is its result as much as its files are: on a full disk it must not end as if all were well.
-inline void watch_standard_output(const std::string& command) {
-  static std::string name;
-  const bool watched = !name.empty();
-  name = command;
-  if (watched) return;
-  std::atexit([] {
-    errno = 0;
-    std::cout.flush();
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-    fmt::print(stderr, "{}: standard output: cannot be written{}{}\n", name, errno == 0 ? "" : ": ", errno == 0 ? "" : std::strerror(errno));
-    std::fflush(stderr);
-    _exit(2);
-  });
-}
-
 }  // namespace command_line
 
 // Of an option: the file that the command writes.
@@ -98,7 +80,7 @@ inline std::optional<int> parse_options(CLI::App& app, int argc, char** argv) {
     fmt::print(stderr, "{}: {} (see --help)\n", app.get_name(), what);
     return 2;
   };
-  command_line::watch_standard_output(app.get_name());
+  watch_standard_output(app.get_name());
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {

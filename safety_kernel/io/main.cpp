@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "config/standard_output.hpp"
 #include "io/options.hpp"
 #include "io/parameter_loader.hpp"
 #include "io/shell.hpp"
@@ -30,6 +31,7 @@ int fail(const std::string& error) {
 
 int main(int argc, char** argv) {
   using namespace berm::kernel;
+  berm::config::watch_standard_output("berm_kernel");
   Options options;
   std::string error;
   const OptionsResult parsed = parse_options(argc, argv, options, error);

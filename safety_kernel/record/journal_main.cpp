@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "config/standard_output.hpp"
 #include "record/journal_file.hpp"
 #include "record/kernel_link.hpp"
 #include "record/ring_reader.hpp"
@@ -119,6 +120,7 @@ bool follow(KernelLink& link, JournalFile& file, int pace, std::string& error) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  berm::config::watch_standard_output("berm_journal");
   Options options;
   if (const int status = read_options(argc, argv, options); status >= 0) return status;
   signal(SIGPIPE, SIG_IGN);

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 
+#include "config/standard_output.hpp"
 #include "record/replay.hpp"
 
 namespace {
@@ -108,6 +109,7 @@ void print(const ReplayResult& r, const std::string& file, double seconds) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  berm::config::watch_standard_output("berm replay");
   Options options;
   if (const int status = read_options(argc, argv, options); status >= 0) return status;
   const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -122,6 +124,5 @@ int main(int argc, char** argv) {
   if (!usable) return fail(error);
   print(result, options.file, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   if (!options.json.empty() && !write_json(options.json, result)) return fail(options.json + ": " + std::strerror(errno));
-  if (std::fflush(stdout) != 0) return fail(std::string("standard output: ") + std::strerror(errno));
   return result.reproduced() ? EXIT_SUCCESS : kNotReproduced;
 }

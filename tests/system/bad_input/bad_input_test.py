@@ -3,6 +3,7 @@ import json
 import os
 import pathlib
 import shutil
+import stat
 import struct
 import subprocess
 import tempfile
@@ -28,6 +29,19 @@ def help_is_no_error():
     for program in ("berm_load", "berm_journal", "berm_replay", "berm_map", "berm_params", "berm_plant", "berm_app", "berm_kernel"):
         done = run(program, "--help")
         assert done.returncode == 0 and len(done.stdout.splitlines()) > 3, f"{program} --help"
+
+
+def a_full_standard_output_is_no_success():
+    device = scratch / "full"  # the full device's numbers: the system's own node is nobody's to try things on
+    try:
+        os.mknod(device, 0o600 | stat.S_IFCHR, os.makedev(1, 7))
+    except PermissionError:
+        print("SKIPPED part: only root makes device nodes")
+        return
+    for program, name in (("berm_load", "berm load"), ("berm_journal", "berm_journal"), ("berm_replay", "berm replay"), ("berm_kernel", "berm_kernel"), ("berm_app", "berm_app")):
+        with open(device, "w") as full:
+            done = subprocess.run([str(BIN / program), "--help"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60, check=False)
+        assert done.returncode == 2 and done.stderr == f"{name}: standard output: cannot be written: No space left on device\n", (program, done.returncode, done.stderr)
 
 
 def scenarios():
@@ -159,6 +173,6 @@ def no_room_for_its_files():
 
 
 try:
-    main([unknown_options, help_is_no_error, scenarios, files_nested_too_deep, scenario_fields, ground_without_its_recording, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures, no_room_for_its_files])
+    main([unknown_options, help_is_no_error, a_full_standard_output_is_no_success, scenarios, files_nested_too_deep, scenario_fields, ground_without_its_recording, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures, no_room_for_its_files])
 finally:
     shutil.rmtree(scratch)
