@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <cstring>
 
-// A function so marked is compiled twice, and the loader takes what the processor has. Both do the same operations in the same order (no fused
-// multiply-add), so that the results are the same bit for bit.
+// A function so marked is compiled three times, and the loader takes what the processor has: with AVX-512 the registers are no wider, but twice as many.
+// All do the same operations in the same order (no fused multiply-add), so that the results are the same bit for bit.
 #if defined(__x86_64__) && defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
-#define BERM_APP_LANES __attribute__((target_clones("avx2", "default")))
+#define BERM_APP_LANES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
 #else
 #define BERM_APP_LANES
 #endif
