@@ -77,9 +77,10 @@ FittedBed fit(const BedPose& start, const std::vector<Ray>& all_rays, int rounds
     fit.residuals = static_cast<int>(statements.size());
     if (fit.residuals < kResidualsLeast) return fit;
     BedVector values = values_of(fit.pose);
-    const auto solve = solver == BedSolver::ceres ? solve_bed_by_ceres : solve_bed;
-    const bool exact = round + 1 == rounds || solver == BedSolver::ceres;
-    solve(statements, start.open_end, known, kIterations, exact ? kCostStep : kCostStepBefore, values);
+    // Ceres has the last word, from where the sums come to: its own steps, with a Jacobian and in double precision, take much longer.
+    const bool last = round + 1 == rounds, exact = last || solver == BedSolver::ceres;
+    solve_bed(statements, start.open_end, known, kIterations, exact ? kCostStep : kCostStepBefore, values);
+    if (last && solver == BedSolver::ceres && values.allFinite()) solve_bed_by_ceres(statements, start.open_end, known, kIterations, kCostStep, values);
     if (!values.allFinite()) return fit;
     set_values(fit.pose, values);
     fit.pose.yaw = std::remainder(fit.pose.yaw, 2 * std::numbers::pi);

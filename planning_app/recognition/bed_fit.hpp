@@ -26,7 +26,7 @@ struct FittedBed {
 // apart two rays of one scanline are. What a ray passed is decided by the pose, which must be near already (0.2 m, 3 degrees), and decided again in
 // every round. In all rounds but the last two edges are blurred, so that a wall some centimetres too high or low comes to where it is; not those of
 // the bed's ends, which would wander off where no ray shows them.
-enum class BedSolver { sums, ceres };  // bed_solver for the many fits of a search, Ceres for the one that is the answer
+enum class BedSolver { sums, ceres };  // bed_solver for the many fits of a search; the one that is the answer ends with Ceres
 // sizes: what is known of width and walls beforehand.
 FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds, const BedSizes& sizes, BedSolver solver = BedSolver::sums);
 // The same without its covariance.

@@ -23,6 +23,15 @@ BedSums sums_of_all(const PackedStatements& statements, std::span<const KnownVal
   return sums;
 }
 
+double square_of_all(const PackedStatements& statements, std::span<const KnownValue> known, const BedVector& values) {
+  double square = square_of(statements, values);
+  for (const KnownValue& k : known) {
+    const double r = (values[k.which] - k.mean) / k.deviation;
+    square += r * r;
+  }
+  return square;
+}
+
 }  // namespace
 
 void solve_bed(const std::vector<BedConstraint>& all, int open_end, std::span<const KnownValue> known, int steps, double cost_step, BedVector& values) {
@@ -39,11 +48,18 @@ void solve_bed(const std::vector<BedConstraint>& all, int open_end, std::span<co
     damped.diagonal() += damping * products.diagonal().cwiseMax(kLeastOfDiagonal);
     const BedVector scaled_move = damped.ldlt().solve(downhill), move = scale.cwiseProduct(scaled_move);
     if (move.norm() < kLeastStep * (values.norm() + kLeastStep)) return;
-    const BedSums there = sums_of_all(statements, known, values + move);
-    const double gain = sums.square - there.square, expected = scaled_move.dot(2.0 * downhill - products * scaled_move), share = gain / expected;
+    const BedVector to = values + move;
+    // Where so little is expected that the fit is about to end, the slopes there are hardly ever needed.
+    const double expected = scaled_move.dot(2.0 * downhill - products * scaled_move);
+    const bool ends = expected < cost_step;
+    BedSums there;
+    if (ends) there.square = square_of_all(statements, known, to);
+    else there = sums_of_all(statements, known, to);
+    const double gain = sums.square - there.square, share = gain / expected;
+    if (share > 0.0) values = to;
+    if (std::abs(gain) < cost_step) return;
     if (share > 0.0) {
-      values += move;
-      sums = there;
+      sums = ends ? sums_of_all(statements, known, to) : there;
       const double better = 2.0 * share - 1.0;
       damping *= std::max(1.0 / 3.0, 1.0 - better * better * better);
       more = 2.0;
@@ -51,7 +67,6 @@ void solve_bed(const std::vector<BedConstraint>& all, int open_end, std::span<co
       damping *= more;
       more *= 2.0;
     }
-    if (std::abs(gain) < cost_step) return;
   }
 }
 

@@ -36,6 +36,8 @@ class alignas(32) PlacingBed {
   Vector8 shift_;
 };
 
+// slopes: the products of slopes and the slopes as well as the loss.
+template <bool slopes>
 [[gnu::always_inline]] inline OwnSums own_sums(const std::vector<PackedStatements::EightStatements>& statements, const PlacingBed& place, const BedVector& values) {
   const Eight length = eight(0.5 * values[kBedLength]), width = eight(0.5 * values[kBedWidth]), thickness = eight(values[kBedThickness]);
   OwnSums sums;
@@ -47,19 +49,19 @@ class alignas(32) PlacingBed {
     const Eight share = choose8(s.edge, (dot8(plane_size, sizes) - dot8(s.plane, head)) * one_by_across, eight(1.0));
     const Vector8 at{{head[0] + share * way[0], head[1] + share * way[1], head[2] + share * way[2]}};
     const Eight x = (dot8(s.bound, at) - dot8(bound_size, sizes) - s.offset) * s.scale;
-    // The crossing moves along the ray as the plane moves against it.
-    const Eight along = where8(s.edge, dot8(s.bound, way) * one_by_across);
-    const Vector8 normal{{s.bound[0] - along * s.plane[0], s.bound[1] - along * s.plane[1], s.bound[2] - along * s.plane[2]}};
-
     // What the loss and the logistic function of an edge make of it: t t, and the factors of the products of slopes and of the slopes.
-    const Eight e = exp8(most8(least8(x, eight(kCertain)), eight(-2.0 * kCertain))), half_square = choose8(x > eight(kCertain), x, log1p8(e)), sigma = e / (1.0F + e);
-    const Eight over = choose8(s.edge, eight(2.0) * half_square, x * x) * eight(1.0 / (kRobust * kRobust)), loss = log1p8(over), one_by_outer = 1.0F / (1.0F + over);
+    const Eight e = exp8(most8(least8(x, eight(kCertain)), eight(-2.0 * kCertain))), half_square = choose8(x > eight(kCertain), x, log1p8(e));
+    const Eight over = choose8(s.edge, eight(2.0) * half_square, x * x) * eight(1.0 / (kRobust * kRobust)), loss = log1p8(over);
     const EightInt says = ~(s.edge & (x < eight(-kCertain)));
+    sums.square += where8(says, loss);
+    if constexpr (!slopes) continue;
+    const Eight sigma = e / (1.0F + e), one_by_outer = 1.0F / (1.0F + over);
     const Eight of_return = choose8(over > kNoLoss, over / loss, eight(1.0)), of_edge = sigma * sigma / (eight(kRobust * kRobust) * most8(loss, eight(1e-12)));
     const Eight of_products = where8(says, choose8(s.edge, of_edge, of_return) * one_by_outer * one_by_outer * s.scale * s.scale);
     const Eight of_slope = where8(says, choose8(s.edge, sigma, x) * one_by_outer * s.scale);
-    sums.square += where8(says, loss);
-
+    // The crossing moves along the ray as the plane moves against it.
+    const Eight along = where8(s.edge, dot8(s.bound, way) * one_by_across);
+    const Vector8 normal{{s.bound[0] - along * s.plane[0], s.bound[1] - along * s.plane[1], s.bound[2] - along * s.plane[2]}};
     const Eights<kBedValues> slope{{-normal[0], -normal[1], -normal[2],
                                              normal[1] * at[2] - normal[2] * at[1], normal[2] * at[0] - normal[0] * at[2], normal[0] * at[1] - normal[1] * at[0],
                                              eight(0.5) * (along * plane_size[0] - bound_size[0]), eight(0.5) * (along * plane_size[1] - bound_size[1]), along * plane_size[2] - bound_size[2]}};
@@ -76,7 +78,10 @@ class alignas(32) PlacingBed {
 }
 
 BERM_APP_LANES OwnSums sum_statements(const std::vector<PackedStatements::EightStatements>& statements, const PlacingBed& place, const BedVector& values) {
-  return own_sums(statements, place, values);
+  return own_sums<true>(statements, place, values);
+}
+BERM_APP_LANES double sum_losses(const std::vector<PackedStatements::EightStatements>& statements, const PlacingBed& place, const BedVector& values) {
+  return static_cast<double>(sum8(own_sums<false>(statements, place, values).square));
 }
 
 }  // namespace
@@ -101,6 +106,12 @@ PackedStatements::PackedStatements(const std::vector<BedConstraint>& statements,
     out.offset[lane] = static_cast<float>(c.edge ? 0.0 : c.offset);
     out.edge[lane] = c.edge ? -1 : 0;
   }
+}
+
+double square_of(const PackedStatements& statements, const BedVector& values) {
+  BedPose pose;
+  set_values(pose, values);
+  return kRobust * kRobust * sum_losses(statements.eights(), {pose.rotation(), pose.middle}, values);
 }
 
 BedSums sums_of(const PackedStatements& statements, const BedVector& values) {

@@ -38,5 +38,7 @@ struct BedSums {
   BedVector downhill = BedVector::Zero();  // -J' t
 };
 BedSums sums_of(const PackedStatements& statements, const BedVector& values);
+// The square alone.
+double square_of(const PackedStatements& statements, const BedVector& values);
 
 }  // namespace berm::app
