@@ -7,6 +7,7 @@ namespace {
 
 constexpr double kRangeDeviation = 0.03;  // m
 constexpr double kFaceDeviation = 0.010;  // m, of a wall's face: mud
+constexpr double kTopDeviation = 0.004;   // m, of a wall's top
 constexpr double kMud = 0.010;            // m, its mean on the part of the faces that is seen
 constexpr double kEdgeDeviation = 0.010;  // m, scale of the logistic function
 constexpr double kOpenEndDeviation = 0.03;  // m, the same where a side ends without a wall across: between two scanlines
@@ -23,18 +24,21 @@ class Collector {
   Collector(const BedPose& pose, const std::vector<Ray>& rays) : pose_(pose), faces_(pose) {
     out.reserve(kStatementsExpected);
     RayPlacing place(pose);
-    for (const Ray& ray : rays) take({ray.head, ray.at, place.head(ray), place.end(ray)});
+    for (const Ray& ray : rays) {
+      const Eigen::Vector3d &a = place.head(ray), end = place.end(ray), d = end - a;
+      take({ray.head, ray.at, a, end, d, d.norm()});
+    }
   }
   std::vector<BedConstraint> out;
 
  private:
   struct LocalRay {
     const Eigen::Vector3f &head, &at;  // in the base frame
-    const Eigen::Vector3d a, end;      // the same in the bed frame
+    const Eigen::Vector3d &a, &end, &d;  // the same in the bed frame; from one to the other
+    const double range;
   };
   void on_plane(const LocalRay& ray, BedPlane plane, double offset, double deviation) {
-    BedConstraint c{ray.head, ray.at, false, plane, {}, 1, offset, deviation};
-    out.push_back(c);
+    out.push_back({ray.head, ray.at, false, plane, {}, 1, offset, deviation});
   }
   // crossing: of ray and plane in the bed frame.
   void past(const LocalRay& ray, BedPlane plane, BedPlane bound, int sense, const Eigen::Vector3d& crossing) {
@@ -44,17 +48,16 @@ class Collector {
     const bool of_open_end = bound.axis == 0 && bound.side == pose_.open_end;
     out.push_back({ray.head, ray.at, true, plane, bound, sense, 0.0, of_open_end ? kOpenEndDeviation : kEdgeDeviation});
   }
-  [[nodiscard]] static double across(const LocalRay& ray, int axis) { return std::abs((ray.end - ray.a).normalized()[axis]); }
+  [[nodiscard]] static double across(const LocalRay& ray, int axis) { return std::abs(ray.d[axis]) / ray.range; }
   void face_hit(const LocalRay& ray, int axis, int side, bool outer) {
     const double share = across(ray, axis), noise = kRangeDeviation * share;
-    on_plane(ray, {axis, side, outer}, outer ? kMud : -kMud, std::hypot(noise, kFaceDeviation));
+    on_plane(ray, {axis, side, outer}, outer ? kMud : -kMud, std::sqrt(noise * noise + kFaceDeviation * kFaceDeviation));
     const double across_it = ray.end[1 - axis];
     out.back().in_corner = !outer && std::abs(across_it) > pose_.face(1 - axis, across_it > 0.0 ? 1 : -1, false) - kCorner;
   }
   [[nodiscard]] Eigen::Vector3d crossing(const LocalRay& ray, const BedPlane& plane) const {
-    const Eigen::Vector3d d = ray.end - ray.a;
     const double limit = plane.axis == 2 ? 0.0 : plane.side * pose_.face(plane.axis, plane.side, plane.outer);
-    return ray.a + (limit - ray.a[plane.axis]) / d[plane.axis] * d;
+    return ray.a + (limit - ray.a[plane.axis]) / ray.d[plane.axis] * ray.d;
   }
 
   void take(const LocalRay& ray) {
@@ -83,7 +86,7 @@ class Collector {
       case Meeting::wall_top: {
         const double share = across(ray, 2), noise = kRangeDeviation * share;
         if (std::abs(m.off * share) > 3 * noise + 0.02) break;
-        on_plane(ray, rim, 0.0, std::hypot(noise, 0.004));
+        on_plane(ray, rim, 0.0, std::sqrt(noise * noise + kTopDeviation * kTopDeviation));
         if (m.axis < 0) break;
         past(ray, rim, {m.axis, m.side, false}, -1, m.rim);
         past(ray, rim, {m.axis, m.side, true}, 1, m.rim);
@@ -119,6 +122,7 @@ class Collector {
       for (const int side : {-1, 1}) {
         if (axis == 0 && side == pose_.open_end) continue;
         const BedPlane plane{axis, side, side * a[axis] > pose_.face(axis, side, true)};
+        if (std::abs(end[axis] - side * pose_.face(axis, side, plane.outer)) > kRangeGate) continue;
         const Eigen::Vector3d at = crossing(ray, plane);
         if (at.z() < 0.0 || at.z() > kTopHigher || (at - end).norm() > kRangeGate) continue;
         if (at[1 - axis] > pose_.face(1 - axis, 1, true) || at[1 - axis] < -pose_.face(1 - axis, -1, true)) continue;
@@ -160,7 +164,7 @@ class Collector {
       if (stopped || s * end.y() > limit + pose_.thickness + kRangeGate) past(ray, plane, {0, pose_.open_end, false}, stopped ? 1 : -1, crossing(ray, plane));
     }
   }
-  [[nodiscard]] bool goes_to_open_end(const LocalRay& ray) const { return (ray.end.x() - ray.a.x()) * pose_.open_end > 0.0; }
+  [[nodiscard]] bool goes_to_open_end(const LocalRay& ray) const { return ray.d.x() * pose_.open_end > 0.0; }
 
   void over_wall(const LocalRay& ray, const RayMeeting& m) {
     if (m.axis < 0 || (m.axis == 0 && m.side == pose_.open_end)) return;

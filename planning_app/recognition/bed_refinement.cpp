@@ -64,8 +64,8 @@ std::array<double, 2> ends_along(const BedPose& p, const Vector2d& origin) {
 }
 
 // The most by which a corner of the opening lies elsewhere.
-double most_apart(const BedPose& a, const BedPose& b) {
-  const std::array<Eigen::Vector3d, 4> one = opening_corners(a), other = opening_corners(b);
+double most_apart(const std::array<Eigen::Vector3d, 4>& one, const BedPose& b) {
+  const std::array<Eigen::Vector3d, 4> other = opening_corners(b);
   double most = 0.0;
   for (std::size_t k = 0; k < one.size(); ++k) most = std::max(most, (one[k] - other[k]).norm());
   return most;
@@ -78,7 +78,7 @@ BedPose refined(const BedPose& start, const PackedRays& rays, const SizeRange& w
   const std::array<double, 2> ends = ends_along(start, origin);
   BedPose best = start;
   PackedRays near = rays.meeting(best, kNear);
-  BedPose near_of = best;
+  std::array<Eigen::Vector3d, 4> near_of = opening_corners(best);
   double score = score_of(best, near), step = first_step;
   const Vector2d sight = sight_of(start, rays);
   for (int halving = 0; halving < halvings; ++halving, step /= 2) {
@@ -90,7 +90,7 @@ BedPose refined(const BedPose& start, const PackedRays& rays, const SizeRange& w
         if (std::max(std::abs(now[0] - ends[0]), std::abs(now[1] - ends[1])) > kEndsMost) continue;
         if (std::max(std::abs(p.pitch), std::abs(p.roll)) > kRefinedTiltMost) continue;
         if (p.width < widths[0] - kWidthSlack || p.width > widths[1] + kWidthSlack) continue;
-        if (most_apart(p, near_of) > kNear) near = rays.meeting(best, kNear), near_of = best;
+        if (most_apart(near_of, p) > kNear) near = rays.meeting(best, kNear), near_of = opening_corners(best);
         const double here = score_of(p, near);
         if (here <= score + kLeastGain) continue;
         best = p, score = here;
