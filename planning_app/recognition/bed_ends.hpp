@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "recognition/bed_model.hpp"
+#include "recognition/packed_rays.hpp"
 #include "recognition/truck_ranges.hpp"
 
 namespace berm::app {
@@ -29,6 +29,6 @@ struct BedEnds {
 
 // The best pairs of ends, the best first, at most `most`, each apart from the others by 0.2 m at an end or more. lengths: of the bed, inside, m.
 // share: rays that each given ray stands for.
-std::vector<BedEnds> best_ends(const BedStrip& strip, const std::vector<Ray>& rays, const SizeRange& lengths, double share, std::size_t most);
+std::vector<BedEnds> best_ends(const BedStrip& strip, const PackedRays& rays, const SizeRange& lengths, double share, std::size_t most);
 
 }  // namespace berm::app

@@ -10,31 +10,6 @@ namespace {
 constexpr double kTiltedAside = 0.15;  // m, by which faces move aside where a ray passes high over a bed that is tilted
 constexpr float kAlong = 1e-12F;       // m: a ray whose ends differ by less goes along the faces of an axis
 
-// Places of eight rays by axis, in a bed's frame.
-struct alignas(32) Places {
-  Eight u, v, w;
-};
-
-class alignas(32) EightPlacing {
- public:
-  explicit EightPlacing(const BedPose& pose) {
-    const Eigen::Matrix3d turn = pose.rotation().transpose();
-    const Eigen::Vector3d shift = -(turn * pose.middle);
-    for (int axis = 0; axis < 3; ++axis) {
-      for (int k = 0; k < 3; ++k) turn_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(k)] = eight(turn(axis, k));
-      shift_[static_cast<std::size_t>(axis)] = eight(shift[axis]);
-    }
-  }
-  [[nodiscard, gnu::always_inline]] Places of(const Eights<3>& at) const { return {along(0, at), along(1, at), along(2, at)}; }
-
- private:
-  [[nodiscard, gnu::always_inline]] Eight along(std::size_t axis, const Eights<3>& at) const {
-    return turn_[axis][0] * at[0] + turn_[axis][1] * at[1] + turn_[axis][2] * at[2] + shift_[axis];
-  }
-  Eights<3> turn_[3];
-  Eights<3> shift_;
-};
-
 // The rays' ways through a rectangle of faces in plan, as in bed_model.cpp.
 struct alignas(32) Crossings {
   Eight in_u, out_u, in_v, out_v;
@@ -180,46 +155,21 @@ class alignas(32) Meets {
   Eight lowest_;
 };
 
-// Packs rays one after the other.
-class Packer {
- public:
-  explicit Packer(std::vector<PackedRays::EightRays>& out) : out_(out) {}
-  void take(const float (&numbers)[7], std::int32_t upright) {
-    if (lane_ == 0) out_.push_back(kNothing);
-    PackedRays::EightRays& last = out_.back();
-    for (std::size_t k = 0; k < 3; ++k) last.head[k][lane_] = numbers[k], last.at[k][lane_] = numbers[3 + k];
-    last.range[lane_] = numbers[6];
-    last.upright[lane_] = upright;
-    lane_ = (lane_ + 1) % static_cast<int>(kLanes);
-  }
-
- private:
-  // A ray of no length, so far off that it meets no bed.
-  static constexpr Eight kFar{1e6F, 1e6F, 1e6F, 1e6F, 1e6F, 1e6F, 1e6F, 1e6F}, kOne{1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F};
-  static constexpr PackedRays::EightRays kNothing{{{kFar, kFar, kFar}}, {{kFar, kFar, kFar}}, kOne, {}};
-  std::vector<PackedRays::EightRays>& out_;
-  int lane_ = 0;
-};
-
 }  // namespace
 
 PackedRays::PackedRays(const std::vector<Ray>& rays) {
-  eights_.reserve(rays.size() / kLanes + 1);
-  Packer packer(eights_);
-  for (const Ray& ray : rays) {
-    packer.take({ray.head.x(), ray.head.y(), ray.head.z(), ray.at.x(), ray.at.y(), ray.at.z(), (ray.at - ray.head).norm()}, ray.upright ? -1 : 0);
-  }
+  reserve(rays.size());
+  for (const Ray& ray : rays) add(ray.head, ray.at, ray.upright);
 }
 
 BERM_APP_LANES PackedRays PackedRays::meeting(const BedPose& pose, double moved) const {
   PackedRays out;
   out.eights_.reserve(eights_.size());
   const Meets meets(pose, moved);
-  Packer packer(out.eights_);
   for (const EightRays& r : eights_) {
     const EightInt kept = meets(r);
     for (int k = 0; k < static_cast<int>(kLanes); ++k)
-      if (kept[k] != 0) packer.take({r.head[0][k], r.head[1][k], r.head[2][k], r.at[0][k], r.at[1][k], r.at[2][k], r.range[k]}, r.upright[k]);
+      if (kept[k] != 0) out.add({r.head[0][k], r.head[1][k], r.head[2][k], r.at[0][k], r.at[1][k], r.at[2][k], r.range[k]}, r.upright[k]);
   }
   return out;
 }

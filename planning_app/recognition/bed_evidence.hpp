@@ -4,28 +4,9 @@
 
 #include <vector>
 
-#include "recognition/bed_model.hpp"
-#include "recognition/lanes.hpp"
+#include "recognition/packed_rays.hpp"
 
 namespace berm::app {
-
-// Rays in single precision, eight side by side; the last eight are filled up with rays that meet nothing.
-class PackedRays {
- public:
-  struct alignas(32) EightRays {
-    Eights<3> head, at;
-    Eight range;       // m
-    EightInt upright;  // a mask
-  };
-  PackedRays() = default;
-  explicit PackedRays(const std::vector<Ray>& rays);
-  [[nodiscard]] const std::vector<EightRays>& eights() const { return eights_; }
-  // Those of the rays that may meet the bed when no corner of it is moved by more than so many metres; the others are no evidence of it.
-  [[nodiscard]] PackedRays meeting(const BedPose& pose, double moved) const;
-
- private:
-  std::vector<EightRays> eights_;
-};
 
 struct BedEvidence {
   double score = 0.0;

@@ -142,11 +142,7 @@ void weigh_whole(const FanSweep& sweep, BedInterpretation& i) {
   i.rays = rays_near(sweep, p);
   i.evidence = weigh(p, i.rays);
   CabProfile profile(p.width / 2, p.face(1, 1, true));
-  const Eigen::Matrix3d turn = p.rotation().transpose();
-  visit_around(sweep, p.middle, [&](std::size_t fan, std::size_t k) {
-    const FanReturn& r = sweep.returns[k];
-    profile.take(turn * (sweep.heads[fan] - p.middle), turn * (r.at() - sweep.heads[fan]), r.upright);
-  });
+  profile.take(p, PassingRays(sweep, around_cabs(p)).packed(1));
   profile.finish();
   const double at_front = p.face(0, 1, true), at_rear = -p.face(0, -1, true);
   const double front = profile.beyond(at_front, 1, 1.0, CabProfile::Returns::all), rear = profile.beyond(at_rear, -1, 1.0, CabProfile::Returns::all);
@@ -158,9 +154,10 @@ void weigh_whole(const FanSweep& sweep, BedInterpretation& i) {
 double longer_length(const FanSweep& sweep, const BedPose& pose, const TruckRangeSet& ranges, double cab) {
   const SizeRange usual = ranges.hull(&TruckRanges::inside_length);
   const SomeRays some = about(sweep, around_bed(pose.middle), kLongerRays);
-  const auto within = best_ends(strip_of(pose), some.rays, usual, some.share, 1);
   const auto longer = best_ends(strip_of(pose), some.rays, {usual[1] + kLengthSlack, usual[1] + kLongest}, some.share, 1);
-  if (within.empty() || longer.empty() || longer.front().bed < kLongerBy * (within.front().bed + std::max(0.0, cab))) return 0.0;
+  if (longer.empty()) return 0.0;
+  const auto within = best_ends(strip_of(pose), some.rays, usual, some.share, 1);
+  if (within.empty() || longer.front().bed < kLongerBy * (within.front().bed + std::max(0.0, cab))) return 0.0;
   return longer.front().pose.length;
 }
 
@@ -196,7 +193,7 @@ std::vector<BedInterpretation> interpret(const FanSweep& sweep, const std::vecto
   const BedSizes sizes = ranges.bed_sizes();
   std::vector<BedEnds> ends;
   for (const BedEnds& rough : distinct(rough_ones, kFitted, kRoughWorth, refused)) {
-    const PackedRays near(about(sweep, near_bed(rough.pose), kLiftRays).rays);
+    const PackedRays near = about(sweep, near_bed(rough.pose), kLiftRays).rays;
     const BedPose lifted = refined(levelled(rough.pose, near), near, sizes.width, kRefineStep, kLiftHalvings);
     const auto [p, score] = fitted(sweep, lifted, sizes);
     ends.push_back({p, rough.cab_end, score, rough.cab});

@@ -11,7 +11,7 @@ constexpr double kCabReach = 11.0, kCabStep = 0.05;   // m
 constexpr int kCabCells = static_cast<int>(2 * kCabReach / kCabStep);
 // Below the tops of the walls every cab is solid between these heights; it is at most as wide as the bed.
 constexpr double kCoreLow = -1.4, kCoreHigh = -0.75, kCoreHalf = 1.0;
-constexpr double kReturnLow = -1.6, kReturnHigh = 0.9, kReturnHalf = 1.4;
+constexpr double kReturnLow = -1.6, kReturnHigh = 0.9, kReturnHalf = kCabAside;
 constexpr std::array<double, 3> kGaps{0.15, 0.3, 0.45};
 constexpr double kSideGate = 0.08;                              // m, of a return from the plane of a bed's side
 constexpr float kOfSide = 0.5F;                               // of the weight of such a return
@@ -22,16 +22,21 @@ constexpr double kFlatLow = -0.5;                           // m: lower it may b
 constexpr double kPassWeight = 1.0, kPassesMost = 150.0;
 constexpr double kPassedCab = 0.15;                             // m beyond the core
 
-int cab_cell(double u) { return static_cast<int>(std::clamp((u + kCabReach) / kCabStep, 0.0, static_cast<double>(kCabCells))); }
+constexpr float kStraightWay = 1e-9F;                          // m: no less is divided by
 
-// From where to where on a ray, in its shares, a coordinate is between two values.
-struct Stretch {
-  double in, out;
+int cab_cell(double u) { return static_cast<int>(std::clamp((u + kCabReach) / kCabStep, 0.0, static_cast<double>(kCabCells))); }
+BERM_APP_INLINE EightInt cab_cells(Eight u) {
+  return __builtin_convertvector(least8(most8((u + eight(kCabReach)) * eight(1.0 / kCabStep), Eight{}), eight(kCabCells)), EightInt);
+}
+
+// From where to where on rays, in their shares, a coordinate is between two values.
+struct alignas(32) Stretches {
+  Eight in, out;
 };
 
-Stretch between(double from, double by, double low, double high) {
-  const double one = 1.0 / (std::abs(by) < 1e-9 ? std::copysign(1e-9, by) : by), s = (low - from) * one, t = (high - from) * one;
-  return {std::min(s, t), std::max(s, t)};
+BERM_APP_INLINE Stretches between(Eight from, Eight by, double low, double high) {
+  const Eight one = 1.0F / choose8(magnitude8(by) < kStraightWay, eight(static_cast<double>(kStraightWay)), by), s = (eight(low) - from) * one, t = (eight(high) - from) * one;
+  return {least8(s, t), most8(s, t)};
 }
 
 }  // namespace
@@ -40,30 +45,39 @@ CabProfile::CabProfile(double half_inner, double half_outer) : inner_(half_inner
   for (std::vector<float>* s : {&returns_, &shared_, &within_, &begins_, &ends_}) s->assign(kCabCells + 2, 0.0F);
 }
 
-void CabProfile::take(const Eigen::Vector3d& a, const Eigen::Vector3d& d, bool upright) {
-  const Eigen::Vector3d end = a + d;
-  if (std::abs(end.y()) < kReturnHalf && end.z() > (upright ? kReturnLow : kFlatLow) && end.z() < kReturnHigh && std::abs(end.x()) < kCabReach) {
-    const std::size_t cell = static_cast<std::size_t>(cab_cell(end.x())) + 1;
-    const float weight = upright ? 1.0F : kFlatWeight;
-    returns_[cell] += weight;
-    shared_[cell] += of_side(a, end) ? kOfSide * weight : weight;
+BERM_APP_LANES void CabProfile::take(const BedPose& frame, const PackedRays& rays) {
+  const EightPlacing place(frame);
+  const Eight side_gate = eight(kSideGate), inner = eight(inner_), outer = eight(outer_);
+  for (const PackedRays::EightRays& r : rays.eights()) {
+    const Places a = place.of(r.head), end = place.of(r.at), d{end.u - a.u, end.v - a.v, end.w - a.w};
+    const Eight aside = magnitude8(end.v);
+    const EightInt is_ray = r.head[0] != PackedRays::kFar, near = is_ray & (magnitude8(end.u) < eight(kCabReach));
+    const EightInt returned = near & (aside < eight(kReturnHalf)) & (end.w > choose8(r.upright, eight(kReturnLow), eight(kFlatLow))) & (end.w < eight(kReturnHigh));
+    const EightInt in_core = near & (aside < eight(kCoreHalf - 0.05)) & (end.w > eight(kCoreLow)) & (end.w < eight(kCoreHigh));
+    // Through the core's slab, and on.
+    const Stretches across = between(a.v, d.v, -kCoreHalf, kCoreHalf), upright_way = between(a.w, d.w, kCoreLow, kCoreHigh);
+    const Eight in = most8(most8(across.in, upright_way.in), Eight{}), out = least8(across.out, upright_way.out);
+    const EightInt passes = is_ray & (in < out) & ((1.0F - out) * r.range >= eight(kPassedCab));
+    if (!any8(returned | in_core | passes)) continue;
+    // In the plane of the near side's outer face, or of the far one's inner face.
+    const EightInt nearer = a.v * end.v > 0.0F;
+    const EightInt of_side = (end.w <= 0.0F) & ((nearer & (magnitude8(a.v) > outer) & (magnitude8(aside - outer) < side_gate)) | (~nearer & (magnitude8(aside - inner) < side_gate)));
+    const Eight one_end = a.u + in * d.u, other_end = a.u + out * d.u;
+    const EightInt cells = cab_cells(end.u), first = cab_cells(least8(one_end, other_end)), last = cab_cells(most8(one_end, other_end));
+    for (int k = 0; k < static_cast<int>(kLanes); ++k) {
+      const auto cell = static_cast<std::size_t>(cells[k]) + 1;
+      if (returned[k] != 0) {
+        const float weight = r.upright[k] != 0 ? 1.0F : kFlatWeight;
+        returns_[cell] += weight;
+        shared_[cell] += of_side[k] != 0 ? kOfSide * weight : weight;
+      }
+      if (in_core[k] != 0) within_[cell] += 1.0F;
+      if (passes[k] != 0) {
+        begins_[static_cast<std::size_t>(first[k]) + 1] += 1.0F;
+        ends_[static_cast<std::size_t>(last[k]) + 1] += 1.0F;
+      }
+    }
   }
-  if (std::abs(end.y()) < kCoreHalf - 0.05 && end.z() > kCoreLow && end.z() < kCoreHigh && std::abs(end.x()) < kCabReach)
-    within_[static_cast<std::size_t>(cab_cell(end.x())) + 1] += 1.0F;
-  // Through the core's slab, and on.
-  const Stretch across = between(a.y(), d.y(), -kCoreHalf, kCoreHalf), upright_way = between(a.z(), d.z(), kCoreLow, kCoreHigh);
-  const double in = std::max({0.0, across.in, upright_way.in}), out = std::min(across.out, upright_way.out);
-  if (in >= out || out >= 1.0 || (1.0 - out) * (1.0 - out) * d.squaredNorm() < kPassedCab * kPassedCab) return;
-  const double u = a.x() + in * d.x(), v = a.x() + out * d.x();
-  begins_[static_cast<std::size_t>(cab_cell(std::min(u, v))) + 1] += 1.0F;
-  ends_[static_cast<std::size_t>(cab_cell(std::max(u, v))) + 1] += 1.0F;
-}
-
-bool CabProfile::of_side(const Eigen::Vector3d& a, const Eigen::Vector3d& end) const {
-  if (end.z() > 0.0) return false;
-  const double y = std::abs(end.y());
-  const bool nearer_side = a.y() * end.y() > 0.0;
-  return nearer_side ? std::abs(a.y()) > outer_ && std::abs(y - outer_) < kSideGate : std::abs(y - inner_) < kSideGate;
 }
 
 void CabProfile::finish() {

@@ -2,23 +2,25 @@
 // is no truck, and returns that a cab explains are none that a longer bed would have to explain.
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <vector>
 
 #include "recognition/evidence_weights.hpp"
+#include "recognition/packed_rays.hpp"
 
 namespace berm::app {
 
 // A cab counts for no more than a share of the bed before it.
 inline double with_cab(double bed, double cab) { return bed + std::min(cab, kCabShare * std::max(0.0, bed)); }
 
+// What lies so far beyond an end wall's outer face, and so far from the bed's axis, says nothing of a cab. Metres.
+constexpr double kCabFarthest = 1.7, kCabAside = 1.4;
+
 class CabProfile {
  public:
   // half_inner, half_outer: from the middle to the faces of the bed's sides.
   CabProfile(double half_inner, double half_outer);
-  // A ray in the frame of the bed: from a by d to its return.
-  void take(const Eigen::Vector3d& a, const Eigen::Vector3d& d, bool upright);
+  void take(const BedPose& frame, const PackedRays& rays);
   void finish();
   // The evidence, in rays, for a cab beyond the end wall's outer face at u, towards `side`, at the best of the usual gaps. share: rays that each one
   // taken stands for; the evidence is in those taken. Shared: what lies in the planes of the bed's sides counts half, for a longer bed would explain it as well.
@@ -26,8 +28,6 @@ class CabProfile {
   [[nodiscard]] double beyond(double u, int side, double share, Returns which = Returns::shared) const;
 
  private:
-  // Whether the return lies in the plane of the near side's outer face, or of the far one's inner face. a: the sensor.
-  [[nodiscard]] bool of_side(const Eigen::Vector3d& a, const Eigen::Vector3d& end) const;
   [[nodiscard]] double block(const std::vector<float>& returns, double low, double high, double core_low, double core_high, double share) const;
   double inner_, outer_;
   std::vector<float> returns_, shared_, within_, begins_, ends_;  // running sums along u

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "recognition/cab_profile.hpp"
 #include "recognition/lanes.hpp"
 
 namespace berm::app {
@@ -61,12 +62,23 @@ std::vector<Ray> PassingRays::rays(std::size_t stride) const {
   return out;
 }
 
+PackedRays PassingRays::packed(std::size_t stride) const {
+  PackedRays out;
+  out.reserve(count_ / stride + 1);
+  visit(stride, [&](std::size_t fan, std::size_t k) { out.add(sweep_.heads[fan].cast<float>(), sweep_.returns[k].place, sweep_.returns[k].upright); });
+  return out;
+}
+
 Surroundings near_bed(const BedPose& pose, double below) {
   const double radius = std::hypot(pose.length / 2, pose.width / 2) + pose.thickness + kBeside;
   return {pose.middle.head<2>(), radius, pose.middle.z() - below, pose.middle.z() + kBeside};
 }
 
 Surroundings around_bed(const Eigen::Vector3d& middle) { return {middle.head<2>(), kAround, middle.z() - kAroundBelow, middle.z() + kAroundAbove}; }
+
+Surroundings around_cabs(const BedPose& pose) {
+  return {pose.middle.head<2>(), std::hypot(pose.length / 2 + pose.thickness + kCabFarthest, kCabAside), pose.middle.z() - kAroundBelow, pose.middle.z() + kAroundAbove};
+}
 
 std::vector<Ray> rays_near(const FanSweep& sweep, const BedPose& pose, double below, std::size_t stride) {
   return PassingRays(sweep, near_bed(pose, below)).rays(stride);
@@ -82,7 +94,7 @@ std::vector<Ray> every(const std::vector<Ray>& rays, std::size_t stride) {
 SomeRays about(const FanSweep& sweep, const Surroundings& place, std::size_t most, std::size_t least) {
   const PassingRays passing(sweep, place);
   const std::size_t stride = std::max(least, passing.size() / most);
-  return {passing.rays(stride), static_cast<double>(stride)};
+  return {passing.packed(stride), static_cast<double>(stride)};
 }
 
 }  // namespace berm::app

@@ -8,6 +8,7 @@
 
 #include "recognition/bed_model.hpp"
 #include "recognition/fans.hpp"
+#include "recognition/packed_rays.hpp"
 
 namespace berm::app {
 
@@ -33,6 +34,7 @@ class PassingRays {
     }
   }
   [[nodiscard]] std::vector<Ray> rays(std::size_t stride) const;
+  [[nodiscard]] PackedRays packed(std::size_t stride) const;
 
  private:
   const FanSweep& sweep_;
@@ -45,6 +47,8 @@ constexpr double kNearBelow = 1.1;
 Surroundings near_bed(const BedPose& pose, double below = kNearBelow);
 // Where rays may come to the bed, to what stands beyond its ends, or below it: within 7 m.
 Surroundings around_bed(const Eigen::Vector3d& middle);
+// Where they may come to a cab beyond either end of the bed.
+Surroundings around_cabs(const BedPose& pose);
 
 // Every stride-th of the rays near a bed.
 std::vector<Ray> rays_near(const FanSweep& sweep, const BedPose& pose, double below = kNearBelow, std::size_t stride = 1);
@@ -59,7 +63,7 @@ std::vector<Ray> every(const std::vector<Ray>& rays, std::size_t stride);
 
 // Of the rays about so many, evenly, and at most every least-th; each stands for `share` of them.
 struct SomeRays {
-  std::vector<Ray> rays;
+  PackedRays rays;
   double share = 1.0;
 };
 SomeRays about(const FanSweep& sweep, const Surroundings& place, std::size_t most, std::size_t least = 1);

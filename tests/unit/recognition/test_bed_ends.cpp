@@ -44,7 +44,7 @@ TEST(BedEnds, AreWhereTheWallsStand) {
       DrawnBed bed;
       bed.rear_wall = rear_wall;
       const FanSweep sweep = fans_of(bed);
-      const auto ends = best_ends(strip_of(bed, along), rays_near(sweep, true_pose(bed), 2.4), kLengths, 1.0, 3);
+      const auto ends = best_ends(strip_of(bed, along), PackedRays(rays_near(sweep, true_pose(bed), 2.4)), kLengths, 1.0, 3);
       ASSERT_FALSE(ends.empty());
       const BedEnds& best = ends.front();
       EXPECT_NE(best.pose.open_end, 1);
@@ -73,7 +73,7 @@ TEST(BedEnds, WeighAsTheRaysOneByOne) {
           BedStrip strip = strip_of(bed, along);
           strip.middle += Eigen::Vector3d(-aside * std::sin(bed.yaw), aside * std::cos(bed.yaw), up);
           strip.yaw += turn;
-          for (const BedEnds& e : best_ends(strip, rays, kLengths, 1.0, 6)) {
+          for (const BedEnds& e : best_ends(strip, PackedRays(rays), kLengths, 1.0, 6)) {
             BedEvidence one_by_one = weigh(e.pose, rays);
             one_by_one.score += kAbove * one_by_one.above_inner;  // what lies above an inner face the table leaves out
             EXPECT_NEAR(e.bed, one_by_one.score, 12.0 + 0.15 * std::abs(one_by_one.score)) << along << " " << aside << " " << up << " " << turn;
@@ -84,7 +84,7 @@ TEST(BedEnds, WeighAsTheRaysOneByOne) {
 }
 
 TEST(BedEnds, OfNothingAreNone) {
-  EXPECT_TRUE(best_ends(strip_of(DrawnBed{}, 0.0), {}, kLengths, 1.0, 3).empty());
+  EXPECT_TRUE(best_ends(strip_of(DrawnBed{}, 0.0), PackedRays(), kLengths, 1.0, 3).empty());
 }
 
 TEST(LongerLength, TellsAContainerFromABed) {

@@ -5,15 +5,17 @@
 namespace berm::app {
 namespace {
 
-using Eigen::Vector3d;
+using Eigen::Vector3f;
 
 constexpr double kHalfInner = 1.2, kHalfOuter = 1.3, kEnd = 2.5;
-const Vector3d sensor(3.0, -8.0, 2.0);
+const Vector3f sensor(3.0F, -8.0F, 2.0F);
 
 // 40 upright returns along the bed beyond its end, at one place across it; the evidence of all, and of what is shared with a longer bed.
 std::array<double, 2> evidence_of(double y) {
   CabProfile profile(kHalfInner, kHalfOuter);
-  for (int k = 0; k < 40; ++k) profile.take(sensor, Vector3d(kEnd + 0.4 + 0.02 * k, y, -0.4) - sensor, true);
+  std::vector<Ray> rays;
+  for (int k = 0; k < 40; ++k) rays.push_back({sensor, Vector3f(static_cast<float>(kEnd) + 0.4F + 0.02F * static_cast<float>(k), static_cast<float>(y), -0.4F), true});
+  profile.take({}, PackedRays(rays));
   profile.finish();
   return {profile.beyond(kEnd, 1, 1.0, CabProfile::Returns::all), profile.beyond(kEnd, 1, 1.0)};
 }
@@ -31,7 +33,8 @@ TEST(CabProfile, SharesWithALongerBedWhatItsSidesWouldExplain) {
 
 TEST(CabProfile, RaysThatPassWhereItWouldStandAreAgainstIt) {
   CabProfile profile(kHalfInner, kHalfOuter);
-  for (int k = 0; k < 40; ++k) profile.take(Vector3d(kEnd + 0.9, -8.0, -1.0), Vector3d(0.0, 14.0, 0.0), false);
+  const Ray passing{Vector3f(static_cast<float>(kEnd) + 0.9F, -8.0F, -1.0F), Vector3f(static_cast<float>(kEnd) + 0.9F, 6.0F, -1.0F), false};
+  profile.take({}, PackedRays(std::vector<Ray>(40, passing)));
   profile.finish();
   EXPECT_LT(profile.beyond(kEnd, 1, 1.0), -20.0);
 }
