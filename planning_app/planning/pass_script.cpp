@@ -14,7 +14,7 @@ constexpr double range_guard = radians(7.5);      // a standing joint's stop tra
 double pin_over_top(const ImplementScale& scale) { return 1.6 * scale.bucket + 0.4 + 0.9 * scale.arm; }
 constexpr double highest_top = 1.2;               // z; over anything higher the pass is not tried higher
 constexpr double reach_step = 0.05;               // m, of the search for a reach
-constexpr double most_short = 0.4;                // m, that a load is spilled short of where it is meant to be: else a bed's far end gets none
+constexpr double most_short = 0.25;               // m, that a load is spilled short of where it is meant to be: with less a bed's far end gets none, with more the wall half of it
 constexpr double carry_radius = 6.4;              // of the bucket pin, m; by the scale of the arm
 constexpr double back_radius = 6.3;               // the same
 constexpr double attitude_carry = radians(-178.0), attitude_spill = radians(-170.0);  // nothing slides yet

@@ -47,7 +47,7 @@ std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask&
 // beyond the dump point. What slides last would else fall beside the far wall, and off a heap that stands over it. Bucket and swing as of the spill point.
 Joints part_pose(const MachineModel& machine, const PassTask& task, const PassPoses& poses, double bucket_attitude);
 
-// The farthest dump point from the swing axis, m: from there the stretched arm spills the load 0.4 m short of where it is meant to be.
+// The farthest dump point from the swing axis, m: from there the stretched arm spills the load 0.25 m short of where it is meant to be.
 double farthest_dump(const MachineModel& machine, double wall_top);
 
 // Bucket angle that holds a load, mouth up, with the stick at an attitude (boom and stick together); as near to it as the bucket's range allows.
