@@ -21,7 +21,8 @@ namespace berm::config {
 namespace {
 
 constexpr std::size_t kDeepest = 100;  // ours are 5 deep; toml11 needs some kB of stack for each
-constexpr std::size_t kLargest = std::size_t{1} << 24;  // bytes; ours have 20 kB, and a device has no end
+constexpr std::size_t kLargest = std::size_t{1} << 20;  // bytes; ours have 20 kB, and a device has no end
+constexpr std::size_t kLongest = 10000;                 // bytes of a line; ours have 200, and toml11 takes the square of it: minutes for a megabyte
 
 // How deep arrays, inline tables and dotted keys lie in one another. A dot of a number counts too, until its value ends.
 class Depth {
@@ -85,6 +86,17 @@ class Depth {
   std::size_t at_ = 0, line_ = 1, depth_ = 0;
   std::vector<std::size_t> outside_;  // the depth outside of each open bracket
 };
+
+// The first line that is too long; 0: none is.
+std::size_t too_long_line(std::string_view text) {
+  std::size_t line = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (end - begin > kLongest) return line;
+    begin = end + 1;
+  }
+  return 0;
+}
 
 // toml11's first line of it: [error] toml::insert_value: ... ("KEY") or (KEY) ... . The key as its own part of the file has it, without the header's;
 // empty for another error, and for a key that would not stay in a line.
@@ -166,6 +178,7 @@ toml::value parse_toml_file(const std::string& file) {
     if (text.size() > kLargest) throw ConfigError(fmt::format("{}: more than {} bytes", file, kLargest));
     if (const std::size_t line = Depth(text).too_deep_line(); line != 0)
       throw ConfigError(fmt::format("{}: line {}: nested more than {} deep", file, line, kDeepest));
+    if (const std::size_t line = too_long_line(text); line != 0) throw ConfigError(fmt::format("{}: line {}: more than {} bytes", file, line, kLongest));
     const Fit fit(file, text);
     std::istringstream lines(std::move(text));
     toml::value value = toml::parse(lines, file);

@@ -68,13 +68,21 @@ TEST(TomlFile, BehindATextItIsCountedAgain) {
     EXPECT_NE(verdict("a = [" + std::string(text) + ", " + times(10000, "[")).find("nested more than 100 deep"), std::string::npos) << text;
 }
 
+// verifies: IF-CF-24
+// A line costs toml11 the square of its length: a megabyte would be minutes.
+TEST(TomlFile, ALongLineIsRefused) {
+  EXPECT_EQ(verdict("a = 1\nb = [" + times(200000, "1,") + "1]\n"), ": line 2: more than 10000 bytes");
+  EXPECT_EQ(verdict("b = '" + std::string(9994, 'x') + "'\n"), "read");
+  EXPECT_EQ(verdict("# " + std::string(9999, 'x')), ": line 1: more than 10000 bytes");
+}
+
 // A device has no end: reading all of it would take all memory.
 TEST(TomlFile, WhatHasNoEndIsRefused) {
   try {
     StrictTable::parse_file("/dev/zero");
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(), "/dev/zero: more than 16777216 bytes");
+    EXPECT_STREQ(error.what(), "/dev/zero: more than 1048576 bytes");
   }
 }
 
