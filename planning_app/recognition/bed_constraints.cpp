@@ -1,6 +1,7 @@
 #include "recognition/bed_constraints.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace berm::app {
 namespace {
@@ -21,13 +22,10 @@ constexpr double kEdgeKept = 0.2;         // m: nor do those on its right side, 
 
 class Collector {
  public:
-  Collector(const BedPose& pose, const std::vector<Ray>& rays) : pose_(pose), faces_(pose) {
-    out.reserve(kStatementsExpected);
-    RayPlacing place(pose);
-    for (const Ray& ray : rays) {
-      const Eigen::Vector3d &a = place.head(ray), end = place.end(ray), d = end - a;
-      take({ray.head, ray.at, a, end, d, d.norm()});
-    }
+  explicit Collector(const BedPose& pose) : pose_(pose), faces_(pose), place_(pose) { out.reserve(kStatementsExpected); }
+  void take(const Ray& ray) {
+    const Eigen::Vector3d &a = place_.head(ray), end = place_.end(ray), d = end - a;
+    take({ray.head, ray.at, a, end, d, d.norm()});
   }
   std::vector<BedConstraint> out;
 
@@ -193,10 +191,97 @@ class Collector {
 
   const BedPose& pose_;
   const BedFaces faces_;
+  RayPlacing place_;
 };
+
+// Which of eight rays may make a statement. The others make none, and most of a fit's rays are such: they pass the bed, or meet it far from every edge. All
+// limits are wider than those above, by more than single precision may be off.
+class alignas(32) Speaks {
+ public:
+  explicit Speaks(const BedPose& pose)
+      : place_(pose), half_u_(pose.length / 2), half_v_(pose.width / 2), rear_(-pose.face(0, -1, true)), front_(pose.face(0, 1, true)), side_(pose.face(1, 1, true)),
+        beyond_(eight(pose.thickness + kEdgeKept + kUnsure)), at_wall_(eight(pose.thickness + kRangeGate + kUnsure)), open_(pose.open_end) {}
+
+  [[nodiscard, gnu::always_inline]] EightInt operator()(const PackedRays::EightRays& r) const {
+    const Places a = place_.of(r.head), end = place_.of(r.at), d{end.u - a.u, end.v - a.v, end.w - a.w};
+    const Eight one_by_u = one_by8(d.u), one_by_v = one_by8(d.v), unsure = eight(kUnsure), unsure_share = eight(kUnsureShare);
+    const Eight gate = eight(kRangeGate + kUnsure), half_u = eight(half_u_), half_v = eight(half_v_);
+    const Crossings outer(a, one_by_u, one_by_v, rear_, front_, side_), inner(a, one_by_u, one_by_v, -half_u_, half_u_, half_v_);
+    // At the wall that is seen: beside an end of it.
+    const auto seen = [&](Eight t) {
+      const Eight w = a.w + t * d.w;
+      return (w > eight(-kWallSeen - kUnsure)) & (w < eight(kUnsure - 0.05));
+    };
+    const auto off_u = [&](Eight t) { return magnitude8(a.u + t * d.u) - half_u; };
+    const auto off_v = [&](Eight t) { return magnitude8(a.v + t * d.v) - half_v; };
+    const auto near_end = [&](Eight off) { return (off > -unsure) & (off < beyond_); };
+    EightInt speaks = (seen(outer.in_u) & near_end(off_v(outer.in_u))) | (seen(outer.in_v) & near_end(off_u(outer.in_v)));
+    if (open_ != 0) {
+      speaks |= seen(inner.in_v) & near_end(off_u(inner.in_v));
+      const Eight reach = eight(kEdgeReach + kUnsure);
+      speaks |= seen(inner.out_v) & ((magnitude8(off_u(inner.out_v)) < reach) | (magnitude8(off_u(outer.out_v)) < reach));
+    }
+    const Eight in = outer.in(), entry_w = a.w + in * d.w;
+    const EightInt comes = (in < outer.out() + unsure_share) & (in > -unsure_share) & (entry_w > eight(-kWallSeen - kUnsure));
+    if (any8(comes)) {
+      const EightInt low = (entry_w < unsure) & ((1.0F - in) * r.range > -gate);
+      // Over the walls: where it goes through the plane of their tops near one of them.
+      const EightInt level = d.w > eight(-kLevel);
+      const Eight to_rim = -a.w / choose8(level, eight(1.0), d.w), rim_u = off_u(to_rim), rim_v = off_v(to_rim), within = eight(-kEdgeKept - kUnsure);
+      const EightInt by_rim = (entry_w > -unsure) & (level | ((rim_u > within) & (rim_u < beyond_)) | ((rim_v > within) & (rim_v < beyond_)));
+      const EightInt on_inner = (magnitude8(1.0F - inner.out()) * r.range < gate) & (end.w < unsure) &
+                                ((inner.out_u < inner.out_v + unsure_share) | (end.w > eight(-kUprightSeen - kUnsure)));
+      const EightInt over_wall = (end.w > -gate) & (end.w < eight(kTopHigher) + gate) & ((magnitude8(magnitude8(end.u) - half_u) < at_wall_) | (magnitude8(magnitude8(end.v) - half_v) < at_wall_));
+      speaks |= comes & (low | by_rim | on_inner | over_wall);
+    }
+    return speaks & (r.head[0] != PackedRays::kFar);
+  }
+
+ private:
+  static constexpr double kUnsure = 0.01, kUnsureShare = 2e-3;  // m; of a ray
+  static constexpr double kLevel = 0.02;                        // m by which a ray falls: where a more level one goes through a plane is too unsure
+  EightPlacing place_;
+  double half_u_, half_v_, rear_, front_, side_;
+  Eight beyond_, at_wall_;
+  int open_;
+};
+
+BERM_APP_LANES std::size_t find_speaking(const BedPose& pose, const PackedRays& rays, std::vector<std::uint32_t>& out) {
+  out.resize(rays.eights().size() * kLanes);
+  const Speaks speaks(pose);
+  std::size_t found = 0;
+  std::uint32_t first = 0;
+  for (const PackedRays::EightRays& r : rays.eights()) {
+    if (const EightInt kept = speaks(r); any8(kept))
+      for (int k = 0; k < static_cast<int>(kLanes); ++k) out[found] = first + static_cast<std::uint32_t>(k), found += kept[k] != 0 ? 1 : 0;
+    first += kLanes;
+  }
+  return found;
+}
 
 }  // namespace
 
-std::vector<BedConstraint> constraints(const BedPose& pose, const std::vector<Ray>& rays) { return Collector(pose, rays).out; }
+std::vector<BedConstraint> constraints(const BedPose& pose, const std::vector<Ray>& rays) {
+  Collector collector(pose);
+  for (const Ray& ray : rays) collector.take(ray);
+  return std::move(collector.out);
+}
+
+FitRays::FitRays(const BedPose& start, const std::vector<Ray>& rays, const PackedRays& packed, double within, double below) {
+  const std::vector<std::uint32_t> near = numbers_meeting(start, packed, within, below);
+  rays_.reserve(near.size());
+  packed_.reserve(near.size());
+  for (const std::uint32_t k : near) {
+    rays_.push_back(rays[k]);
+    packed_.take(packed, k);
+  }
+}
+
+std::vector<BedConstraint> FitRays::constraints(const BedPose& pose) {
+  Collector collector(pose);
+  const std::size_t count = find_speaking(pose, packed_, speaking_);
+  for (std::size_t i = 0; i < count; ++i) collector.take(rays_[speaking_[i]]);
+  return std::move(collector.out);
+}
 
 }  // namespace berm::app

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "recognition/bed_model.hpp"
+#include "recognition/packed_rays.hpp"
 
 namespace berm::app {
 
@@ -26,5 +27,19 @@ struct BedConstraint {
 
 // pose: near enough to tell which face each ray meets.
 std::vector<BedConstraint> constraints(const BedPose& pose, const std::vector<Ray>& rays);
+
+// The rays of one fit: those that come within so many metres of the walls at its start, in plan, and there no lower than so many below what is seen of them.
+class FitRays {
+ public:
+  // packed: the same rays.
+  FitRays(const BedPose& start, const std::vector<Ray>& rays, const PackedRays& packed, double within, double below);
+  // What they say, as above. Those that say nothing, most of them, are passed over eight at a time.
+  [[nodiscard]] std::vector<BedConstraint> constraints(const BedPose& pose);
+
+ private:
+  std::vector<Ray> rays_;
+  PackedRays packed_;
+  std::vector<std::uint32_t> speaking_;
+};
 
 }  // namespace berm::app

@@ -8,20 +8,7 @@ namespace berm::app {
 namespace {
 
 constexpr double kTiltedAside = 0.15;  // m, by which faces move aside where a ray passes high over a bed that is tilted
-constexpr float kAlong = 1e-12F;       // m: a ray whose ends differ by less goes along the faces of an axis
 
-// The rays' ways through a rectangle of faces in plan, as in bed_model.cpp.
-struct alignas(32) Crossings {
-  Eight in_u, out_u, in_v, out_v;
-  [[gnu::always_inline]] Crossings(const Places& a, Eight one_by_u, Eight one_by_v, double rear, double front, double side) {
-    const Eight r = (eight(rear) - a.u) * one_by_u, f = (eight(front) - a.u) * one_by_u, right = (eight(-side) - a.v) * one_by_v, left = (eight(side) - a.v) * one_by_v;
-    in_u = least8(r, f), out_u = most8(r, f), in_v = least8(right, left), out_v = most8(right, left);
-  }
-  [[nodiscard, gnu::always_inline]] Eight in() const { return most8(in_u, in_v); }
-  [[nodiscard, gnu::always_inline]] Eight out() const { return least8(out_u, out_v); }
-};
-
-BERM_APP_INLINE Eight one_by(Eight d) { return 1.0F / choose8(magnitude8(d) < kAlong, eight(static_cast<double>(kAlong)), d); }
 BERM_APP_INLINE Eight fit8(Eight off, double gate) { return 1.0F - off * off * eight(1.0 / (gate * gate)); }
 
 BERM_APP_INLINE EightInt below_pipe8(const Places& a, const Places& d, double half_outer, Eight slack) {
@@ -46,7 +33,7 @@ template <bool counted>
   EightSums sums;
   for (const PackedRays::EightRays& r : rays.eights()) {
     const Places a = place.of(r.head), end = place.of(r.at), d{end.u - a.u, end.v - a.v, end.w - a.w};
-    const Eight one_by_u = one_by(d.u), one_by_v = one_by(d.v);
+    const Eight one_by_u = one_by8(d.u), one_by_v = one_by8(d.v);
     const Crossings outer(a, one_by_u, one_by_v, rear, front, side);
     const Eight in = outer.in(), out = outer.out(), entry_w = a.w + in * d.w, entry_v = a.v + in * d.v;
     const EightInt comes = (in < out) & (in > 0.0F) & (entry_w >= eight(-kWallSeen));
@@ -137,14 +124,15 @@ template <bool counted>
   return e;
 }
 
-// Which of the rays may meet the bed.
+// Which of the rays come within so many metres of the bed's outer faces, in plan, and there no lower than so many below what is seen of the walls.
 class alignas(32) Meets {
  public:
-  Meets(const BedPose& pose, double moved) : place_(pose), u_(pose.length / 2 + pose.thickness + moved + kTiltedAside), v_(pose.width / 2 + pose.thickness + moved + kTiltedAside), lowest_(eight(-kWallSeen - moved)) {}
+  Meets(const BedPose& pose, double within, double below)
+      : place_(pose), u_(pose.length / 2 + pose.thickness + within), v_(pose.width / 2 + pose.thickness + within), lowest_(eight(-kWallSeen - below)) {}
   [[nodiscard, gnu::always_inline]] EightInt operator()(const PackedRays::EightRays& r) const {
     const Places a = place_.of(r.head), end = place_.of(r.at);
     const Eight fall = end.w - a.w;
-    const Crossings crossing(a, one_by(end.u - a.u), one_by(end.v - a.v), -u_, u_, v_);
+    const Crossings crossing(a, one_by8(end.u - a.u), one_by8(end.v - a.v), -u_, u_, v_);
     const Eight from = most8(crossing.in(), Eight{}), to = crossing.out(), highest = a.w + choose8(fall < 0.0F, from, to) * fall;
     return (from < to) & (highest >= lowest_);
   }
@@ -165,12 +153,26 @@ PackedRays::PackedRays(const std::vector<Ray>& rays) {
 BERM_APP_LANES PackedRays PackedRays::meeting(const BedPose& pose, double moved) const {
   PackedRays out;
   out.eights_.reserve(eights_.size());
-  const Meets meets(pose, moved);
-  for (const EightRays& r : eights_) {
-    const EightInt kept = meets(r);
+  const Meets meets(pose, moved + kTiltedAside, moved);
+  for (std::size_t i = 0; i < eights_.size(); ++i) {
+    const EightInt kept = meets(eights_[i]);
     for (int k = 0; k < static_cast<int>(kLanes); ++k)
-      if (kept[k] != 0) out.add({r.head[0][k], r.head[1][k], r.head[2][k], r.at[0][k], r.at[1][k], r.at[2][k], r.range[k]}, r.upright[k]);
+      if (kept[k] != 0) out.take(*this, i * kLanes + static_cast<std::size_t>(k));
   }
+  return out;
+}
+
+BERM_APP_LANES std::vector<std::uint32_t> numbers_meeting(const BedPose& pose, const PackedRays& rays, double within, double below) {
+  std::vector<std::uint32_t> out(rays.eights().size() * kLanes);
+  const Meets meets(pose, within, below);
+  std::size_t found = 0;
+  std::uint32_t first = 0;
+  for (const PackedRays::EightRays& r : rays.eights()) {
+    const EightInt kept = meets(r) & (r.head[0] != PackedRays::kFar);
+    for (int k = 0; k < static_cast<int>(kLanes); ++k) out[found] = first + static_cast<std::uint32_t>(k), found += kept[k] != 0 ? 1 : 0;
+    first += kLanes;
+  }
+  out.resize(found);
   return out;
 }
 

@@ -65,13 +65,13 @@ class Statements {
 
 enum class Wanted { pose, covariance };
 
-FittedBed fit(const BedPose& start, const std::vector<Ray>& all_rays, int rounds, const BedSizes& sizes, BedSolver solver, Wanted wanted) {
+FittedBed fit(const BedPose& start, const std::vector<Ray>& all_rays, const PackedRays& packed, int rounds, const BedSizes& sizes, BedSolver solver, Wanted wanted) {
   const Known known = known_of(sizes);
-  const std::vector<Ray> rays = rays_meeting(start, all_rays, kSpeaking, kSpeakingBelow);
+  FitRays rays(start, all_rays, packed, kSpeaking, kSpeakingBelow);
   FittedBed fit;
   fit.pose = start;
   for (int round = 0; round < rounds; ++round) {
-    std::vector<BedConstraint> statements = constraints(fit.pose, rays);
+    std::vector<BedConstraint> statements = rays.constraints(fit.pose);
     for (BedConstraint& c : statements)
       if (c.edge && c.bound.axis != 0) c.deviation *= std::pow(kBlur, std::max(0, rounds - 2 - round));
     fit.residuals = static_cast<int>(statements.size());
@@ -98,10 +98,10 @@ FittedBed fit(const BedPose& start, const std::vector<Ray>& all_rays, int rounds
 }  // namespace
 
 FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds, const BedSizes& sizes, BedSolver solver) {
-  return fit(start, rays, rounds, sizes, solver, Wanted::covariance);
+  return fit(start, rays, PackedRays(rays), rounds, sizes, solver, Wanted::covariance);
 }
-FittedBed fit_pose(const BedPose& start, const std::vector<Ray>& rays, int rounds, const BedSizes& sizes) {
-  return fit(start, rays, rounds, sizes, BedSolver::sums, Wanted::pose);
+FittedBed fit_pose(const BedPose& start, const std::vector<Ray>& rays, const PackedRays& packed, int rounds, const BedSizes& sizes) {
+  return fit(start, rays, packed, rounds, sizes, BedSolver::sums, Wanted::pose);
 }
 
 std::array<Eigen::Vector3d, 4> opening_corners(const BedPose& pose) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "recognition/bed_model.hpp"
+#include "recognition/packed_rays.hpp"
 #include "recognition/truck_ranges.hpp"
 
 namespace berm::app {
@@ -29,8 +30,8 @@ struct FittedBed {
 enum class BedSolver { sums, ceres };  // bed_solver for the many fits of a search; the one that is the answer ends with Ceres
 // sizes: what is known of width and walls beforehand.
 FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds, const BedSizes& sizes, BedSolver solver = BedSolver::sums);
-// The same without its covariance.
-FittedBed fit_pose(const BedPose& start, const std::vector<Ray>& rays, int rounds, const BedSizes& sizes);
+// The same without its covariance. packed: the same rays.
+FittedBed fit_pose(const BedPose& start, const std::vector<Ray>& rays, const PackedRays& packed, int rounds, const BedSizes& sizes);
 
 // Of the opening on the inner top edge: (+u, +v), (-u, +v), (-u, -v), (+u, -v).
 std::array<Eigen::Vector3d, 4> opening_corners(const BedPose& pose);

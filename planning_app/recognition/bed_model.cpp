@@ -127,20 +127,4 @@ RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray&
   return meet_in_bed(pose, rotation.transpose() * (ray.head.cast<double>() - pose.middle), rotation.transpose() * (ray.at.cast<double>() - pose.middle));
 }
 
-std::vector<Ray> rays_meeting(const BedPose& pose, const std::vector<Ray>& rays, double within, double below) {
-  const double u = pose.length / 2 + pose.thickness + within, v = pose.width / 2 + pose.thickness + within;
-  const BedRectangle around{-u, u, v};
-  RayPlacing place(pose);
-  std::vector<Ray> out;
-  out.reserve(rays.size());
-  for (const Ray& ray : rays) {
-    const Eigen::Vector3d& a = place.head(ray);
-    const Eigen::Vector3d d = place.end(ray) - a;
-    const Crossing crossing(a.x(), a.y(), one_by(d.x()), one_by(d.y()), around);
-    const double from = std::max(crossing.in(), 0.0), to = crossing.out(), highest = a.z() + (d.z() < 0.0 ? from : to) * d.z();
-    if (from < to && highest >= -kWallSeen - below) out.push_back(ray);
-  }
-  return out;
-}
-
 }  // namespace berm::app

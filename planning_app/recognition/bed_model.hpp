@@ -102,9 +102,6 @@ class BedFaces {
   BedRectangle outer_, inner_;
 };
 
-// Those of the rays that come within so many metres of the walls, in plan, and there no lower than so many below what is seen of them.
-std::vector<Ray> rays_meeting(const BedPose& pose, const std::vector<Ray>& rays, double within, double below);
-
 RayMeeting meet_in_bed(const BedPose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& end);
 RayMeeting meet(const BedPose& pose, const Eigen::Matrix3d& rotation, const Ray& ray);
 

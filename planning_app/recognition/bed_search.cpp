@@ -108,8 +108,8 @@ struct Weighed {
 // The pose after a fit, where that agrees better with the rays.
 Weighed fitted(const FanSweep& sweep, const BedPose& start, const BedSizes& sizes) {
   const std::vector<Ray> rays = rays_near(sweep, start, kNearBelow, kFitStride);
-  const FittedBed fit = fit_pose(start, rays, kFitRounds, sizes);
   const PackedRays packed(rays);
+  const FittedBed fit = fit_pose(start, rays, packed, kFitRounds, sizes);
   const double before = score_of(start, packed), after = fit.converged ? score_of(fit.pose, packed) : before;
   return after > before ? Weighed{fit.pose, after} : Weighed{start, before};
 }

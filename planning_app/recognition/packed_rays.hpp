@@ -23,6 +23,12 @@ class PackedRays {
   void add(const Eigen::Vector3f& head, const Eigen::Vector3f& at, bool upright) {
     add({head.x(), head.y(), head.z(), at.x(), at.y(), at.z(), (at - head).norm()}, upright ? -1 : 0);
   }
+  // Adds the k-th of other ones.
+  void take(const PackedRays& from, std::size_t k) {
+    const EightRays& r = from.eights_[k / kLanes];
+    const auto lane = static_cast<int>(k % kLanes);
+    add({r.head[0][lane], r.head[1][lane], r.head[2][lane], r.at[0][lane], r.at[1][lane], r.at[2][lane], r.range[lane]}, r.upright[lane]);
+  }
   [[nodiscard]] const std::vector<EightRays>& eights() const { return eights_; }
   // Those of the rays that may meet the bed when no corner of it is moved by more than so many metres; the others are no evidence of it.
   [[nodiscard]] PackedRays meeting(const BedPose& pose, double moved) const;
@@ -67,5 +73,23 @@ class alignas(32) EightPlacing {
   Eights<3> turn_[3];
   Eights<3> shift_;
 };
+
+constexpr float kAlong = 1e-12F;  // m: a ray whose ends differ by less goes along the faces of an axis
+BERM_APP_INLINE Eight one_by8(Eight d) { return 1.0F / choose8(magnitude8(d) < kAlong, eight(static_cast<double>(kAlong)), d); }
+
+// The rays' ways through a rectangle of faces in plan, as in bed_model.cpp.
+struct alignas(32) Crossings {
+  Eight in_u, out_u, in_v, out_v;
+  [[gnu::always_inline]] Crossings(const Places& a, Eight one_by_u, Eight one_by_v, double rear, double front, double side) {
+    const Eight r = (eight(rear) - a.u) * one_by_u, f = (eight(front) - a.u) * one_by_u, right = (eight(-side) - a.v) * one_by_v, left = (eight(side) - a.v) * one_by_v;
+    in_u = least8(r, f), out_u = most8(r, f), in_v = least8(right, left), out_v = most8(right, left);
+  }
+  [[nodiscard, gnu::always_inline]] Eight in() const { return most8(in_u, in_v); }
+  [[nodiscard, gnu::always_inline]] Eight out() const { return least8(out_u, out_v); }
+};
+
+// The numbers of those of the rays that come within so many metres of the bed's outer faces, in plan, and there no lower than so many below what is seen of
+// the walls.
+std::vector<std::uint32_t> numbers_meeting(const BedPose& pose, const PackedRays& rays, double within, double below);
 
 }  // namespace berm::app

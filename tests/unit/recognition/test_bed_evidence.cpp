@@ -1,4 +1,5 @@
 // Rays weighed four at a time against the model that they are followed through one by one.
+#include "recognition/bed_constraints.hpp"
 #include "recognition/bed_evidence.hpp"
 
 #include <gtest/gtest.h>
@@ -90,6 +91,25 @@ TEST(BedEvidence, CountsWhatEachRayMeets) {
     for (const Meeting what : {Meeting::none, Meeting::before, Meeting::outer_face, Meeting::below_side, Meeting::above_face, Meeting::wall_top, Meeting::inside, Meeting::inner_face,
                                Meeting::over, Meeting::through_face, Meeting::through_inner, Meeting::through_top})
       EXPECT_GT(met[static_cast<int>(what)], 20) << static_cast<int>(what);
+  }
+}
+
+// Rays that a fit passes over eight at a time would have made no statement.
+TEST(BedEvidence, RaysThatAreTakenForSilentSayNothing) {
+  for (const int open_end : {0, 1, -1}) {
+    BedPose pose = level_bed(open_end);
+    pose.pitch = 0.02, pose.roll = -0.015;
+    DrawnRays drawn(pose);
+    std::vector<Ray> rays;
+    for (int k = 0; k < 20000; ++k) rays.push_back(drawn.draw());
+    constexpr double kAll = 100.0;  // m
+    const std::vector<BedConstraint> all = constraints(pose, rays), some = FitRays(pose, rays, PackedRays(rays), kAll, kAll).constraints(pose);
+    ASSERT_EQ(all.size(), some.size()) << "open end " << open_end << ", seed " << kDrawnRaysSeed;
+    EXPECT_GT(all.size(), 2000U);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      ASSERT_TRUE(all[k].head == some[k].head && all[k].at == some[k].at) << k;
+      ASSERT_TRUE(all[k].edge == some[k].edge && all[k].bound.axis == some[k].bound.axis && all[k].sense == some[k].sense) << k;
+    }
   }
 }
 
