@@ -24,6 +24,8 @@ void ArrivingSweep::Thinned::take(const FanSweep& whole, std::size_t fan) {
 
 ArrivingSweep::Thinned ArrivingSweep::thin(const FanSweep& whole, std::size_t stride) {
   Thinned out;
+  out.sweep.returns.reserve(kReturnsExpected / stride);
+  out.sweep.directions.reserve(kReturnsExpected / stride);
   for (std::size_t fan = 0; fan < whole.heads.size(); fan += stride) out.take(whole, fan);
   return out;
 }

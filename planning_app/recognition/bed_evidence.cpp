@@ -7,6 +7,7 @@
 namespace berm::app {
 namespace {
 
+constexpr double kTiltedHigher = 2.0;  // times as much as a corner the plane of the tops may rise beside a bed that is moved and tilted
 constexpr double kTiltedAside = 0.15;  // m, by which faces move aside where a ray passes high over a bed that is tilted
 
 BERM_APP_INLINE Eight fit8(Eight off, double gate) { return 1.0F - off * off * eight(1.0 / (gate * gate)); }
@@ -130,14 +131,26 @@ class alignas(32) Meets {
   Meets(const BedPose& pose, double within, double below)
       : place_(pose), u_(pose.length / 2 + pose.thickness + within), v_(pose.width / 2 + pose.thickness + within), lowest_(eight(-kWallSeen - below)) {}
   [[nodiscard, gnu::always_inline]] EightInt operator()(const PackedRays::EightRays& r) const {
-    const Places a = place_.of(r.head), end = place_.of(r.at);
-    const Eight fall = end.w - a.w;
-    const Crossings crossing(a, one_by8(end.u - a.u), one_by8(end.v - a.v), -u_, u_, v_);
-    const Eight from = most8(crossing.in(), Eight{}), to = crossing.out(), highest = a.w + choose8(fall < 0.0F, from, to) * fall;
-    return (from < to) & (highest >= lowest_);
+    const Way way = way_of(r);
+    return (way.from < way.to) & (way.highest >= lowest_);
+  }
+  // Without those that end before they come there, and those that pass over it by so much, in metres, and end beyond.
+  [[nodiscard, gnu::always_inline]] EightInt and_tells(const PackedRays::EightRays& r, Eight over) const {
+    const Way way = way_of(r);
+    return (way.from < way.to) & (way.highest >= lowest_) & (way.from <= 1.0F) & ((way.to >= 1.0F) | (way.lowest <= over));
   }
 
  private:
+  struct alignas(32) Way {
+    Eight from, to, highest, lowest;  // in shares of the ray; over the tops
+  };
+  [[nodiscard, gnu::always_inline]] Way way_of(const PackedRays::EightRays& r) const {
+    const Places a = place_.of(r.head), end = place_.of(r.at);
+    const Eight fall = end.w - a.w;
+    const Crossings crossing(a, one_by8(end.u - a.u), one_by8(end.v - a.v), -u_, u_, v_);
+    const Eight from = most8(crossing.in(), Eight{}), to = crossing.out(), w_from = a.w + from * fall, w_to = a.w + to * fall;
+    return {from, to, most8(w_from, w_to), least8(w_from, w_to)};
+  }
   EightPlacing place_;
   double u_, v_;
   Eight lowest_;
@@ -154,8 +167,10 @@ BERM_APP_LANES PackedRays PackedRays::meeting(const BedPose& pose, double moved)
   PackedRays out;
   out.eights_.reserve(eights_.size());
   const Meets meets(pose, moved + kTiltedAside, moved);
+  const Eight over = eight(kTiltedHigher * moved);
   for (std::size_t i = 0; i < eights_.size(); ++i) {
-    const EightInt kept = meets(eights_[i]);
+    const EightInt kept = meets.and_tells(eights_[i], over);
+    if (!any8(kept)) continue;
     for (int k = 0; k < static_cast<int>(kLanes); ++k)
       if (kept[k] != 0) out.take(*this, i * kLanes + static_cast<std::size_t>(k));
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "recognition/bed_ceres.hpp"
 #include "recognition/bed_constraints.hpp"
@@ -63,9 +64,7 @@ class Statements {
   const Known& known_;
 };
 
-enum class Wanted { pose, covariance };
-
-FittedBed fit(const BedPose& start, const std::vector<Ray>& all_rays, const PackedRays& packed, int rounds, const BedSizes& sizes, BedSolver solver, Wanted wanted) {
+FittedBed fit(const BedPose& start, const std::vector<Ray>& all_rays, const PackedRays& packed, int rounds, const BedSizes& sizes, BedSolver solver) {
   const Known known = known_of(sizes);
   FitRays rays(start, all_rays, packed, kSpeaking, kSpeakingBelow);
   FittedBed fit;
@@ -87,10 +86,8 @@ FittedBed fit(const BedPose& start, const std::vector<Ray>& all_rays, const Pack
     fit.pose.thickness = std::clamp(fit.pose.thickness, std::max(kThinnest, sizes.thickness[0] - kThicknessSlack), sizes.thickness[1] + kThicknessSlack);
     if (round + 1 < rounds) continue;
     fit.converged = true;
-    if (wanted == Wanted::pose) continue;
-    const Normal inverse = Eigen::LDLT<Normal>(Statements(statements, start.open_end, known).information(values)).solve(Normal::Identity());
-    fit.covariance = inverse.topLeftCorner<8, 8>();
-    for (int i = 0; i < 8; ++i) fit.covariance(i, i) += kBodyDeviation[static_cast<std::size_t>(i)] * kBodyDeviation[static_cast<std::size_t>(i)];
+    fit.statements = std::move(statements);
+    fit.values = values;
   }
   return fit;
 }
@@ -98,10 +95,20 @@ FittedBed fit(const BedPose& start, const std::vector<Ray>& all_rays, const Pack
 }  // namespace
 
 FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds, const BedSizes& sizes, BedSolver solver) {
-  return fit(start, rays, PackedRays(rays), rounds, sizes, solver, Wanted::covariance);
+  FittedBed out = fit(start, rays, PackedRays(rays), rounds, sizes, solver);
+  find_covariance(out, sizes);
+  return out;
 }
 FittedBed fit_pose(const BedPose& start, const std::vector<Ray>& rays, const PackedRays& packed, int rounds, const BedSizes& sizes) {
-  return fit(start, rays, packed, rounds, sizes, BedSolver::sums, Wanted::pose);
+  return fit(start, rays, packed, rounds, sizes, BedSolver::sums);
+}
+
+void find_covariance(FittedBed& fit, const BedSizes& sizes) {
+  if (!fit.converged) return;
+  const Known known = known_of(sizes);
+  const Normal inverse = Eigen::LDLT<Normal>(Statements(fit.statements, fit.pose.open_end, known).information(fit.values)).solve(Normal::Identity());
+  fit.covariance = inverse.topLeftCorner<8, 8>();
+  for (int i = 0; i < 8; ++i) fit.covariance(i, i) += kBodyDeviation[static_cast<std::size_t>(i)] * kBodyDeviation[static_cast<std::size_t>(i)];
 }
 
 std::array<Eigen::Vector3d, 4> opening_corners(const BedPose& pose) {

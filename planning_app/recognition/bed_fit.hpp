@@ -6,7 +6,9 @@
 #include <array>
 #include <vector>
 
+#include "recognition/bed_constraints.hpp"
 #include "recognition/bed_model.hpp"
+#include "recognition/bed_residuals.hpp"
 #include "recognition/packed_rays.hpp"
 #include "recognition/truck_ranges.hpp"
 
@@ -20,6 +22,9 @@ struct FittedBed {
   Matrix8d covariance = Matrix8d::Zero();   // of middle x y z, yaw, pitch, roll, length, width; m, rad
   int residuals = 0;
   bool converged = false;
+  // What the last round went by, and where it came to: for the covariance, where that is asked for later.
+  std::vector<BedConstraint> statements;
+  BedVector values = BedVector::Zero();
 };
 
 // Two kinds of residuals. Returns on a face or on the walls' tops: their distance from that plane. Rays past an edge: each must pass on its side, by
@@ -30,8 +35,9 @@ struct FittedBed {
 enum class BedSolver { sums, ceres };  // bed_solver for the many fits of a search; the one that is the answer ends with Ceres
 // sizes: what is known of width and walls beforehand.
 FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds, const BedSizes& sizes, BedSolver solver = BedSolver::sums);
-// The same without its covariance. packed: the same rays.
+// The same without its covariance, which takes as long as a round, and is hardly ever asked for; find_covariance adds it. packed: the same rays.
 FittedBed fit_pose(const BedPose& start, const std::vector<Ray>& rays, const PackedRays& packed, int rounds, const BedSizes& sizes);
+void find_covariance(FittedBed& fit, const BedSizes& sizes);
 
 // Of the opening on the inner top edge: (+u, +v), (-u, +v), (-u, -v), (+u, -v).
 std::array<Eigen::Vector3d, 4> opening_corners(const BedPose& pose);

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kGroundSlack = 0.15;  // m: ruts
 constexpr int kReturnsLeast = 25;
+constexpr double kBesideFrom = 0.2, kBesideTo = 2.5;         // m beyond the outer faces
 constexpr double kFarFrom = 0.2, kFarTo = 1.5;             // m beyond the outer faces of the far walls
 constexpr double kAtTops = 0.3, kLow = 1.8;                 // m of the tops; below them
 constexpr int kLevelLeast = 30, kLevelToLow = 20;          // returns; level ones to each that lies low
@@ -18,11 +19,14 @@ double share_of_ground(const FanSweep& sweep, const BedPose& pose, const SizeRan
   const Eigen::Matrix3d turn = pose.rotation().transpose();
   int all = 0, ground = 0;
   for (std::size_t k = 0; k < sweep.returns.size(); k += stride) {
-    const Eigen::Vector3d p = turn * (sweep.returns[k].at() - pose.middle);
-    const double beyond = std::max(std::abs(p.x()) - pose.length / 2, std::abs(p.y()) - pose.width / 2) - pose.thickness;
-    if (beyond < 0.2 || beyond > 2.5) continue;
+    const Eigen::Vector3d from = sweep.returns[k].at() - pose.middle;
+    const double across = std::abs(turn.row(1).dot(from)) - pose.width / 2 - pose.thickness;  // first, for most lie too far off
+    if (across > kBesideTo) continue;
+    const double beyond = std::max(std::abs(turn.row(0).dot(from)) - pose.length / 2 - pose.thickness, across);
+    if (beyond < kBesideFrom || beyond > kBesideTo) continue;
     ++all;
-    ground += -p.z() > top_over_ground[0] - kGroundSlack && -p.z() < top_over_ground[1] + 2 * kGroundSlack ? 1 : 0;
+    const double below = -turn.row(2).dot(from);
+    ground += below > top_over_ground[0] - kGroundSlack && below < top_over_ground[1] + 2 * kGroundSlack ? 1 : 0;
   }
   return all * static_cast<int>(stride) < kReturnsLeast ? 1.0 : static_cast<double>(ground) / all;
 }

@@ -101,8 +101,9 @@ BedPose refined(const BedPose& start, const PackedRays& rays, const SizeRange& w
   return best;
 }
 
-BedPose levelled(const BedPose& start, const PackedRays& rays) {
+BedPose levelled(const BedPose& start, const PackedRays& all_rays) {
   BedPose best = start;
+  const PackedRays rays = all_rays.meeting(start, kNear);
   double score = score_of(best, rays);
   const auto offer = [&](double pitch, double roll, int step) {
     BedPose p = start;

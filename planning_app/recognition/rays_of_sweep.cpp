@@ -58,14 +58,14 @@ PassingRays::PassingRays(const FanSweep& sweep, const Surroundings& place)
 std::vector<Ray> PassingRays::rays(std::size_t stride) const {
   std::vector<Ray> out;
   out.reserve(count_ / stride + 1);
-  visit(stride, [&](std::size_t fan, std::size_t k) { out.push_back({sweep_.heads[fan].cast<float>(), sweep_.returns[k].place, sweep_.returns[k].upright}); });
+  visit_with_heads(stride, [&](const Eigen::Vector3f& head, const FanReturn& r) { out.push_back({head, r.place, r.upright}); });
   return out;
 }
 
 PackedRays PassingRays::packed(std::size_t stride) const {
   PackedRays out;
   out.reserve(count_ / stride + 1);
-  visit(stride, [&](std::size_t fan, std::size_t k) { out.add(sweep_.heads[fan].cast<float>(), sweep_.returns[k].place, sweep_.returns[k].upright); });
+  visit_with_heads(stride, [&](const Eigen::Vector3f& head, const FanReturn& r) { out.add(head, r.place, r.upright); });
   return out;
 }
 

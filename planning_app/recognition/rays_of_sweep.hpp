@@ -37,6 +37,16 @@ class PassingRays {
   [[nodiscard]] PackedRays packed(std::size_t stride) const;
 
  private:
+  // The head, in single precision, is that of a whole fan.
+  template <typename Take>
+  void visit_with_heads(std::size_t stride, const Take& take) const {
+    std::size_t of = sweep_.heads.size();
+    Eigen::Vector3f head = Eigen::Vector3f::Zero();
+    visit(stride, [&](std::size_t fan, std::size_t k) {
+      if (fan != of) of = fan, head = sweep_.heads[fan].cast<float>();
+      take(head, sweep_.returns[k]);
+    });
+  }
   const FanSweep& sweep_;
   std::unique_ptr<std::uint32_t[]> numbers_;  // not set to anything: most are never used
   std::size_t count_;

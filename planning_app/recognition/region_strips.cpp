@@ -55,14 +55,17 @@ std::vector<TopLine> top_lines(const UprightRegion& region, const Vector2d& alon
   for (const UprightSegment& s : region.segments) tops.push_back({along.dot(s.at - middle), s.high});
   std::vector<TopLine> out;
   while (out.size() < kTopLines && tops.size() >= 4) {
-    std::vector<Top> best;
+    const auto on_line = [](const Top& t, const Top& centre, double slope) { return std::abs(t.high - centre.high - slope * (t.along - centre.along)) < kOneTop; };
+    std::ptrdiff_t most = 0;
+    Top best_centre = tops.front();
+    double best_slope = 0.0;
     for (const Top& centre : tops)
       for (const double slope : {-0.04, 0.0, 0.04}) {
-        std::vector<Top> own;
-        std::copy_if(tops.begin(), tops.end(), std::back_inserter(own),
-                     [&](const Top& t) { return std::abs(t.high - centre.high - slope * (t.along - centre.along)) < kOneTop; });
-        if (own.size() > best.size()) best = std::move(own);
+        const auto own = std::count_if(tops.begin(), tops.end(), [&](const Top& t) { return on_line(t, centre, slope); });
+        if (own > most) most = own, best_centre = centre, best_slope = slope;
       }
+    std::vector<Top> best;
+    std::copy_if(tops.begin(), tops.end(), std::back_inserter(best), [&](const Top& t) { return on_line(t, best_centre, best_slope); });
     if (best.size() < 4 || (!out.empty() && 5 * best.size() < out.front().count)) break;
     out.push_back(line_through(best));
     std::erase_if(tops, [&](const Top& t) {

@@ -44,7 +44,7 @@ void turn_round(BedPose& pose) {
 }
 
 // Why the bed is none; empty when it is one.
-std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const FittedBed& fit, const TruckRangeSet& ranges) {
+std::string refusal(const FanSweep& sweep, const BedInterpretation& i, FittedBed& fit, const TruckRangeSet& ranges) {
   const BedEvidence& e = i.evidence;
   const BedPose& p = fit.pose;
   if (e.score < kScoreLeast)
@@ -60,8 +60,11 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
   const int over_opening = e.level_inside + e.below_inside + e.above_inside;
   if (e.level_inside > kLidShare * over_opening && over_opening >= 30)
     return fmt::format("it is closed on top: {} of {} returns over its opening lie in the plane of the walls' tops", e.level_inside, over_opening);
-  const double unsure = std::sqrt(fit.covariance(6, 6));
-  if (i.cab_seen < kCabFaint && unsure > kLengthUnsure) return fmt::format("it has no cab, and its length is known to {:.2f} m only: an end of it is not seen", unsure);
+  if (i.cab_seen < kCabFaint) {
+    find_covariance(fit, ranges.bed_sizes());
+    const double unsure = std::sqrt(fit.covariance(6, 6));
+    if (unsure > kLengthUnsure) return fmt::format("it has no cab, and its length is known to {:.2f} m only: an end of it is not seen", unsure);
+  }
   if (ranges.find(p.length, p.width, p.open_end != 0) == nullptr)
     return fmt::format("its opening of {:.2f} by {:.2f} m is outside every class of trucks", p.length, p.width);
   // A closed box, a lorry's board or a trench box matches as well from outside: the far walls' inside tells a bed.
@@ -86,8 +89,8 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, const Fit
 // The fit, or another that begins where moves of its walls agree better with the rays, for a fit may have ended in a hollow: the better of both.
 FittedBed polished(const FittedBed& first, const std::vector<Ray>& rays, const BedSizes& sizes) {
   const BedPose moved = refined(first.pose, PackedRays(every(rays, kPolishStride)), sizes.width, kPolishStep, kPolishHalvings);
-  const FittedBed second = fit_bed(moved, rays, kPolishRounds, sizes);
   const PackedRays packed(rays);
+  const FittedBed second = fit_pose(moved, rays, packed, kPolishRounds, sizes);
   return second.converged && (!first.converged || score_of(second.pose, packed) > score_of(first.pose, packed)) ? second : first;
 }
 
@@ -107,7 +110,7 @@ void judge(const FanSweep& sweep, Verified& v, const TruckRangeSet& ranges) {
 Verified verify(const FanSweep& sweep, BedInterpretation interpretation, const TruckRangeSet& ranges) {
   Verified v;
   v.interpretation = std::move(interpretation);
-  v.fit = fit_bed(v.interpretation.pose, v.interpretation.rays, kLastRounds, ranges.bed_sizes());
+  v.fit = fit_pose(v.interpretation.pose, v.interpretation.rays, PackedRays(v.interpretation.rays), kLastRounds, ranges.bed_sizes());
   judge(sweep, v, ranges);
   return v;
 }
@@ -220,6 +223,7 @@ RecognisedTruck recognise(ArrivingSweep& scanlines, const TruckRangeSet& ranges)
   if (chosen.refusal.empty()) {  // with every ray
     const FittedBed last = fit_bed(fit.pose, rays_near(whole, fit.pose), kPolishRounds, ranges.bed_sizes(), BedSolver::ceres);
     if (last.converged && ranges.find(last.pose.length, last.pose.width, last.pose.open_end != 0) != nullptr) fit = last;
+    else find_covariance(fit, ranges.bed_sizes());
   }
   out.evidence = best.evidence;
   out.cab = best.cab_seen;
