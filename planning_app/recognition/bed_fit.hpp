@@ -35,7 +35,7 @@ struct FittedBed {
 enum class BedSolver { sums, ceres };  // bed_solver for the many fits of a search; the one that is the answer ends with Ceres
 // sizes: what is known of width and walls beforehand.
 FittedBed fit_bed(const BedPose& start, const std::vector<Ray>& rays, int rounds, const BedSizes& sizes, BedSolver solver = BedSolver::sums);
-// The same without its covariance, which takes as long as a round, and is hardly ever asked for; find_covariance adds it. packed: the same rays.
+// The same without its covariance, which of most fits is never asked for; find_covariance adds it. packed: the same rays.
 FittedBed fit_pose(const BedPose& start, const std::vector<Ray>& rays, const PackedRays& packed, int rounds, const BedSizes& sizes);
 void find_covariance(FittedBed& fit, const BedSizes& sizes);
 
