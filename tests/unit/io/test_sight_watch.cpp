@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <memory>
 #include <random>
@@ -146,6 +147,30 @@ TEST_F(SightWatchTest, ALidarLowOverTheTracksIsJudgedOnlyBesideThem) {
   for (int k = 0; k < 3; ++k) turn(1, false, -0.75, nothing);
   EXPECT_TRUE(watch->blocked()) << "swung to where it is beside the tracks";
   EXPECT_EQ(watch->blocked_eyes(), 1U << 3);
+}
+
+// A ray that the track's edge ends was sent when the swing was elsewhere. Judged by the swing of now it would have passed the edge, and half of a strip were such.
+// verifies: SK-SI-1, SK-SI-15
+TEST_F(SightWatchTest, TheTracksBlockNothingWhileTheMachineSwings) {
+  ring();
+  const LidarMount mount = lidar_mount(parameters.lidar[1]);
+  constexpr double fastest = 0.873, oldest = 0.05;  // rad/s, s
+  for (const double way : {-1.0, 0.0, 1.0}) {
+    renew();
+    for (double swing = -1.6; swing < 1.6; swing += 0.01) {
+      const double then = swing - way * fastest * oldest;
+      const Eigen::Matrix3d turned = Eigen::AngleAxisd(then, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      turn(1, false, swing, [&](double azimuth, int channel) {
+        const double e = (-15.0 + 2.0 * channel) * kTurn / 360.0, a = azimuth * kTurn / 360.0;
+        const Eigen::Vector3d direction = turned * (mount.turn * Eigen::Vector3d(std::cos(e) * std::cos(a), -std::cos(e) * std::sin(a), std::sin(e)));
+        if (direction.z() > -0.03) return Shot{};
+        const Eigen::Vector3d on_track = turned * mount.place + (mount.place.z() - 1.0) / -direction.z() * direction;
+        const bool hits = std::abs(on_track.x()) < 2.1 && std::abs(on_track.y()) > 0.8 && std::abs(on_track.y()) < 1.4;
+        return hits ? Shot{} : Shot{{1000.0 * mount.place.z() / -direction.z(), 0.0}};
+      });
+      ASSERT_FALSE(watch->blocked()) << "swung to " << swing << ", " << way;
+    }
+  }
 }
 
 // verifies: SK-SI-6, SK-SI-7, SK-SI-8, SK-SI-10
