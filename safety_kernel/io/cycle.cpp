@@ -79,9 +79,9 @@ void Cycle::take_frames(const CycleInputs& in) {
 void Cycle::take_scans(const CycleInputs& in, ScanBlocks& blocks) {
   // Without joint angles nothing can be placed in the base frame.
   if (map_only_ || joints_.size() == 0) return;
-  const double swing = joints_.at(in.now_us).angles.swing;
   for (int i = 0; i < in.packet_count; ++i) {
-    if (scans_.take(in.packet[i], joints_, in.now_us, map_, blocks)) sight_.take(in.packet[i], swing, in.now_us);
+    const berm_scan_packet& packet = in.packet[i];
+    if (scans_.take(packet, joints_, in.now_us, map_, blocks)) sight_.take(packet, joints_.at(static_cast<std::int64_t>(packet.time_us)).angles.swing, in.now_us);
     else ++scans_rejected_;
   }
   scans_.flush(joints_, in.now_us, map_, blocks);
@@ -113,15 +113,16 @@ void Cycle::take_lidars(const CycleInputs& in) {
       ++lidars_rejected_;
       continue;
     }
-    sight_.take(packet.lidar, packet.bytes, joints_.at(in.now_us).angles.swing, in.now_us);
-    watch_lidar(packet.lidar, in.now_us);
+    const JointAngles then = joints_.at(lidars_.middle_us(packet.lidar)).angles;
+    sight_.take(packet.lidar, packet.bytes, then.swing, in.now_us);
+    watch_lidar(packet.lidar, then, in.now_us);
   }
   map_points_ += lidars_.points() - before;
 }
 
-void Cycle::watch_lidar(int lidar, std::int64_t now_us) {
+void Cycle::watch_lidar(int lidar, const JointAngles& then, std::int64_t now_us) {
   if (frames_.base().moved || !workspace_.watched()) return;
-  workspace_.take(lidar, lidars_.packet(), joints_.at(lidars_.middle_us(lidar)).angles, now_us);
+  workspace_.take(lidar, lidars_.packet(), then, now_us);
   sectors_.take(workspace_.lidar_returns(lidar), now_us);
 }
 

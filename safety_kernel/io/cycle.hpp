@@ -101,7 +101,7 @@ class Cycle {
   void learn_base(std::int64_t now_us);
   void register_terrain(const ScanBlocks& blocks, std::int64_t now_us);
   void begin_map();
-  void watch_lidar(int lidar, std::int64_t now_us);
+  void watch_lidar(int lidar, const JointAngles& then, std::int64_t now_us);
   void watch_workspace(const ScanBlocks& blocks, std::int64_t now_us);
   bool relearns(std::int64_t now_us) const;
   void take_request(const CycleInputs& in);

@@ -19,7 +19,7 @@ class SightLine {
   static constexpr double kDownSine = 0.17364817766693033;  // of 10 degrees
   static constexpr double kNearM = 0.6;  // own parts nearer than this may be met where an echo counts as one on the window
 
-  static constexpr double kSwungM = 0.10;  // what 50 degrees a second make of 60 ms at 1.9 m from the axis
+  static constexpr double kSwungM = 0.05;  // what 50 degrees a second make of 30 ms at 1.9 m from the axis
 
   explicit SightLine(const berm_parameters& parameters);
 
@@ -27,7 +27,7 @@ class SightLine {
   // that leaves away from the axis does not meet it, for the sensor stands on its rim.
   Kind of(const Eigen::Vector3d& head, const Eigen::Vector3d& direction) const;
   // Whether the tracks may be close below: a box as wide as the tail and as long as the own body, up to the upper body's underside, and as much larger as
-  // the sensor may have been elsewhere when the ray was sent: the swing is that of now.
+  // the sensor may be elsewhere than the measured swing has it: that is some milliseconds old, and interpolated.
   bool over_tracks(const Eigen::Vector3d& head, const Eigen::Vector3d& direction, double swing_cosine, double swing_sine) const;
 
  private:
