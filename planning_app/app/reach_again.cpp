@@ -11,10 +11,10 @@ constexpr double reached = radians(3.0);  // boom and stick
 
 }  // namespace
 
-void ReachAgain::resumed(const Script& script, const Joints& goals, const Joints& angle) {
+void ReachAgain::resumed(const Script& script, const Joints& angle) {
   const bool goes = !script.of(swing).reached(RuleMark::returns);
   const bool reaches = script.of(stick).reached(RuleMark::extends) || script.of(boom).reached(RuleMark::extends) || script.of(bucket).reached(RuleMark::opens);
-  state_ = goes && reaches && std::fabs(goals[swing] - angle[swing]) > aside ? State::draws_in : State::none;
+  state_ = goes && reaches && std::fabs(script.goals()[swing] - angle[swing]) > aside ? State::draws_in : State::none;
 }
 
 Joints ReachAgain::goals(const Joints& of_script, const Joints& carry, const Joints& angle, bool stands) {

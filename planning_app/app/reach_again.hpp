@@ -13,8 +13,8 @@ class ReachAgain {
 public:
   explicit ReachAgain(const MachineModel& machine) : machine_(machine) {}
 
-  // The plan is in charge again, with the bucket not emptied. goals: of the script.
-  void resumed(const Script& script, const Joints& goals, const Joints& angle);
+  // The plan is in charge again, with the bucket not emptied.
+  void resumed(const Script& script, const Joints& angle);
   void end() { state_ = State::none; }
 
   bool active() const { return state_ != State::none; }

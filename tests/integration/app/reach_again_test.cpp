@@ -87,6 +87,63 @@ TEST_F(ReachAgainOnTheBench, NothingIsPouredBesideTheBed) {
   }
 }
 
+// A bucket that was wide open with its load stuck in it is none that has emptied while it is brought back.
+TEST_F(ReachAgainOnTheBench, WhatIsHeldIsNotTakenForPoured) {
+  Loading run(1, start_pose(), events_.fd());
+  run.plant.sticks = 0.8;
+  while (run.last.phase != BERM_PHASE_DUMP && run.seconds < 60.0) run.step();
+  while (run.plant.angle()[bucket] < radians(-25.0) && run.seconds < 60.0) run.step();
+  ASSERT_EQ(run.last.phase, BERM_PHASE_DUMP);
+  stop(run);
+  const double over_bed = run.plant.angle()[swing];
+  run.plant.put(swing, over_bed - radians(25.0));
+  run.plant.most_speed[swing] = radians(6.0);  // longer on its way than a bucket takes to empty
+  run.plant.kernel_runs = true;
+  const double resumed = run.seconds;
+  while (run.last.phase == BERM_PHASE_DUMP && run.seconds < resumed + 30.0) run.step();  // until the plan is in charge again
+  while (run.last.phase != BERM_PHASE_DUMP && run.seconds < resumed + 30.0) {
+    run.step();
+    ASSERT_NE(run.last.phase, BERM_PHASE_SWING_TO_DIG) << degrees(run.plant.angle()[swing] - over_bed) << " degrees from the dump";
+  }
+  EXPECT_LT(std::fabs(run.plant.angle()[swing] - over_bed), radians(3.0));
+  // There it is given its time to empty anew.
+  run.plant.sticks = 0.0;
+  const double held_kg = run.plant.payload_kg(), before_kg = run.plant.site().bed_mass();
+  ASSERT_GT(held_kg, 800.0);
+  while (run.last.phase == BERM_PHASE_DUMP && run.seconds < resumed + 40.0) run.step();
+  for (int k = 0; k < 200; ++k) run.step();
+  EXPECT_GE(run.plant.site().bed_mass() - before_kg, 0.9 * held_kg);
+}
+
+// On the way back with the last of its load still running out nothing is held back.
+TEST_F(ReachAgainOnTheBench, OnTheWayBackItGoesOn) {
+  Loading run(1, start_pose(), events_.fd());
+  while (run.last.phase != BERM_PHASE_DUMP && run.seconds < 60.0) run.step();
+  while (run.last.phase != BERM_PHASE_SWING_TO_DIG && run.seconds < 60.0) run.step();
+  ASSERT_GT(run.plant.payload_kg(), 100.0);
+  stop(run);
+  run.plant.kernel_runs = true;
+  const double resumed = run.seconds;
+  while (run.last.phase != BERM_PHASE_DIG && run.seconds < resumed + 15.0) run.step();
+  EXPECT_LT(run.seconds, resumed + 15.0);
+  EXPECT_TRUE(events_.named("reaches_again").empty());
+}
+
+// It is drawn in at its own pace, not at that of a swing that is held because it is out.
+TEST_F(ReachAgainOnTheBench, ASwingThatIsHeldDoesNotHoldTheArm) {
+  Loading run(1, start_pose(), events_.fd());
+  while (run.last.phase != BERM_PHASE_DUMP && run.seconds < 60.0) run.step();
+  ASSERT_LT(run.seconds, 60.0);
+  stop(run);
+  run.plant.put(swing, run.plant.angle()[swing] - radians(25.0));
+  run.plant.most_speed[swing] = radians(0.5);
+  run.plant.kernel_runs = true;
+  while (events_.named("reaches_again").empty() && run.seconds < 90.0) run.step();
+  const double out = run.plant.angle()[stick];
+  for (int k = 0; k < 150; ++k) run.step();
+  EXPECT_LT(run.plant.angle()[stick], out - radians(20.0)) << "in a second and a half";
+}
+
 // Where it stands over the bed nothing is begun anew.
 TEST_F(ReachAgainOnTheBench, OverTheBedItGoesOn) {
   Loading run(1, start_pose(), events_.fd());
