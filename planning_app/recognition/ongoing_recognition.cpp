@@ -8,11 +8,12 @@ namespace {
 
 constexpr double kWall = 1.0;        // m: a region that may be a bed's wall
 constexpr double kAskEvery = 0.07;   // rad, where nothing else gives reason to ask: 4 degrees
-constexpr std::size_t kFansBetween = 2;  // asks: two scanlines take longer than nearly every ask
 constexpr double kEndsSeen = 0.05;   // m, standard deviation of a bed's length of which both ends are seen
-constexpr double kEndsPassed = 0.1;  // the same where the scanner has passed both: without a tailgate they lie between two scanlines
+constexpr double kEndsPassed = 0.2;  // the same where the scanner has passed both: without a tailgate they lie between two scanlines
 constexpr double kCabKnown = 10.0;   // evidence of a cab that tells which end is the front
-constexpr double kCabLength = 2.3;   // m before the front end
+constexpr double kCabPassed = 5.0;   // the same where its place was passed, so that it cannot grow by more of it
+constexpr double kCabLength = 1.8;   // m before the front end
+constexpr double kSure = 110.0;      // evidence of a bed; of two building pits, which the whole sweep refuses, it was 96 and 108 while they were taken for beds
 constexpr double kSameCorners = 0.03, kSameCab = 0.05, kSameCabLeast = 2.0;  // m; of a cab's evidence, and at least so much of it
 // rad that the scanner turns while answers stay the same: a degree, and three.
 constexpr double kAgreedFor = 0.017, kSettledFor = 0.052;
@@ -23,18 +24,16 @@ bool same(const RecognisedTruck& a, const RecognisedTruck& b) {
   return std::abs(a.cab - b.cab) <= std::max(kSameCabLeast, kSameCab * b.cab);
 }
 
+double length_deviation(const RecognisedTruck& truck) { return std::sqrt(truck.pose_covariance(6, 6)); }
+
 }  // namespace
 
 bool OngoingRecognition::take(std::span<const ScanPoint> scanline) {
   const std::size_t before = sweep_.fans();
   sweep_.take(scanline);
   if (sweep_.fans() == before) return false;
-  const bool found = answer_ && answer_->found, passes = found && passed(*answer_, 0.0);
-  const bool passes_now = passes && !was_passed_;
-  was_passed_ = passes;
-  if (passes_now || sweep_.turn() - asked_turn_ >= kAskEvery) return true;
-  const bool ends_known = found && std::sqrt(answer_->pose_covariance(6, 6)) < kEndsPassed;
-  return sweep_.fans() - asked_ >= kFansBetween && (ends_known || sweep_.wall_pauses(kWall));
+  if (sweep_.turn() - asked_turn_ >= kAskEvery || sweep_.wall_pauses(kWall)) return true;
+  return answer_ && answer_->found && length_deviation(*answer_) < kEndsPassed;
 }
 
 bool OngoingRecognition::passed(const RecognisedTruck& truck, double before_front) const {
@@ -52,7 +51,6 @@ const RecognisedTruck& OngoingRecognition::ask() {
   asked_ = sweep_.fans();
   asked_turn_ = sweep_.turn();
   const RecognisedTruck& truck = *answer_;
-  was_passed_ = truck.found && passed(truck, 0.0);
   if (!truck.found || !settled_.found || !same(truck, settled_)) {
     settled_ = truck;
     settled_turn_ = asked_turn_;
@@ -62,11 +60,12 @@ const RecognisedTruck& OngoingRecognition::ask() {
 }
 
 bool OngoingRecognition::hardly_changes(const RecognisedTruck& truck) const {
-  const double same_for = asked_turn_ - settled_turn_, length_deviation = std::sqrt(truck.pose_covariance(6, 6));
+  if (truck.evidence.score < kSure) return false;
+  const double same_for = asked_turn_ - settled_turn_, deviation = length_deviation(truck);
   const bool cab_passed = passed(truck, kCabLength);
-  if (cab_passed && same_for >= kSettledFor) return true;  // an end that was not seen will not be
-  if (truck.cab < kCabKnown && !cab_passed) return false;
-  return (was_passed_ && length_deviation < kEndsPassed && same_for >= kAgreedFor) || (length_deviation < kEndsSeen && same_for >= kSettledFor);
+  if (same_for >= kSettledFor && cab_passed) return true;  // an end that was not seen will not be
+  if (truck.cab < (cab_passed ? kCabPassed : kCabKnown)) return false;
+  return (same_for >= kSettledFor && deviation < kEndsSeen) || (same_for >= kAgreedFor && deviation < kEndsPassed && passed(truck, 0.0));
 }
 
 }  // namespace berm::app

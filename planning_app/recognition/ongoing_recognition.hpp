@@ -23,12 +23,12 @@ public:
   // recognise_truck over the scanlines so far, bit for bit. Asked again without a scanline in between it is not searched for again.
   const RecognisedTruck& ask();
 
-  // Whether more scanlines would hardly change the last answer: a truck was found, and while the scanner turned on answers have stayed the same, the bed's
-  // corners and the evidence of the cab, for
+  // Whether more scanlines would hardly change the last answer: a truck was found, with evidence that leaves no doubt, and while the scanner turned on
+  // answers have stayed the same, the bed's corners and the evidence of the cab, for
   // - a degree, when it has passed the bed, of which both ends are known;
   // - three degrees, when both ends are known well, or when it has passed the bed and the place of the cab, whatever it has seen there.
-  // The cab was seen well enough to tell the front, or its place was passed: an end before which the place was seen empty is never the front while that
-  // of the other was not seen. At the sweep's end every answer is the last.
+  // The cab was seen well enough to tell the front, for which less will do where its place was passed: an end before which the place was seen empty is
+  // never the front while that of the other was not seen. At the sweep's end every answer is the last.
   bool stands() const { return stands_; }
 
 private:
@@ -40,7 +40,7 @@ private:
   std::optional<RecognisedTruck> answer_;
   std::size_t asked_ = 0;          // with so many fans
   double asked_turn_ = 0.0;        // and so far turned
-  bool stands_ = false, was_passed_ = false;
+  bool stands_ = false;
   RecognisedTruck settled_;        // the first of the answers that were the same until now
   double settled_turn_ = 0.0;
 };

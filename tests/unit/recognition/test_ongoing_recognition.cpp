@@ -70,6 +70,34 @@ TEST(OngoingRecognition, NothingStandsWhileTheLastEndIsAhead) {
   }
 }
 
+// The rear end, which has no cab beyond, comes last: with the scanlines just after it both ends are known.
+TEST(OngoingRecognition, TheAnswerStandsWithTheSecondScanlineBehindTheBed) {
+  DrawnBed bed;
+  for (int k = 0; k < 8; ++k) {
+    bed.yaw = 0.04 * k;
+    double last = 0.0;  // of the bed, in scanlines
+    for (const double y : {-0.5 * bed.width - bed.thickness, 0.5 * bed.width + bed.thickness}) {
+      const double x = -0.5 * bed.length - bed.thickness, c = std::cos(bed.yaw), s = std::sin(bed.yaw);
+      last = std::max(last, std::atan2(bed.y + s * x + c * y - drawn_viewpoint[1], bed.x + c * x - s * y - drawn_viewpoint[0]) * 180.0 / std::numbers::pi - 45.0);
+    }
+    const Watched seen = watch(sweep_of(bed));
+    ASSERT_TRUE(seen.truck.found) << seen.truck.reason;
+    EXPECT_GT(seen.stood, 0u);
+    EXPECT_LE(seen.stood, std::floor(last) + 2.0) << "yaw " << bed.yaw;
+  }
+}
+
+// So little of it comes back that what is none may look like it until more is seen.
+TEST(OngoingRecognition, WithLittleEvidenceNothingStandsBeforeTheSweepsEnd) {
+  DrawnBed bed;
+  bed.y = 12.0;
+  EXPECT_GT(watch(sweep_of(bed)).stood, 0u);
+  bed.y = 14.0;
+  const Watched far = watch(sweep_of(bed));
+  EXPECT_TRUE(far.truck.found) << far.truck.reason;
+  EXPECT_EQ(far.stood, 0u);
+}
+
 TEST(OngoingRecognition, ARefusalNeverStands) {
   DrawnBed lid;
   lid.lid = true;
