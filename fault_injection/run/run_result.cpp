@@ -140,6 +140,12 @@ std::string operator_needed_for(const json& event) {
                      event.value("height_m", 0.0));
 }
 
+std::optional<double> worst_of_trucks_left(const json& truth, const char* key) {
+  std::optional<double> worst;
+  for (const json& truck : truth.value("trucks_left", json::array())) worst = std::max(worst.value_or(0.0), truck.value(key, 0.0));
+  return worst;
+}
+
 json flat_json(const RunResult& r) {
   json out;
   out["scenario"] = r.options.scenario;
@@ -157,8 +163,11 @@ json flat_json(const RunResult& r) {
   out["target_kg"] = r.truth.value("target_kg", 0.0);
   out["payload_kg"] = loads(r);
   out["spill_fraction"] = r.truth.value("spill_fraction", 0.0);
-  out["load_centre_offset_m"] = r.truth.value("load_centre_offset_m", 0.0);
-  out["load_height_stddev_m"] = r.truth.value("load_height_stddev_m", 0.0);
+  for (const char* key : {"load_centre_offset_m", "load_height_stddev_m"}) {
+    const double last = r.truth.value(key, 0.0);
+    out[key] = last;
+    out[std::string(key) + "_worst"] = std::max(last, worst_of_trucks_left(r.truth, key).value_or(0.0));
+  }
   out["bench_moves"] = r.truth.contains("bench_moves") ? r.truth["bench_moves"].size() : 0;
   out["recognition_error_m"] = recognition_errors(r.app_events, r.truth);
   out["contacts"] = r.contacts;
@@ -232,7 +241,8 @@ std::string summary_text(const RunResult& r) {
   if (j["plan_ms_max"].is_number()) row("longest planning", fmt::format("{:.1f} ms", j["plan_ms_max"].get<double>()));
   row("spill", fmt::format("{:.2f} % of what was dug", 100 * j["spill_fraction"].get<double>()));
   if (!trucks.empty())
-    row("load", fmt::format("centre {:.2f} m off the bed's, height standard deviation {:.2f} m", j["load_centre_offset_m"].get<double>(), j["load_height_stddev_m"].get<double>()));
+    row("load", fmt::format("centre {:.2f} m off the bed's, height standard deviation {:.2f} m{}", j["load_centre_offset_m_worst"].get<double>(),
+                            j["load_height_stddev_m_worst"].get<double>(), trucks.size() > 1 ? ", at most" : ""));
   if (const auto errors = recognition_errors(r.app_events, r.truth); !errors.empty())
     row("trucks recognised", fmt::format("{}, the worst corner {:.1f} cm off", errors.size(), 100 * *std::max_element(errors.begin(), errors.end())));
   row("contacts (oracle)", fmt::format("{}", r.contacts));

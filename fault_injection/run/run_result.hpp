@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,8 @@ struct RunResult {
 std::string held_by(const nlohmann::json& held);
 // What an app's event "operator_needed" is for: the stop's reason, how long, and where.
 std::string operator_needed_for(const nlohmann::json& event);
+// The largest of that key in the plant's truth of the trucks that left; nothing before one has.
+std::optional<double> worst_of_trucks_left(const nlohmann::json& truth, const char* key);
 // The documented flat object.
 nlohmann::json flat_json(const RunResult& result);
 // What a person reads.

@@ -66,13 +66,8 @@ json shift_json(const run::RunResult& r, double hours) {
   out["closest_approach_what"] = r.truth.value("closest_approach_what", "");
   out["operator_presses"] = r.truth.contains("operator_presses") ? r.truth["operator_presses"].size() : 0;
   out["hand_lifts"] = r.truth.contains("hand_lifts") ? r.truth["hand_lifts"].size() : 0;
-  out["load_height_stddev_m_worst"] = nullptr;
-  out["load_centre_offset_m_worst"] = nullptr;
-  for (const json& truck : left)
-    for (const char* key : {"load_height_stddev_m", "load_centre_offset_m"}) {
-      json& worst = out[std::string(key) + "_worst"];
-      worst = std::max(worst.is_number() ? worst.get<double>() : 0.0, truck.value(key, 0.0));
-    }
+  // Not of the truck that was being loaded when the shift ended.
+  for (const char* key : {"load_height_stddev_m", "load_centre_offset_m"}) out[std::string(key) + "_worst"] = maybe(run::worst_of_trucks_left(r.truth, key));
   return out;
 }
 

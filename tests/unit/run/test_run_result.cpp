@@ -66,6 +66,23 @@ TEST(Loads, AreOfTheTrucksThatWereLoaded) {
   EXPECT_EQ(row(r, "load"), "no row");
 }
 
+TEST(Loads, AreAsFarOffAndUnevenAsTheWorstOfThem) {
+  RunResult r = with_events({});
+  r.truth["truck_load_kg"] = {17900.0, 17800.0, 17700.0};
+  r.truth["load_centre_offset_m"] = 0.05;
+  r.truth["load_height_stddev_m"] = 0.31;
+  r.truth["trucks_left"] = {{{"load_centre_offset_m", 0.12}, {"load_height_stddev_m", 0.22}}, {{"load_centre_offset_m", 0.02}, {"load_height_stddev_m", 0.24}}};
+  const json j = flat_json(r);
+  EXPECT_EQ(j.at("load_centre_offset_m"), 0.05) << "of the last";
+  EXPECT_EQ(j.at("load_centre_offset_m_worst"), 0.12);
+  EXPECT_EQ(j.at("load_height_stddev_m_worst"), 0.31);
+  EXPECT_THAT(row(r, "load"), testing::HasSubstr("centre 0.12 m off the bed's, height standard deviation 0.31 m, at most"));
+  EXPECT_EQ(worst_of_trucks_left(r.truth, "load_height_stddev_m"), 0.24);
+  r.truth.erase("trucks_left");
+  EXPECT_EQ(worst_of_trucks_left(r.truth, "load_height_stddev_m"), std::nullopt);
+  EXPECT_EQ(flat_json(r).at("load_centre_offset_m_worst"), 0.05);
+}
+
 json recognised(int truck, double x, double yaw_deg) {
   return {{"event", "recognised"}, {"truck", truck}, {"x_m", x}, {"y_m", 6.0}, {"yaw_deg", yaw_deg}, {"length_m", 5.0}, {"width_m", 2.4}, {"wall_top_m", 0.3}};
 }
