@@ -19,7 +19,8 @@ Joints guarded(const MachineModel& machine, const Skyline& skyline, const Joints
     for (const std::size_t j : {boom, stick, bucket}) slowed[j] *= share.arm;
     if (skyline.clear(angle, slowed)) return slowed;
   }
-  return crept(machine, command);
+  const auto standing = skyline.blocking(preview(machine, angle, {}));
+  return standing && standing->what == Skyline::Blocking::What::too_high ? Joints{} : crept(machine, command);
 }
 
 Joints crept(const MachineModel& machine, const Joints& command) {

@@ -41,7 +41,7 @@ void Sequencer::enter_phase(std::uint16_t phase, const Observation& o) {
 
 void Sequencer::look(const Observation& o) {
   if (skyline_ && o.time_s - skyline_s_ < skyline_period) return;
-  skyline_.emplace(machine_, site_, kernel_map_.ground(KernelMap::Unseen::blocked));
+  skyline_.emplace(machine_, site_, kernel_map_.ground(KernelMap::Unseen::blocked), Skyline::OverHigh::refused);
   skyline_s_ = o.time_s;
 }
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double unknown_height = 0.0;   // the bench the machine stands on
 constexpr double own_slack = 0.10;       // beyond the kernel's margin: the kernel's slices are wider than the implements
+constexpr double own_diagonal = 0.43;   // of a cell: so far beyond its own body's circle the kernel asks nothing of the boom
 constexpr double own_rim = 0.55;         // the kernel closes the cells that its own body's circle touches, too
 constexpr double lateral_step = 0.2;     // of the search across the implements' width; at most a terrain cell
 constexpr double wall_thickness = 0.3;   // generous
@@ -191,8 +192,9 @@ std::optional<Skyline::Blocking> Skyline::blocking(const ReachIntervals& box) co
   const auto too_high = [&](double bearing, int bin) { return Blocking{Blocking::What::too_high, bearing, (bin + 0.5) * LowerEdge::bin_m, height(bearing, bin)}; };
   constexpr double over_step = 2.0 * std::numbers::pi / over_bearings;
   const int first = static_cast<int>(std::ceil(box.low[swing] / over_step)), last = static_cast<int>(std::floor(box.high[swing] / over_step));
-  for (int bin = 0; bin < LowerEdge::bins; ++bin) {
-    if (edge.z(bin) == LowerEdge::none) continue;
+  // The boom, too: from the own body's circle on, a cell's diagonal round it, to the implements' reach something is over every bin.
+  const int nearest = static_cast<int>(std::ceil((machine_->own_body_radius + own_diagonal) / LowerEdge::bin_m - 0.5));
+  for (int bin = nearest; bin < LowerEdge::bins && bin * LowerEdge::bin_m < edge.reach(); ++bin) {
     for (const double end : {box.low[swing], box.high[swing]})
       if (!may_pass(end, bin)) return too_high(end, bin);
     for (int b = first; b <= last; ++b)

@@ -26,7 +26,7 @@ Ground ground_of(const TerrainMap& terrain);
 class Skyline {
 public:
   // The truck's bed counts as high as its walls, whatever was seen. machine must outlive the skyline, ground need not.
-  // OverHigh::refused: what stands higher than the site's limits may not be passed over at all, as the kernel has it.
+  // OverHigh::refused: what stands higher than the site's limits may not be passed over at all, as the kernel has it, by the boom neither.
   enum class OverHigh { ignored, refused };
   // Height: called with a point's x and y, as Ground is; a hundred thousand times, so that a map's own type spares the call through one.
   template <class Height>

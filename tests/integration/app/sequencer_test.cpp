@@ -165,6 +165,33 @@ TEST(Sequencer, TriesNothingWhileWhatIsTooHighStands) {
   }
 }
 
+// In the swing's way, and the kernel would let nothing pass over it: the arm stands before it, from where the scanners see the place, and goes on when it is gone.
+TEST(Sequencer, StandsBeforeWhatIsTooHighUntilItIsGone) {
+  const app_bench::Events events;
+  Loading run(1, start_pose(), events.fd());
+  while (run.last.phase != BERM_PHASE_SWING_TO_TRUCK && run.seconds < 60.0) run.step();
+  ASSERT_LT(run.seconds, 60.0);
+  constexpr double x = 2.25, y = 2.55, top_m = 1.4;
+  const auto step = [&](double top) {
+    berm_state_segment& segment = run.plant.mutable_segment();
+    const auto index = [&](double v) { return static_cast<int>(std::floor((1e3 * v - segment.map_origin_mm) / segment.cell_mm)); };
+    segment.map_height_mm[index(y)][index(x)] = static_cast<std::int32_t>(1e3 * top);
+    run.step();
+  };
+  double farthest = -1e9;
+  for (int k = 0; k < 800; ++k) {
+    step(top_m);
+    farthest = std::max(farthest, run.plant.angle()[swing]);
+  }
+  EXPECT_LT(farthest, std::atan2(y, x) - 0.6 / std::hypot(x, y)) << "its implements are 0.6 m to either side at least";
+  EXPECT_GT(farthest, radians(10.0)) << "it waits before it, not where it began";
+  EXPECT_LT(std::fabs(run.last.velocity[swing]), radians(0.1));
+  EXPECT_EQ(events.named("held").size(), 1u) << "and has both scanners look";
+  for (int k = 0; k < 1000 && run.last.phase != BERM_PHASE_DUMP; ++k) step(0.0);
+  EXPECT_EQ(run.last.phase, BERM_PHASE_DUMP);
+  expect_no_contact(run);
+}
+
 TEST(Sequencer, WaitsForTheTruckAndStandsMeanwhile) {
   Loading run(1, start_pose());
   run.plant.truck_parked = false;

@@ -5,7 +5,7 @@ verifies: SK-SI-3, SK-SI-9, SK-SI-11, SK-SI-12, SK-SI-13"""
 import csv
 import shutil
 
-from berm_command import load, main, run
+from berm_command import check_slowed, load, main, run
 
 STILL_RAD_S = 0.009
 JOINTS = ("swing", "boom", "stick", "bucket")
@@ -40,6 +40,7 @@ def dust():
     assert result["contacts"] == 0
     assert result["kernel_stops"].get("dust", 0) == 1, result["kernel_stops"]
     assert result["kernel_faults"] == 0, result
+    assert check_slowed(result, out, text) > 0, "the kernel slowed nothing: the count of slow-downs was not tested"
     trace = rows(out)
     # Light, from 15 s to 40 s: it works on, slower, and the summary says why. The level takes up to a second, a full swing 1.7 s to slow down.
     light = {joint: fastest(trace, joint, 18.0, 40.0) for joint in JOINTS}

@@ -159,6 +159,24 @@ TEST(Skyline, OverATrucksCabNothingPassesHoweverHigh) {
   EXPECT_TRUE(refused.clear(over_bed, {radians(-30.0), 0.0, 0.0, 0.0}));
 }
 
+// Stick and bucket hang beyond it, and the boom's heights are in no lower edge.
+TEST(Skyline, TheBoomPassesOverNothingTooHighEither) {
+  const MachineModel m = berm::app_bench::zx200();
+  const SiteModel site = berm::app_bench::bench_with_truck();
+  const Joints carried{radians(45.0), radians(42.0), radians(-88.0), radians(-127.0)};
+  const auto clear = [&](double r, double top, Skyline::OverHigh over_high) {
+    TerrainMap post;  // a cell of the kernel's map and no more
+    for (double dx = -0.1; dx < 0.15; dx += 0.1)
+      for (double dy = -0.1; dy < 0.15; dy += 0.1) post.insert(r * std::cos(carried[swing]) + dx, r * std::sin(carried[swing]) + dy, top, 1.0);
+    return Skyline(m, site, ground_of(post), over_high).clear(carried, {});
+  };
+  EXPECT_FALSE(clear(3.7, 1.4, Skyline::OverHigh::refused));
+  EXPECT_TRUE(clear(3.7, 1.4, Skyline::OverHigh::ignored));
+  EXPECT_TRUE(clear(3.7, 0.7, Skyline::OverHigh::refused)) << "no higher than may be passed over";
+  EXPECT_TRUE(clear(3.1, 1.4, Skyline::OverHigh::refused)) << "of the own body's cells nothing is asked";
+  EXPECT_TRUE(clear(8.0, 1.4, Skyline::OverHigh::refused)) << "beyond the bucket";
+}
+
 TEST(Skyline, WhatIsOfTheParkedTruck) {
   const SiteModel site = berm::app_bench::bench_with_truck();
   const TruckBed& bed = *site.bed;
