@@ -186,7 +186,9 @@ TEST(Sequencer, StandsBeforeWhatIsTooHighUntilItIsGone) {
   EXPECT_LT(farthest, std::atan2(y, x) - 0.6 / std::hypot(x, y)) << "its implements are 0.6 m to either side at least";
   EXPECT_GT(farthest, radians(10.0)) << "it waits before it, not where it began";
   EXPECT_LT(std::fabs(run.last.velocity[swing]), radians(0.1));
-  EXPECT_EQ(events.named("held").size(), 1u) << "and has both scanners look";
+  ASSERT_EQ(events.named("held").size(), 1u) << "and has both scanners look";
+  EXPECT_EQ(events.named("held")[0].at("by"), "too high to pass over");
+  EXPECT_NEAR(events.named("held")[0].at("height_m").get<double>(), top_m, 1e-9);
   for (int k = 0; k < 1000 && run.last.phase != BERM_PHASE_DUMP; ++k) step(0.0);
   EXPECT_EQ(run.last.phase, BERM_PHASE_DUMP);
   expect_no_contact(run);
