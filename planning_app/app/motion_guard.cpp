@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace berm::app {
 
@@ -9,6 +10,17 @@ namespace {
 
 struct Share { double swing, arm; };
 constexpr std::array<Share, 10> shares{{{1.0, 1.0}, {0.75, 1.0}, {0.5, 1.0}, {0.75, 0.6}, {0.25, 1.0}, {0.5, 0.5}, {0.0, 1.0}, {0.0, 0.6}, {0.0, 0.3}, {0.0, 0.0}}};
+
+constexpr double a_little = radians(5.0);
+
+// Where a request leads, a little on.
+Joints led_on(const Joints& angle, const Joints& command) {
+  double most = 0.0;
+  for (const double v : command) most = std::max(most, std::fabs(v));
+  Joints on = angle;
+  for (std::size_t j = 0; j < joints && most > 0.0; ++j) on[j] += a_little * command[j] / most;
+  return on;
+}
 
 }  // namespace
 
@@ -20,7 +32,8 @@ Joints guarded(const MachineModel& machine, const Skyline& skyline, const Joints
     if (skyline.clear(angle, slowed)) return slowed;
   }
   const auto standing = skyline.blocking(preview(machine, angle, {}));
-  return standing && standing->what == Skyline::Blocking::What::too_high ? Joints{} : crept(machine, command);
+  const bool too_high = standing && standing->what == Skyline::Blocking::What::too_high;
+  return too_high && !skyline.clear(led_on(angle, command), {}) ? Joints{} : crept(machine, command);
 }
 
 Joints crept(const MachineModel& machine, const Joints& command) {

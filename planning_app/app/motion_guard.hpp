@@ -6,7 +6,7 @@
 namespace berm::app {
 
 // angle: when the request begins to act. Slows the swing first, then the arm. Where even standing is not clear by the app's own, wider margins,
-// everything creeps and the kernel decides; but not towards what is too high to be passed over: beside that it stands, and whoever asks looks again.
+// everything creeps and the kernel decides; but beside what is too high to be passed over it stands, unless the request leads away, and whoever asks looks again.
 Joints guarded(const MachineModel& machine, const Skyline& skyline, const Joints& angle, const Joints& command);
 
 // Every joint at most at its creep speed.

@@ -181,10 +181,8 @@ Joints Sequencer::plan(const Observation& o) {
 void Sequencer::log_held(const Observation& o, const Joints& wanted) const {
   const auto blocking = skyline_->blocking(preview(machine_, o.angle, wanted));
   if (!blocking) return;
-  using What = Skyline::Blocking::What;
-  const bool placed = blocking->what == What::ground || blocking->what == What::too_high, unseen = placed && std::isinf(blocking->height);
-  const char* by = unseen ? "unseen ground" : blocking->what == What::ground ? "ground" : blocking->what == What::too_high ? "too high to pass over" : blocking->what == What::own_body ? "own body" : "joint range";
-  nlohmann::ordered_json fields{{"time_s", o.time_s}, {"by", by}};
+  const bool placed = blocking->of_ground(), unseen = blocking->unseen();
+  nlohmann::ordered_json fields{{"time_s", o.time_s}, {"by", blocking->name()}};
   if (placed) fields.update({{"bearing_deg", degrees(blocking->bearing)}, {"distance_m", blocking->distance}});
   if (placed && !unseen) fields["height_m"] = blocking->height;
   log_.event("held", fields);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double unknown_height = 0.0;   // the bench the machine stands on
 constexpr double own_slack = 0.10;       // beyond the kernel's margin: the kernel's slices are wider than the implements
-constexpr double own_diagonal = 0.43;   // of a cell: so far beyond its own body's circle the kernel asks nothing of the boom
+constexpr double own_diagonal = 0.43;    // of a cell: so far beyond its own body's circle the kernel asks nothing of the boom
 constexpr double own_rim = 0.55;         // the kernel closes the cells that its own body's circle touches, too
 constexpr double lateral_step = 0.2;     // of the search across the implements' width; at most a terrain cell
 constexpr double wall_thickness = 0.3;   // generous
@@ -173,6 +173,16 @@ double Skyline::highest(double bearing_low, double bearing_high, double r_low, d
     for (int bin = static_cast<int>(r_low / LowerEdge::bin_m); bin <= static_cast<int>(r_high / LowerEdge::bin_m) && bin < LowerEdge::bins; ++bin)
       top = std::max(top, height(bearing, bin));
   return top;
+}
+
+const char* Skyline::Blocking::name() const {
+  switch (what) {
+    case What::joint_range: return "joint range";
+    case What::own_body: return "own body";
+    case What::ground: return unseen() ? "unseen ground" : "ground";
+    case What::too_high: return unseen() ? "unseen ground" : "too high to pass over";
+  }
+  return "?";
 }
 
 std::optional<Skyline::Blocking> Skyline::blocking(const ReachIntervals& box) const {

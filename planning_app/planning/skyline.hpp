@@ -2,6 +2,7 @@
 // implements' width. Answers whether a reach preview is clear of it.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -41,6 +42,9 @@ public:
   struct Blocking {
     enum class What { joint_range, own_body, ground, too_high } what = What::ground;
     double bearing = 0.0, distance = 0.0, height = 0.0;  // of the ground; height is infinite where it is unseen
+    bool of_ground() const { return what == What::ground || what == What::too_high; }
+    bool unseen() const { return of_ground() && std::isinf(height); }
+    const char* name() const;  // as an operator reads it
   };
   std::optional<Blocking> blocking(const ReachIntervals& box) const;
 

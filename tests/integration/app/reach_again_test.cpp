@@ -12,6 +12,10 @@ using berm::app_bench::start_pose;
 
 class ReachAgainOnTheBench : public testing::Test {
 protected:
+  // From the beginning; a phase that does not come in a minute does not come.
+  static void run_to(Loading& run, std::uint16_t phase) {
+    while (run.last.phase != phase && run.seconds < 60.0) run.step();
+  }
   static void stop(Loading& run) {
     run.plant.kernel_runs = false;
     for (int k = 0; k < 100; ++k) run.step();
@@ -28,7 +32,7 @@ TEST_F(ReachAgainOnTheBench, TheArmWaitsUntilTheSwingStandsOverTheBed) {
   for (const double moved_deg : {-25.0, -8.0, 9.0}) {
     Loading run(1, start_pose(), events_.fd());
     const std::size_t before = events_.named("reaches_again").size();
-    while (run.last.phase != BERM_PHASE_SWING_TO_TRUCK && run.seconds < 60.0) run.step();
+    run_to(run, BERM_PHASE_SWING_TO_TRUCK);
     double folded = 0.0;
     while (run.plant.angle()[stick] < folded + radians(4.0) && run.seconds < 60.0) {
       run.step();
@@ -65,7 +69,7 @@ TEST_F(ReachAgainOnTheBench, TheArmWaitsUntilTheSwingStandsOverTheBed) {
 TEST_F(ReachAgainOnTheBench, NothingIsPouredBesideTheBed) {
   for (const double moved_deg : {-25.0, 9.0}) {
     Loading run(1, start_pose(), events_.fd());
-    while (run.last.phase != BERM_PHASE_DUMP && run.seconds < 60.0) run.step();
+    run_to(run, BERM_PHASE_DUMP);
     ASSERT_LT(run.seconds, 60.0);
     stop(run);
     const double over_bed = run.plant.angle()[swing], carried_kg = run.plant.payload_kg();
@@ -91,7 +95,7 @@ TEST_F(ReachAgainOnTheBench, NothingIsPouredBesideTheBed) {
 TEST_F(ReachAgainOnTheBench, WhatIsHeldIsNotTakenForPoured) {
   Loading run(1, start_pose(), events_.fd());
   run.plant.sticks = 0.8;
-  while (run.last.phase != BERM_PHASE_DUMP && run.seconds < 60.0) run.step();
+  run_to(run, BERM_PHASE_DUMP);
   while (run.plant.angle()[bucket] < radians(-25.0) && run.seconds < 60.0) run.step();
   ASSERT_EQ(run.last.phase, BERM_PHASE_DUMP);
   stop(run);
@@ -118,8 +122,8 @@ TEST_F(ReachAgainOnTheBench, WhatIsHeldIsNotTakenForPoured) {
 // On the way back with the last of its load still running out nothing is held back.
 TEST_F(ReachAgainOnTheBench, OnTheWayBackItGoesOn) {
   Loading run(1, start_pose(), events_.fd());
-  while (run.last.phase != BERM_PHASE_DUMP && run.seconds < 60.0) run.step();
-  while (run.last.phase != BERM_PHASE_SWING_TO_DIG && run.seconds < 60.0) run.step();
+  run_to(run, BERM_PHASE_DUMP);
+  run_to(run, BERM_PHASE_SWING_TO_DIG);
   ASSERT_GT(run.plant.payload_kg(), 100.0);
   stop(run);
   run.plant.kernel_runs = true;
@@ -132,7 +136,7 @@ TEST_F(ReachAgainOnTheBench, OnTheWayBackItGoesOn) {
 // It is drawn in at its own pace, not at that of a swing that is held because it is out.
 TEST_F(ReachAgainOnTheBench, ASwingThatIsHeldDoesNotHoldTheArm) {
   Loading run(1, start_pose(), events_.fd());
-  while (run.last.phase != BERM_PHASE_DUMP && run.seconds < 60.0) run.step();
+  run_to(run, BERM_PHASE_DUMP);
   ASSERT_LT(run.seconds, 60.0);
   stop(run);
   run.plant.put(swing, run.plant.angle()[swing] - radians(25.0));
@@ -147,7 +151,7 @@ TEST_F(ReachAgainOnTheBench, ASwingThatIsHeldDoesNotHoldTheArm) {
 // Where it stands over the bed nothing is begun anew.
 TEST_F(ReachAgainOnTheBench, OverTheBedItGoesOn) {
   Loading run(1, start_pose(), events_.fd());
-  while (run.last.phase != BERM_PHASE_DUMP && run.seconds < 60.0) run.step();
+  run_to(run, BERM_PHASE_DUMP);
   for (int k = 0; k < 30; ++k) run.step();
   stop(run);
   run.plant.kernel_runs = true;

@@ -13,8 +13,8 @@ import time
 from berm_command import BIN, ROOT, check_slowed, load, main
 
 FIELDS = {"seed", "trucks_loaded", "passes", "pass_seconds", "target_kg", "payload_kg", "spill_fraction", "load_centre_offset_m",
-          "load_height_stddev_m", "load_centre_offset_m_worst", "load_height_stddev_m_worst", "contacts", "closest_approach_m", "kernel_stops", "kernel_faults", "cycle_us_p50", "cycle_us_p99",
-          "cycle_us_max", "simulated_seconds", "wall_seconds", "slowed_seconds", "slowed_spans", "recognition_error_m",
+          "load_height_stddev_m", "load_centre_offset_m_worst", "load_height_stddev_m_worst", "contacts", "closest_approach_m",
+          "kernel_stops", "kernel_faults", "cycle_us_p50", "cycle_us_p99", "cycle_us_max", "simulated_seconds", "wall_seconds", "slowed_seconds", "slowed_spans", "recognition_error_m",
           "soil", "pass_seconds_median", "pass_seconds_p95", "kinematic_ratio_median", "own_motion_stops", "dig_surface_error_m", "plan_ms_max"}
 TRACE = ["time_s", "swing_rad", "boom_rad", "stick_rad", "bucket_rad", "swing_rad_s", "boom_rad_s", "stick_rad_s", "bucket_rad_s", "stop_state"]
 seen = {}
