@@ -54,7 +54,7 @@ void Sequencer::begin_script(const Script& script) {
 }
 
 void Sequencer::begin_approach(const Observation& o, bool lower) {
-  goal_kg_ = fill_.next_goal_kg();
+  goal_kg_ = next_goal_kg(o);
   plan_next_dig(o);
   std::optional<PlanePoint> entry;
   if (lower) entry = PlanePoint{dig_.drag.front().r, dig_.drag.front().z};

@@ -109,6 +109,7 @@ private:
   void begin_curl(const Observation& o);
   void plan_dump(const Observation& o);
   DumpPoint dump_point(const Observation& o, double goal_kg) const;
+  double next_goal_kg(const Observation& o) const;
   bool more_fits(const Observation& o) const;
   void begin_pass_search(const Observation& o, const Joints& lifted_from);
   static constexpr double empty_share = 0.05;  // of a full bucket: what holds no more than that and what sticks is empty

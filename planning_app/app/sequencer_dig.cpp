@@ -71,7 +71,7 @@ void Sequencer::plan_next_dig(const Observation& o) {
 }
 
 void Sequencer::begin_dig(const Observation& o) {
-  goal_kg_ = fill_.next_goal_kg();
+  goal_kg_ = next_goal_kg(o);
   const DigNeeds needs = needs_for(goal_kg_);
   ground_.observe(terrain_);
   cut_.emplace(machine_, SurfaceProfile(ground_, o.angle[swing], needs.bucket_width), needs.bucket_width);
@@ -203,6 +203,12 @@ DumpPoint Sequencer::dump_point(const Observation& o, double goal_kg) const {
   needs.rest_kg = std::max(0.0, fill_.rest_kg() - goal_kg);
   needs.farthest_radius = farthest_dump(machine_, site_.bed->wall_top);
   return choose_dump_point(*bed_, needs);
+}
+
+// No more than stays in the bucket until it is over the place where it will go.
+double Sequencer::next_goal_kg(const Observation& o) const {
+  const double goal_kg = fill_.next_goal_kg();
+  return std::min(goal_kg, heaped_kg_ * share_at_reach(machine_, site_.bed->wall_top, dump_point(o, goal_kg).radius));
 }
 
 // Whether the next pass's soil finds a place under the truck zone's ceiling.

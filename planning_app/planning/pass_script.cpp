@@ -15,6 +15,7 @@ double pin_over_top(const ImplementScale& scale) { return 1.6 * scale.bucket + 0
 constexpr double highest_top = 1.2;               // z; over anything higher the pass is not tried higher
 constexpr double reach_step = 0.05;               // m, of the search for a reach
 constexpr double most_short = 0.25;               // m, that a load is spilled short of where it is meant to be: with less a bed's far end gets none, with more the wall half of it
+constexpr double heap_lost = 0.6;                 // share of a heaped bucket for a metre beyond the easy reach
 constexpr double carry_radius = 6.4;              // of the bucket pin, m; by the scale of the arm
 constexpr double back_radius = 6.3;               // the same
 constexpr double attitude_carry = radians(-178.0), attitude_spill = radians(-170.0);  // nothing slides yet
@@ -64,6 +65,14 @@ std::vector<double> values_of(const std::vector<ScriptAngle>& angles) {
   return values;
 }
 
+// From the swing axis to the farthest dump point that the arm reaches with its load spilled where it is meant to be, m.
+double easy_reach(const MachineModel& machine, double wall_top) {
+  const ImplementScale scale = scale_of(machine);
+  double radius = carry_radius * scale.arm;
+  while (pose_at(machine, {radius + reach_step + spill_ahead * scale.bucket, wall_top + pin_over_top(scale)}, attitude_carry)) radius += reach_step;
+  return radius;
+}
+
 // The truck stands to the left of the dig, 1, or to its right, -1: the script's comparisons turn round with it.
 double side_of(const PassTask& task) { return task.truck_bearing >= task.lifted_from[swing] ? 1.0 : -1.0; }
 
@@ -104,11 +113,10 @@ Joints part_pose(const MachineModel& machine, const PassTask& task, const PassPo
   return pose;
 }
 
-double farthest_dump(const MachineModel& machine, double wall_top) {
-  const ImplementScale scale = scale_of(machine);
-  double radius = carry_radius * scale.arm;
-  while (pose_at(machine, {radius + reach_step + spill_ahead * scale.bucket, wall_top + pin_over_top(scale)}, attitude_carry)) radius += reach_step;
-  return radius + most_short;
+double farthest_dump(const MachineModel& machine, double wall_top) { return easy_reach(machine, wall_top) + most_short; }
+
+double share_at_reach(const MachineModel& machine, double wall_top, double radius) {
+  return 1.0 - heap_lost * std::clamp(radius - easy_reach(machine, wall_top), 0.0, most_short);
 }
 
 double level_bucket(const MachineModel& machine, double stick_attitude) {

@@ -50,6 +50,10 @@ Joints part_pose(const MachineModel& machine, const PassTask& task, const PassPo
 // The farthest dump point from the swing axis, m: from there the stretched arm spills the load 0.25 m short of where it is meant to be.
 double farthest_dump(const MachineModel& machine, double wall_top);
 
+// Share of a heaped bucket that may be dumped that far from the swing axis. Where the stretched arm cannot hold the bucket level a heap slides off before the
+// lip is over the bed; what lies lower in the bucket stays longer.
+double share_at_reach(const MachineModel& machine, double wall_top, double radius);
+
 // Bucket angle that holds a load, mouth up, with the stick at an attitude (boom and stick together); as near to it as the bucket's range allows.
 double level_bucket(const MachineModel& machine, double stick_attitude);
 

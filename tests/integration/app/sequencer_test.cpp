@@ -231,6 +231,26 @@ TEST(Sequencer, BooksWhatComesIntoTheTruckWhereSoilSticks) {
   EXPECT_EQ(passes, 5U);
 }
 
+// Dug for a truck that stands as usual, and for one whose bed lies at the end of the arm's reach: there a heap would slide off before the near wall.
+TEST(Sequencer, DigsLessForADumpThatTheArmHardlyReaches) {
+  const auto first_goal_kg = [](double farther) {
+    const app_bench::Events events;
+    Loading run(1, start_pose(), events.fd());
+    run.finder.truck.pose.middle[1] += farther;
+    while (events.named("dig").empty() && run.seconds < 60.0)
+      for (int k = 0; k < 10; ++k) run.step();
+    const auto digs = events.named("dig");
+    return digs.empty() ? 0.0 : digs[0].at("goal_kg").get<double>();
+  };
+  const TruckBed bed = app_bench::bench_bed();
+  const double heaped_kg = app_bench::zx200().bucket_payload_kg, whole_kg = TruckFill::aim_share * app_bench::bench().place.target_kg / 12.0;
+  ASSERT_GT(whole_kg, 0.92 * heaped_kg);
+  EXPECT_NEAR(first_goal_kg(0.0), whole_kg, 1.0);
+  const double at_the_end = first_goal_kg(farthest_dump(app_bench::zx200(), bed.wall_top) - std::hypot(bed.centre_x, bed.centre_y));
+  EXPECT_LT(at_the_end, 0.91 * heaped_kg);
+  EXPECT_GT(at_the_end, 0.84 * heaped_kg);
+}
+
 // A part that the weighing takes for poured before the bucket has tilted: the arm waits for no pour, but goes on to the dig.
 TEST(Sequencer, APartThatIsPouredAtOnceEndsItsPass) {
   const app_bench::Events events;

@@ -78,6 +78,17 @@ TEST(PassScript, TheBucketOpensEarlierWhereItIsHeldLevel) {
   EXPECT_NEAR(late, 6.0, 1e-9);
 }
 
+// Beyond the easy reach a heap slides off short of the near wall: the farther, the less is to be in the bucket.
+TEST(PassScript, AHeapIsNotDumpedWhereTheBucketCannotBeHeldLevel) {
+  const MachineModel m = berm::app_bench::zx200();
+  const double wall_top = on_the_bench().wall_top, farthest = farthest_dump(m, wall_top);
+  EXPECT_EQ(share_at_reach(m, wall_top, 5.0), 1.0);
+  EXPECT_NEAR(share_at_reach(m, wall_top, farthest - 0.25), 1.0, 1e-9);
+  EXPECT_NEAR(share_at_reach(m, wall_top, farthest - 0.10), 0.91, 1e-9);
+  EXPECT_NEAR(share_at_reach(m, wall_top, farthest), 0.85, 1e-9);
+  EXPECT_NEAR(share_at_reach(m, wall_top, farthest + 1.0), 0.85, 1e-9) << "nothing is dumped there";
+}
+
 // What sticks lets go last, when the bucket is open farthest: it has to fall where the load fell, not beyond the far wall.
 TEST(PassScript, ABucketThatOpensFartherKeepsItsLipOverTheBed) {
   const MachineModel m = berm::app_bench::zx200();
