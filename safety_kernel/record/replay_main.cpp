@@ -1,15 +1,15 @@
 // berm replay: reproduces every decision of a journal, or names the first that differs.
 #include <unistd.h>
 
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <filesystem>
+#include <stdexcept>
 #include <string>
 
+#include "config/output_file.hpp"
 #include "config/standard_output.hpp"
+#include "config/whole_file.hpp"
 #include "record/replay.hpp"
 
 namespace {
@@ -39,11 +39,6 @@ struct Options {
   std::string file, json, parameters;
 };
 
-bool same_file(const std::string& a, const std::string& b) {
-  std::error_code none;  // where one does not exist
-  return std::filesystem::equivalent(a, b, none);
-}
-
 // Exit status when the program should end now, otherwise -1.
 int read_options(int argc, char** argv, Options& options) {
   for (int i = 1; i < argc; ++i) {
@@ -65,12 +60,14 @@ int read_options(int argc, char** argv, Options& options) {
     }
   }
   if (options.file.empty()) return fail("which file? (see --help)");
+  if (options.json.empty()) return -1;
+  if (const std::string why = berm::config::why_not_written(options.json); !why.empty()) return fail("--json: " + options.json + ": " + why);
   for (const std::string& read : {options.file, options.parameters})
-    if (same_file(options.json, read)) return fail("--json: " + read + " is read, and would be overwritten");
+    if (!read.empty() && berm::config::same_file(options.json, read)) return fail("--json: " + read + " is read, and would be overwritten");
   return -1;
 }
 
-bool write_json(const std::string& path, const ReplayResult& r) {
+std::string json_of(const ReplayResult& r) {
   std::string json = "{\n";
   const auto add = [&json](const char* name, const std::string& value) { json += (json.size() > 2 ? ",\n  \"" : "  \"") + std::string(name) + "\": " + value; };
   const auto quoted = [](const std::string& text) { return "\"" + text + "\""; };
@@ -84,11 +81,7 @@ bool write_json(const std::string& path, const ReplayResult& r) {
   add("first_mismatch_field", r.first ? quoted(r.first->field) : "null");
   add("first_mismatch_recorded", r.first ? quoted(r.first->recorded) : "null");
   add("first_mismatch_replayed", r.first ? quoted(r.first->replayed) : "null");
-  json += "\n}\n";
-  std::FILE* file = std::fopen(path.c_str(), "we");
-  if (file == nullptr) return false;
-  const bool written = std::fwrite(json.data(), 1, json.size(), file) == json.size();
-  return std::fclose(file) == 0 && written;
+  return json + "\n}\n";
 }
 
 void print(const ReplayResult& r, const std::string& file, double seconds) {
@@ -123,6 +116,10 @@ int main(int argc, char** argv) {
   if (terminal) std::fputs("\r                        \r", stderr);
   if (!usable) return fail(error);
   print(result, options.file, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-  if (!options.json.empty() && !write_json(options.json, result)) return fail(options.json + ": " + std::strerror(errno));
+  if (!options.json.empty()) try {
+    berm::config::write_whole_file(options.json, json_of(result));
+  } catch (const std::runtime_error& wrong) {
+    return fail(wrong.what());
+  }
   return result.reproduced() ? EXIT_SUCCESS : kNotReproduced;
 }

@@ -78,6 +78,15 @@ def another_parameter_is_found():
     assert done.returncode == 1 and replayed["mismatches"] > 0 and replayed["first_mismatch_field"], replayed
 
 
+def a_result_that_cannot_be_written_is_told_before_the_work():
+    path = seen["out"] / "journal.mcap"
+    for wanted, why in ((scratch / "missing" / "r.json", "folder does not exist"), (scratch, "is a folder"), (path, "would be overwritten")):
+        done = run("berm_replay", path, "--json", wanted)
+        one_clear_line(done, "--json")
+        assert done.returncode == 2 and why in done.stderr and done.stdout == "", (done.returncode, done.stderr, done.stdout)
+    assert path.read_bytes() == seen["data"], "the journal was touched"
+
+
 def cut_or_damaged_files_get_one_clear_line_or_are_called_incomplete():
     random_source = random.Random(SEED)
     print("seed", SEED)
@@ -123,5 +132,6 @@ def a_run_with_a_dead_app_replays():
 
 
 # verifies: SK-JO-2, SK-JO-4, SK-JO-10, SK-JO-11, SK-JO-20, SK-JO-21, IF-JR-10, IF-JR-12
-main([a_run_replays, one_changed_byte_of_one_frame_is_found, another_parameter_is_found, cut_or_damaged_files_get_one_clear_line_or_are_called_incomplete,
+main([a_run_replays, one_changed_byte_of_one_frame_is_found, another_parameter_is_found,
+      a_result_that_cannot_be_written_is_told_before_the_work, cut_or_damaged_files_get_one_clear_line_or_are_called_incomplete,
       the_writers_death_disturbs_nobody_and_is_seen, a_run_with_a_dead_app_replays])
