@@ -9,7 +9,7 @@ namespace berm::app {
 namespace {
 
 constexpr double weighing_s = 0.5;                // five weighings
-constexpr double blind_s = 6.0;                   // without a weighing: it has to go
+constexpr double blind_s = 6.0;                   // from when it was up, without a weighing: the pressures have to do, and without them it has to go
 constexpr double longest_s = 20.0;                // however it goes
 constexpr double pause_s = 0.2;
 constexpr double steepest = radians(-55.0);
@@ -36,6 +36,13 @@ void LoadCheck::enter(Stage stage, double time_s) {
   recent_ = {};
 }
 
+void LoadCheck::decide(double lifted_kg, const Lifted& now, const TruckFill& fill, const ProgressLog& log) {
+  lifted_ = lifted_kg;
+  rest_ = lifted_ - fill.allowed_kg(lifted_, std::min(now.stays_kg, lifted_));
+  if (rest_ > 0.0) log.event("part", {{"time_s", now.time_s}, {"payload_kg", lifted_}, {"keeps_kg", rest_}, {"loaded_kg", fill.loaded_kg()}});
+  enter(rest_ > 0.0 ? Stage::pours : Stage::passed, now.time_s);
+}
+
 double LoadCheck::step(const Lifted& now, const TruckFill& fill, const ProgressLog& log) {
   constexpr double nothing = -1.0;
   // While the kernel stops the machine nothing is asked here: that time does not count.
@@ -52,19 +59,18 @@ double LoadCheck::step(const Lifted& now, const TruckFill& fill, const ProgressL
   switch (stage_) {
     case Stage::blind:
       if (now.payload_kg >= 0.0) enter(Stage::weighs, now.time_s);
+      else if (now.lifts) began_s_ = stage_s_ = now.time_s;
+      else if (since > blind_s && now.carried_kg >= 0.0) decide(now.carried_kg, now, fill, log);
       else if (since > blind_s) enter(Stage::passed, now.time_s);
       return nothing;
     case Stage::weighs:
       mean_.add(now.payload_kg);
       if (since < weighing_s || !mean_.known()) return nothing;
-      lifted_ = mean_.kg();
-      rest_ = lifted_ - fill.allowed_kg(lifted_, std::min(now.stays_kg, lifted_));
-      if (rest_ > 0.0) log.event("part", {{"time_s", now.time_s}, {"payload_kg", lifted_}, {"keeps_kg", rest_}, {"loaded_kg", fill.loaded_kg()}});
-      enter(rest_ > 0.0 ? Stage::pours : Stage::passed, now.time_s);
+      decide(mean_.kg(), now, fill, log);
       return nothing;
     case Stage::pours: {
       if (!now.over_bed) return nothing;
-      recent_.add(now.payload_kg);
+      recent_.add(now.payload_kg >= 0.0 ? now.payload_kg : now.pressed_kg);
       const double kg_per_rad = full_kg_per_rad * load_scale_;
       const double still_in = recent_.kg() > 0.0 ? recent_.kg() : lifted_, excess = still_in - rest_;
       const double slow = lifted_ - still_in < slides_kg * load_scale_ ? not_yet : slowest;

@@ -23,6 +23,9 @@ public:
     double attitude = 0.0;    // absolute angle of the bucket, rad
     bool over_bed = false;    // it may pour
     double stays_kg = 0.0;    // of its load, in the bucket after the dump
+    bool lifts = false;       // on its way up: may be in the soil yet, and the weighing blind until some seconds after it
+    double pressed_kg = -1.0; // by the cylinders' pressures, now; negative: unknown
+    double carried_kg = -1.0; // by them, before anything slid; negative: unknown
   };
   // Once a cycle from then on. How fast the bucket is to tilt towards the dump, rad/s; negative: nothing is asked for.
   double step(const Lifted& now, const TruckFill& fill, const ProgressLog& log);
@@ -37,6 +40,7 @@ public:
 private:
   enum class Stage { blind, weighs, pours, passed };
   void enter(Stage stage, double time_s);
+  void decide(double lifted_kg, const Lifted& now, const TruckFill& fill, const ProgressLog& log);
 
   double load_scale_;
   Stage stage_ = Stage::passed;

@@ -116,7 +116,8 @@ private:
   double share_that_may_trail() const;
   std::uint32_t pass_events(const Observation& o);
   bool carries_level(const Observation& o) const;
-  void watch_pour(const Observation& o);
+  double pressed_kg(const Observation& o) const;
+  void watch_pour(const Observation& o, double kg);
   double lifted_kg() const;                   // what the bucket carried to the truck; 0 when nothing has weighed it
   void book_pass(const Observation& o);
   void end_pass(const Observation& o);

@@ -59,11 +59,13 @@ bool Sequencer::carries_level(const Observation& o) const {
   return (phase_ == BERM_PHASE_SWING_TO_TRUCK || phase_ == BERM_PHASE_DUMP) && forward(machine_, o.angle).bucket_attitude < resting;
 }
 
-void Sequencer::watch_pour(const Observation& o) {
-  if (emptied_ || !weight_.known(o.angle)) return;
-  const double kg = weight_in_bucket(machine_, o.angle, holding_moments(machine_, o.pressure), weight_.of(o.angle));
-  if (kg < 0.0) return;
-  pour_.step({kg, carries_level(o), share_beside(machine_, *site_.bed, o.angle, bucket_width(machine_) / 2.0)});
+// What is in it by the cylinders' pressures; negative: unknown.
+double Sequencer::pressed_kg(const Observation& o) const {
+  return weight_.known(o.angle) ? weight_in_bucket(machine_, o.angle, holding_moments(machine_, o.pressure), weight_.of(o.angle)) : -1.0;
+}
+
+void Sequencer::watch_pour(const Observation& o, double kg) {
+  if (!emptied_ && kg >= 0.0) pour_.step({kg, carries_level(o), share_beside(machine_, *site_.bed, o.angle, bucket_width(machine_) / 2.0)});
 }
 
 // The on-board weighing is blind for a while after the soil, at times until the load slides, and then seen for a few readings only: the pressures say it too.
@@ -75,7 +77,9 @@ double Sequencer::lifted_kg() const {
 
 Joints Sequencer::pass(const Observation& o) {
   const auto opens = [this] { return script_.of(bucket).reached(RuleMark::opens) && !reach_again_.active(); };
-  const double tilt = load_check_.step({o.time_s, o.payload_kg, forward(machine_, o.angle).bucket_attitude, opens(), sticking_.stays_kg(std::max(0.0, o.payload_kg))}, fill_, log_);
+  const double by_pressures = pressed_kg(o);
+  const double tilt = load_check_.step({o.time_s, o.payload_kg, forward(machine_, o.angle).bucket_attitude, opens(), sticking_.stays_kg(std::max(0.0, o.payload_kg >= 0.0 ? o.payload_kg : by_pressures)),
+                                        !script_.of(swing).reached(RuleMark::leaves), by_pressures, pour_.carried_known() ? pour_.carried_kg() : -1.0}, fill_, log_);
   Joints command = run_script(o, pass_events(o));
   if (tilt >= 0.0) command[bucket] = tilt;
   if (!script_.of(swing).reached(RuleMark::leaves)) enter_phase(BERM_PHASE_LIFT, o);
@@ -83,7 +87,7 @@ Joints Sequencer::pass(const Observation& o) {
   else enter_phase(opens() ? BERM_PHASE_DUMP : BERM_PHASE_SWING_TO_TRUCK, o);
   // On the way at any tilt: some buckets are never seen level, and one that nothing has weighed is booked by its goal, up to 200 kg too low.
   if (phase_ == BERM_PHASE_SWING_TO_TRUCK || carries_level(o)) before_.add(o.payload_kg);
-  watch_pour(o);
+  watch_pour(o, by_pressures);
   if (emptied_ && !(load_check_.keeps_rest() && script_.of(swing).at_last())) after_.add(o.payload_kg);  // what it keeps it lets go over the dig
   const Joints goals = script_.goals();
   // The boom may be higher yet: the drag's way down begins from where it is.

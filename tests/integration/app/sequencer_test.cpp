@@ -269,6 +269,29 @@ TEST(Sequencer, APartThatIsPouredAtOnceEndsItsPass) {
   expect_no_contact(run);
 }
 
+// The on-board weighing fails after the first pass: a second whole bucket would overload this truck, and the cylinders' pressures say so.
+TEST(Sequencer, ABucketThatTheWeighingHasNotSeenIsWeighedByThePressures) {
+  const app_bench::Events events;
+  SiteModel site = app_bench::bench();
+  site.place.target_kg = 2600.0;
+  Loading run(1, start_pose(), events.fd(), site);
+  run.plant.has_pressures = true;
+  while (events.named("pass").empty() && run.seconds < 90.0)
+    for (int k = 0; k < 10; ++k) run.step();
+  run.plant.weighs = false;
+  double lifted_kg = 0.0;
+  while (!run.sequencer.finished() && run.seconds < 200.0) {
+    run.step();
+    lifted_kg = std::max(lifted_kg, run.plant.payload_kg());
+  }
+  EXPECT_TRUE(run.sequencer.finished());
+  const auto parts = events.named("part");
+  ASSERT_EQ(parts.size(), 1U);
+  EXPECT_NEAR(parts[0].at("payload_kg").get<double>(), lifted_kg, 20.0);
+  EXPECT_NEAR(parts[0].at("loaded_kg").get<double>() + lifted_kg - parts[0].at("keeps_kg").get<double>(), TruckFill::aim_share * site.place.target_kg, 30.0);
+  expect_no_contact(run);
+}
+
 // A bucket that stays low hides the ground round it until that is too old to move over. Here the face is dug out when the next truck is due: up, and ahead of
 // the machine for the bench move.
 TEST(Sequencer, WaitsForABenchMoveWithTheImplementsUpAndAhead) {
