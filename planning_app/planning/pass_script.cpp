@@ -27,6 +27,7 @@ constexpr double attitude_dig = radians(-92.0);
 constexpr double spill_ahead = 0.55;              // pin beyond the dump point while the lip points inward, by the scale of the bucket ...
 constexpr double dump_behind = 0.25;              // ... and short of it when the bucket hangs open, lip outward
 constexpr double part_lip_beyond = 0.3;           // lip beyond the dump point, at most, while a part of a load is poured: by the scale of the bucket
+constexpr double part_ahead = radians(15.0);      // the arm follows late, and a lip too far out may be held by what stands beside the bed, and the arm with it: so far ahead of the bucket
 constexpr double dig_above = -0.15;               // tip over the entry of the drag, which is above the surface: nearer to that, for the drag takes over on the way down
 constexpr double hover_above = 1.60;              // tip over the bench's level while the swing lands: heaps on the crest, the margin, the spread of a stop ...
 constexpr double hover_lowest = 0.20, hover_step = 0.35;  // ... and where the search finds that clear, lower by whole steps
@@ -101,6 +102,7 @@ std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask&
 }
 
 Joints part_pose(const MachineModel& machine, const PassTask& task, const PassPoses& poses, double bucket_attitude) {
+  bucket_attitude += part_ahead;
   const PlanePoint pin = forward(machine, poses.spill).bucket_pin;
   const double lip = pin.r + machine.bucket_length * std::cos(bucket_attitude), beyond = lip - task.dump_radius - part_lip_beyond * scale_of(machine).bucket;
   Joints pose = poses.spill;

@@ -44,7 +44,7 @@ struct PassThresholds {
 std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask& task);
 
 // Boom and stick while a part of a load is poured, the bucket at this attitude: at the spill point, and drawn in as the bucket tilts on, for its lip is not to go far
-// beyond the dump point. What slides last would else fall beside the far wall, and off a heap that stands over it. Bucket and swing as of the spill point.
+// beyond the dump point, even if the bucket is 15 degrees on when they are there. What slides last would else fall beside the far wall, and off a heap that stands over it. Bucket and swing as of the spill point.
 Joints part_pose(const MachineModel& machine, const PassTask& task, const PassPoses& poses, double bucket_attitude);
 
 // The farthest dump point from the swing axis, m: from there the stretched arm spills the load 0.25 m short of where it is meant to be.

@@ -125,10 +125,12 @@ TEST(PassScript, ALoadThatIsPouredInPartKeepsItsLipOverTheBed) {
       pose[bucket] = radians(attitude) - pose[boom] - pose[stick];
       const ArmPoints arm = forward(m, pose);
       EXPECT_LT(arm.tip.r, dump_radius + 0.31) << dump_radius << " m, " << attitude << " degrees";
+      pose[bucket] = std::min(pose[bucket] + radians(15.0), radians(-48.0) - pose[boom] - pose[stick]);
+      EXPECT_LT(forward(m, pose).tip.r, dump_radius + 0.31) << dump_radius << " m, the bucket ahead, " << attitude << " degrees";
       EXPECT_NEAR(arm.bucket_pin.z, spill.bucket_pin.z, 1e-6);
       EXPECT_GE(spill.bucket_pin.r - arm.bucket_pin.r, drawn_in - 1e-9) << "goes out again, " << dump_radius << " m, " << attitude << " degrees";
       drawn_in = spill.bucket_pin.r - arm.bucket_pin.r;
-      if (attitude < -110.0) {
+      if (attitude < -125.0) {
         EXPECT_EQ(drawn_in, 0.0) << "the lip is not there yet";
       }
     }
