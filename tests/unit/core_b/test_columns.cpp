@@ -119,5 +119,80 @@ TEST_F(Columns, NothingOutsideTheMapOrMalformedIsClearByHeight) {
   EXPECT_FALSE(sk_clear_level(map.get(), columns.get(), &slice, &rules));
 }
 
+// Any slice: the cells that a walk over the whole map finds, and the lowest vertex, also where coordinates lie on cells' borders; nothing beyond the map.
+// verifies: SK-CO-4
+TEST(SliceFootprint, IsEveryCellThatTheVerticesMeet) {
+  std::mt19937_64 random(kSeed + 2);
+  const auto between = [&](int low, int high) { return low + static_cast<int>(random() % static_cast<std::uint64_t>(high - low + 1)); };
+  int inside = 0, outside = 0;
+  for (int n = 0; n < 2000; ++n) {
+    sk_slice slice = block_slice(between(0, 3), {0, 1, 0, 1, 0, 1});
+    slice.vertices = between(1, SK_SLICE_VERTICES);
+    const int x = between(-16000, 16000), y = between(-16000, 16000), spread = between(0, 1) * between(1, 3000);
+    for (int i = 0; i < slice.vertices; ++i) {
+      slice.xyz_mm[0][i] = x + between(-spread, spread);
+      slice.xyz_mm[1][i] = y + between(-spread, spread);
+      slice.xyz_mm[2][i] = between(-5000, 5000);
+      if (std::int32_t& on_border = slice.xyz_mm[between(0, 1)][i]; between(0, 3) == 0) on_border -= on_border % SK_CELL_MM;
+    }
+    const auto meets = [&](int axis, int cell) {
+      const int low = sk_cell_low_mm(cell), *v = slice.xyz_mm[axis];
+      return *std::min_element(v, v + slice.vertices) <= low + SK_CELL_MM && low <= *std::max_element(v, v + slice.vertices);
+    };
+    int ix_low = INT32_MAX, ix_high = INT32_MIN, iy_low = INT32_MAX, iy_high = INT32_MIN;
+    for (int cell = -20; cell < SK_MAP_CELLS + 20; ++cell) {
+      if (meets(0, cell)) ix_low = std::min(ix_low, cell), ix_high = cell;
+      if (meets(1, cell)) iy_low = std::min(iy_low, cell), iy_high = cell;
+    }
+    const bool in_map = ix_low >= 0 && ix_high < SK_MAP_CELLS && iy_low >= 0 && iy_high < SK_MAP_CELLS;
+    sk_footprint found{{-7, -7, -7, -7}, -7};
+    ASSERT_EQ(sk_slice_footprint(&slice, &found), in_map) << "seed " << kSeed + 2 << " case " << n;
+    (in_map ? inside : outside) += 1;
+    if (!in_map) {
+      ASSERT_TRUE(found.cells.ix_low == -7 && found.cells.ix_high == -7 && found.cells.iy_low == -7 && found.cells.iy_high == -7 && found.z_low_mm == -7) << "written to";
+      continue;
+    }
+    ASSERT_EQ(found.cells.ix_low, ix_low) << "seed " << kSeed + 2 << " case " << n;
+    ASSERT_EQ(found.cells.ix_high, ix_high) << "seed " << kSeed + 2 << " case " << n;
+    ASSERT_EQ(found.cells.iy_low, iy_low) << "seed " << kSeed + 2 << " case " << n;
+    ASSERT_EQ(found.cells.iy_high, iy_high) << "seed " << kSeed + 2 << " case " << n;
+    ASSERT_EQ(found.z_low_mm, *std::min_element(slice.xyz_mm[2], slice.xyz_mm[2] + slice.vertices)) << "seed " << kSeed + 2 << " case " << n;
+  }
+  EXPECT_GT(inside, 500);
+  EXPECT_GT(outside, 100);
+}
+
+// verifies: SK-CO-4
+TEST(SliceFootprint, NoneOfWhatIsMalformed) {
+  const sk_slice good = block_slice(2, {100, 200, 100, 200, 1000, 1500});
+  sk_footprint found{};
+  ASSERT_TRUE(sk_slice_footprint(&good, &found));
+  const auto refused = [](const sk_slice& slice) {
+    sk_footprint kept{{-7, -7, -7, -7}, -7};
+    return !sk_slice_footprint(&slice, &kept) && kept.cells.ix_low == -7 && kept.z_low_mm == -7;
+  };
+  for (const int vertices : {0, -1, SK_SLICE_VERTICES + 1}) {
+    sk_slice slice = good;
+    slice.vertices = vertices;
+    EXPECT_TRUE(refused(slice)) << vertices << " vertices";
+  }
+  for (const int planes : {0, -1, SK_SLICE_PLANES + 1}) {
+    sk_slice slice = good;
+    slice.planes = planes;
+    EXPECT_TRUE(refused(slice)) << planes << " planes";
+  }
+  for (const int link : {-1, 4}) {
+    sk_slice slice = good;
+    slice.link = link;
+    EXPECT_TRUE(refused(slice)) << "link " << link;
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int value : {SK_COORD_MAX_MM + 1, -SK_COORD_MAX_MM - 1}) {
+      sk_slice slice = good;
+      slice.xyz_mm[axis][slice.vertices - 1] = value;
+      EXPECT_TRUE(refused(slice)) << "axis " << axis << ": " << value;
+    }
+}
+
 }  // namespace
 }  // namespace berm::core_test
