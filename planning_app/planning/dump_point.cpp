@@ -86,6 +86,13 @@ LoadMoment load_of(const BedMap& bed, const BedGrid& heights, double seen_share)
   return load;
 }
 
+// With a bucket that has come as full as it may, as those of small goals often do: then less is left to bring the load's centre back.
+double least_offset_when_full(const TruckBed& bed, const BedArea& area, const DumpNeeds& needs, LoadMoment load, const BedPoint& at) {
+  if (!std::isfinite(needs.most_kg) || needs.most_kg <= needs.dump_kg) return 0.0;
+  load.add(landing(bed, at, needs.most_kg, needs.scale), needs.most_kg);
+  return least_final_offset(load, std::fmax(0.0, needs.rest_kg - (needs.most_kg - needs.dump_kg)), area);
+}
+
 // Where heaps would come to stand under the truck zone's ceiling. Places in one column of cells count as one: across the bed there is little room.
 class HeapForecast {
 public:
@@ -145,7 +152,8 @@ DumpPoint choose_dump_point(const BedMap& map, const DumpNeeds& needs) {
       const BedPoint cell{load_heights.u(column), load_heights.v(row)}, under = nearest(bed, area, needs, cell), at = moved_inward(bed, under, lead);
       LoadMoment with = load;
       with.add(landing(bed, at, needs.dump_kg, needs.scale), needs.dump_kg);
-      const double offset = std::fmax(0.0, least_final_offset(with, needs.rest_kg, area) - offset_limit);
+      const double least = std::fmax(least_final_offset(with, needs.rest_kg, area), least_offset_when_full(bed, area, needs, load, at));
+      const double offset = std::fmax(0.0, least - offset_limit);
       const double price = height[i] - hole_price * hole[i] + slope_price * std::hypot(along[i], over[i]) + beyond_price * std::hypot(under.u - cell.u, under.v - cell.v) +
                            offset_price * offset + middle_price * std::hypot(under.u, under.v);
       candidates.push_back({at, price, with.centre()});

@@ -8,7 +8,7 @@
 // The bucket may not come over every cell (walls, the end of the site's truck zone, its own reach). Soil for a cell beyond is poured as near to it as it may
 // and has to run there down a slope, so such a cell's price is higher by a share of its distance.
 // Balance: from the load's centre as books and sight have it, a dump may only be where what is still to come can bring the whole load's centre to the
-// bed's middle; what it would miss by is added to the price, manyfold.
+// bed's middle, also if this bucket comes as full as it may; what it would miss by is added to the price, manyfold.
 // Height: of the cells so ordered the first is taken where the heap, poured and slid to rest at the density and slope that this load was weighed and seen to have,
 // stays well under the truck zone's ceiling; where it does nowhere, the one where it stays lowest. By the books alone that is not asked.
 #pragma once

@@ -110,6 +110,24 @@ TEST(DumpPoint, TheLastDumpsPutTheLoadOverTheAxles) {
   EXPECT_LT(choose_dump_point(early, needs(1, 12)).at.u, -1.2);
 }
 
+// Two passes of 945 kg are left, and the next may bring a heaped bucket: dumped at the empty end, as two equal ones would be, it left that truck's load 0.4 m off
+// its middle.
+TEST(DumpPoint, ABucketThatMayComeFullerIsNotDumpedWhereTheRestCannotBalanceIt) {
+  BedMap map(free_bed());
+  map.note_dump({0.0, 0.0}, 1590.0);
+  map.note_dump({1.2, 0.0}, 980.0);
+  DumpNeeds sure{half_bucket, 0.0, 945.0, 945.0, 945.0, std::numeric_limits<double>::infinity(), {}}, fuller = sure;
+  fuller.most_kg = 1600.0;
+  const DumpPoint exact = choose_dump_point(map, sure), careful = choose_dump_point(map, fuller);
+  EXPECT_LT(exact.at.u, -1.2);
+  LoadMoment load = map.noted_load();
+  load.add(landing(map.bed(), careful.at, 1600.0), 1600.0);
+  EXPECT_LT(least_final_offset(load, 945.0 - (1600.0 - 945.0), dump_area(map.bed(), half_bucket)), 0.15) << "dumped at " << careful.at.u;
+  load = map.noted_load();
+  load.add(landing(map.bed(), exact.at, 1600.0), 1600.0);
+  EXPECT_GT(least_final_offset(load, 945.0 - (1600.0 - 945.0), dump_area(map.bed(), half_bucket)), 0.2);
+}
+
 TEST(DumpPoint, OldSightDoesNotCount) {
   BedMap map(berm::app_bench::bench_bed());
   look(map, [](double, double) { return 0.5; }, everywhere, 5.0);
