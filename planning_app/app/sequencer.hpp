@@ -199,6 +199,7 @@ private:
   StickingSoil sticking_;
   double goal_kg_ = 0.0;
   double pass_began_s_ = 0.0, truck_began_s_ = 0.0, open_since_s_ = -1.0;
+  bool pours_ = false;                        // has begun to, in this pass
   bool emptied_ = false;
   PourWatch pour_;
   RecentWeight recent_;

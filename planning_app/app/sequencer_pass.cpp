@@ -85,8 +85,10 @@ Joints Sequencer::pass(const Observation& o) {
   if (!script_.of(swing).reached(RuleMark::leaves)) enter_phase(BERM_PHASE_LIFT, o);
   else if (script_.of(swing).reached(RuleMark::returns)) enter_phase(BERM_PHASE_SWING_TO_DIG, o);
   else enter_phase(opens() ? BERM_PHASE_DUMP : BERM_PHASE_SWING_TO_TRUCK, o);
-  // On the way at any tilt: some buckets are never seen level, and one that nothing has weighed is booked by its goal, up to 200 kg too low.
-  if (phase_ == BERM_PHASE_SWING_TO_TRUCK || carries_level(o)) before_.add(o.payload_kg);
+  // On the way at any tilt: some buckets are never seen level, and one that nothing has weighed is booked by its goal, up to 200 kg too low. Not what a stop
+  // amid the pour has left in it.
+  pours_ = pours_ || (phase_ == BERM_PHASE_DUMP && !carries_level(o));
+  if (!pours_ && (phase_ == BERM_PHASE_SWING_TO_TRUCK || carries_level(o))) before_.add(o.payload_kg);
   watch_pour(o, by_pressures);
   if (emptied_ && !(load_check_.keeps_rest() && script_.of(swing).at_last())) after_.add(o.payload_kg);  // what it keeps it lets go over the dig
   const Joints goals = script_.goals();

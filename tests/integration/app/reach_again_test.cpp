@@ -133,6 +133,26 @@ TEST_F(ReachAgainOnTheBench, OnTheWayBackItGoesOn) {
   EXPECT_TRUE(events_.named("reaches_again").empty());
 }
 
+// Stopped with half of it poured: what was poured before the stop is in the truck, and in its books.
+TEST_F(ReachAgainOnTheBench, WhatWasPouredBeforeAStopIsBooked) {
+  for (const double moved_deg : {0.0, -8.0}) {
+    Loading run(1, start_pose(), events_.fd());
+    const std::size_t before = events_.named("pass").size();
+    run_to(run, BERM_PHASE_DUMP);
+    const double carried_kg = run.plant.payload_kg();
+    while (run.plant.payload_kg() > 0.6 * carried_kg && run.seconds < 60.0) run.step();
+    stop(run);
+    const double poured_kg = run.plant.site().bed_mass();
+    ASSERT_GT(poured_kg, 0.3 * carried_kg);
+    run.plant.put(swing, run.plant.angle()[swing] + radians(moved_deg));
+    run.plant.kernel_runs = true;
+    while (events_.named("pass").size() == before && run.seconds < 90.0)
+      for (int k = 0; k < 10; ++k) run.step();
+    ASSERT_EQ(events_.named("pass").size(), before + 1);
+    EXPECT_NEAR(events_.named("pass").back().at("payload_kg").get<double>(), run.plant.site().bed_mass(), 0.03 * carried_kg) << "moved by " << moved_deg << " degrees";
+  }
+}
+
 // It is drawn in at its own pace, not at that of a swing that is held because it is out.
 TEST_F(ReachAgainOnTheBench, ASwingThatIsHeldDoesNotHoldTheArm) {
   Loading run(1, start_pose(), events_.fd());
