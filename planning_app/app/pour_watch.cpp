@@ -40,12 +40,20 @@ void PourWatch::step(const Bucket& now) {
   count_ = 0;
   sum_ = share_sum_ = 0.0;
   if (!now.rests && carried_known()) {
-    beside_ += (last_kg_ - kg) * 0.5 * (share + last_share_);
+    if (!paused_) beside_ += (last_kg_ - kg) * 0.5 * (share + last_share_);
     slid_ = true;
   }
   // At rest the mean of all that was seen is quieter than a block's.
   last_kg_ = slid_ ? kg : carried_kg();
   last_share_ = share;
+  paused_ = false;
+}
+
+void PourWatch::pause(bool poured) {
+  slid_ = slid_ || poured;
+  count_ = 0;
+  sum_ = share_sum_ = 0.0;
+  paused_ = true;
 }
 
 double PourWatch::beside_kg() const {

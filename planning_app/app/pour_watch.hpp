@@ -23,6 +23,9 @@ public:
     double beside = 0.0;     // share_beside
   };
   void step(const Bucket& now);
+  // After a stop, and while the bucket is held level and brought over the bed again: where what has left it meanwhile fell is not known, and is not counted.
+  // poured: some of it had left it already.
+  void pause(bool poured);
 
   // Before anything slid.
   bool carried_known() const;
@@ -37,7 +40,7 @@ private:
   double rested_sum_ = 0.0;
   int count_ = 0;                   // of the block that is filled
   double sum_ = 0.0, share_sum_ = 0.0;
-  bool slid_ = false;
+  bool slid_ = false, paused_ = false;
   double last_kg_ = 0.0, last_share_ = 0.0;  // of the block before
   double beside_ = 0.0;
 };

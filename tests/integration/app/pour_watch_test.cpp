@@ -61,6 +61,30 @@ TEST(PourWatch, NoiseIsNoSpill) {
   for (unsigned seed = 1; seed <= 50; ++seed) EXPECT_EQ(watched({.beside_s = -0.3}, seed).beside_kg(), 0.0) << "seed " << seed;
 }
 
+// Stopped amid the pour, which goes on into the bed meanwhile; then the bucket stands beside the bed and is brought back: none of that is spilt. What it carried is
+// what it carried before, and what falls beside later counts.
+TEST(PourWatch, WhatLeavesItDuringAStopIsNotTakenForSpilt) {
+  for (const double later_beside : {0.0, 1.0}) {
+    PourWatch watch(full_kg);
+    watch.begin();
+    double kg = 1500.0;
+    const auto pour = [&](int cycles, double each, bool rests, double beside) {
+      for (int k = 0; k < cycles; ++k) watch.step({kg -= each, rests, beside});
+    };
+    pour(200, 0.0, true, 1.0);
+    pour(50, 6.0, false, 0.0);
+    kg -= 400.0;  // while it stood
+    watch.pause(true);
+    pour(5, 0.0, true, 1.0);  // level again, beside the bed
+    for (int k = 0; k < 100; ++k) watch.pause(true);
+    pour(100, 0.0, true, 0.0);
+    EXPECT_EQ(watch.beside_kg(), 0.0);
+    EXPECT_NEAR(watch.carried_kg(), 1500.0, 1.0);
+    pour(60, 6.0, false, later_beside);
+    EXPECT_NEAR(watch.beside_kg(), later_beside * 344.0, later_beside * 45.0);
+  }
+}
+
 TEST(PourWatch, AnEmptyBucketAndOneThatWasNotSeenAtRestSayNothing) {
   EXPECT_FALSE(watched({.carried = 0.0}, 1).carried_known());
   const PourWatch unseen = watched({.rests_s = 0.3}, 1);
