@@ -118,5 +118,15 @@ TEST(SitePicture, EachMoversWayIsThereWhole) {
   for (const std::size_t of_one : points) EXPECT_NEAR(static_cast<double>(of_one), 8 * 6 * 60, 300.0);
 }
 
+TEST(SitePicture, ATruckIsNotDrawnAsSomebodyWhoMayNotBeThere) {
+  SitePictureInput in = run_of(60.0, 60.0);
+  add_movers(in, 2, 600.0);
+  in.movers[0].name = "truck_1";
+  const std::string svg = written(in);
+  EXPECT_EQ(points_of(svg, mover).size(), 1U);
+  EXPECT_EQ(points_of(svg, "#57534e").size(), 1U);
+  EXPECT_NE(svg.find("fill:#57534e\">truck_1<"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace berm::run::test
