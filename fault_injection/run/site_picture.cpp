@@ -8,6 +8,7 @@
 #include <set>
 
 #include "run/map_picture.hpp"
+#include "run/trace_reader.hpp"
 
 namespace berm::run {
 
@@ -123,7 +124,7 @@ void draw_from_above(SvgPanel& panel, const SitePictureInput& in, const TipWay& 
     if (mover.points.empty()) continue;
     const std::size_t most = kMostOfMovers / in.movers.size();
     const std::vector<Point2> way = mover_way(mover, most);
-    const std::string colour = mover.name.starts_with("truck") ? "#57534e" : "#dc2626";  // red is who may not be there
+    const std::string colour = is_truck(mover.name) ? "#57534e" : "#dc2626";  // red is who may not be there
     panel.line(way, "stroke:" + colour + ";stroke-width:2;stroke-dasharray:2 3");
     panel.circle(mover.points.back().first, mover.points.back().second, 0.25, "fill:" + colour);
     panel.text(mover.points.back().first + 0.4, mover.points.back().second, mover.name + (way.size() == most ? ", latest way" : ""), "font-size:12px;fill:" + colour);

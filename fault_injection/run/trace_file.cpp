@@ -16,7 +16,7 @@ constexpr double kRounding_s = 1e-6;
 std::vector<TraceRow> read_trace(const std::string& path) {
   TraceReader trace(path);
   std::vector<std::string> intruders = trace.movers();
-  std::erase_if(intruders, [](const std::string& name) { return name.starts_with("truck"); });
+  std::erase_if(intruders, is_truck);
   const bool trams = trace.has("base_x");
   std::vector<TraceRow> rows;
   while (trace.next()) {

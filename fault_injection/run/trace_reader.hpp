@@ -9,6 +9,9 @@
 
 namespace berm::run {
 
+// Of a mover's name: trucks have the names that nobody else may have.
+inline bool is_truck(const std::string& mover) { return mover.starts_with("truck"); }
+
 class TraceReader {
  public:
   // Throws std::runtime_error naming the file when it cannot be read.

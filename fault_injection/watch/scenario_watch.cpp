@@ -127,7 +127,7 @@ ScenarioResult watch_scenario(const ScenarioOptions& options) {
     run::describe_site(files.machine, files.site, picture->site);
     picture->site.truck_bed = run::recognised_bed(done.app_events);
     picture->paths = run::mover_paths(load.out + "/trace.csv");
-    std::erase_if(picture->paths, [](const run::MoverPath& path) { return path.name.starts_with("truck"); });
+    std::erase_if(picture->paths, [](const run::MoverPath& path) { return run::is_truck(path.name); });
     picture->alarms = result.alarms;
     write_monitor_picture(options.picture, *picture);
   }

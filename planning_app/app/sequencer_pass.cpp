@@ -79,8 +79,15 @@ double Sequencer::lifted_kg() const {
 Joints Sequencer::pass(const Observation& o) {
   const auto opens = [this] { return script_.of(bucket).reached(RuleMark::opens) && !reach_again_.active(); };
   const double by_pressures = pressed_kg(o);
-  const double tilt = load_check_.step({o.time_s, o.payload_kg, forward(machine_, o.angle).bucket_attitude, opens(), sticking_.stays_kg(std::max(0.0, o.payload_kg >= 0.0 ? o.payload_kg : by_pressures)),
-                                        !script_.of(swing).reached(RuleMark::leaves), by_pressures, pour_.carried_known() ? pour_.carried_kg() : -1.0}, fill_, log_);
+  const LoadCheck::Lifted lifted{.time_s = o.time_s,
+                                 .payload_kg = o.payload_kg,
+                                 .attitude = forward(machine_, o.angle).bucket_attitude,
+                                 .over_bed = opens(),
+                                 .stays_kg = sticking_.stays_kg(std::max(0.0, o.payload_kg >= 0.0 ? o.payload_kg : by_pressures)),
+                                 .lifts = !script_.of(swing).reached(RuleMark::leaves),
+                                 .pressed_kg = by_pressures,
+                                 .carried_kg = pour_.carried_known() ? pour_.carried_kg() : -1.0};
+  const double tilt = load_check_.step(lifted, fill_, log_);
   Joints command = run_script(o, pass_events(o));
   if (tilt >= 0.0) command[bucket] = tilt;
   if (!script_.of(swing).reached(RuleMark::leaves)) enter_phase(BERM_PHASE_LIFT, o);

@@ -15,7 +15,7 @@ bool Sequencer::works() const { return stage_ == Stage::go_look || stage_ == Sta
 bool Sequencer::digs_or_comes_to_dig() const { return stage_ == Stage::dig || stage_ == Stage::settle || stage_ == Stage::approach; }
 
 // Whether what was in the bucket, or a part of it, is in the truck and not booked yet.
-bool Sequencer::has_poured() const { return stage_ == Stage::pass && script_.of(bucket).reached(RuleMark::opens); }
+bool Sequencer::has_poured() const { return stage_ == Stage::pass && pours_; }
 
 // The work is begun anew from where the implements are: high and folded, back to the dig. What helped once may help again, but somebody has to know.
 void Sequencer::go_on_from_a_stand(const Observation& o) {
