@@ -23,7 +23,7 @@ public:
     double beside = 0.0;     // share_beside
   };
   void step(const Bucket& now);
-  // After a stop, and while the bucket is held level and brought over the bed again: where what has left it meanwhile fell is not known, and is not counted.
+  // While, after a stop, the bucket is held level and brought over the bed again: where what has left it meanwhile fell is not known, and is not counted.
   // poured: some of it had left it already.
   void pause(bool poured);
 

@@ -53,7 +53,6 @@ bool Sequencer::begins_anew_where_moved() const {
 void Sequencer::go_on_with_script(const Observation& o) {
   script_.interrupted();
   if (stage_ != Stage::pass || emptied_) return;
-  pour_.pause(pours_);
   reach_again_.resumed(script_, o.angle);
   if (!reach_again_.active()) return;
   open_since_s_ = -1.0;

@@ -61,27 +61,41 @@ TEST(PourWatch, NoiseIsNoSpill) {
   for (unsigned seed = 1; seed <= 50; ++seed) EXPECT_EQ(watched({.beside_s = -0.3}, seed).beside_kg(), 0.0) << "seed " << seed;
 }
 
-// Stopped amid the pour, which goes on into the bed meanwhile; then the bucket stands beside the bed and is brought back: none of that is spilt. What it carried is
-// what it carried before, and what falls beside later counts.
+struct Stopped {
+  explicit Stopped(int pours_cycles) {
+    watch.begin();
+    pour(200, 0.0, true, 1.0);
+    pour(pours_cycles, 6.0, false, 0.0);
+    kg -= 400.0;  // while it stood, open over the bed
+    watch.pause(true);
+  }
+  void pour(int cycles, double each, bool rests, double beside) {
+    for (int k = 0; k < cycles; ++k) watch.step({kg -= each, rests, beside});
+  }
+  PourWatch watch{full_kg};
+  double kg = 1500.0;
+};
+
+// Stopped amid the pour, which goes on into the bed meanwhile; then the bucket stands open beside the bed, and is brought back level: none of that is spilt. What
+// falls beside later counts.
 TEST(PourWatch, WhatLeavesItDuringAStopIsNotTakenForSpilt) {
   for (const double later_beside : {0.0, 1.0}) {
-    PourWatch watch(full_kg);
-    watch.begin();
-    double kg = 1500.0;
-    const auto pour = [&](int cycles, double each, bool rests, double beside) {
-      for (int k = 0; k < cycles; ++k) watch.step({kg -= each, rests, beside});
-    };
-    pour(200, 0.0, true, 1.0);
-    pour(50, 6.0, false, 0.0);
-    kg -= 400.0;  // while it stood
-    watch.pause(true);
-    pour(5, 0.0, true, 1.0);  // level again, beside the bed
-    for (int k = 0; k < 100; ++k) watch.pause(true);
-    pour(100, 0.0, true, 0.0);
-    EXPECT_EQ(watch.beside_kg(), 0.0);
-    EXPECT_NEAR(watch.carried_kg(), 1500.0, 1.0);
-    pour(60, 6.0, false, later_beside);
-    EXPECT_NEAR(watch.beside_kg(), later_beside * 344.0, later_beside * 45.0);
+    Stopped run(50);
+    run.pour(20, 0.0, false, 1.0);
+    for (int k = 0; k < 100; ++k) run.watch.pause(true);
+    run.pour(100, 0.0, true, 0.0);
+    EXPECT_EQ(run.watch.beside_kg(), 0.0);
+    run.pour(60, 6.0, false, later_beside);
+    EXPECT_NEAR(run.watch.beside_kg(), later_beside * 344.0, later_beside * 45.0);
+  }
+}
+
+// What it carried is what it carried before, also where it was stopped as soon as it began to pour.
+TEST(PourWatch, WhatAStopHasLeftInItIsNotWhatItCarried) {
+  for (const int poured_cycles : {5, 50}) {
+    Stopped run(poured_cycles);
+    run.pour(300, 0.0, true, 0.0);
+    EXPECT_NEAR(run.watch.carried_kg(), 1500.0, 1.0) << poured_cycles;
   }
 }
 

@@ -153,6 +153,31 @@ TEST_F(ReachAgainOnTheBench, WhatWasPouredBeforeAStopIsBooked) {
   }
 }
 
+// By the cylinders' pressures, which a first pass has taught what the implements weigh: what left the bucket during the stop fell into the bed, and the weight
+// that changes while it is brought back over it is none that fell beside.
+TEST_F(ReachAgainOnTheBench, NothingOfAStopIsBookedAsFallenBeside) {
+  for (const double moved_deg : {0.0, -20.0}) {
+    Loading run(1, start_pose(), events_.fd());
+    run.plant.has_pressures = true;
+    const std::size_t before = events_.named("pass").size();
+    while (events_.named("pass").size() == before && run.seconds < 60.0)
+      for (int k = 0; k < 10; ++k) run.step();
+    const double first_kg = run.plant.site().bed_mass();
+    while (run.last.phase != BERM_PHASE_DUMP && run.seconds < 90.0) run.step();
+    const double carried_kg = run.plant.payload_kg();
+    while (run.plant.payload_kg() > 0.9 * carried_kg && run.seconds < 90.0) run.step();
+    stop(run);
+    ASSERT_LT(run.plant.payload_kg(), 0.8 * carried_kg) << "it poured on meanwhile";
+    run.plant.put(swing, run.plant.angle()[swing] + radians(moved_deg));
+    run.plant.kernel_runs = true;
+    while (events_.named("pass").size() == before + 1 && run.seconds < 120.0)
+      for (int k = 0; k < 10; ++k) run.step();
+    ASSERT_EQ(events_.named("pass").size(), before + 2);
+    EXPECT_EQ(events_.named("pass").back().at("beside_kg"), 0.0) << "moved by " << moved_deg << " degrees";
+    EXPECT_NEAR(events_.named("pass").back().at("payload_kg").get<double>(), run.plant.site().bed_mass() - first_kg, 0.03 * carried_kg) << "moved by " << moved_deg << " degrees";
+  }
+}
+
 // It is drawn in at its own pace, not at that of a swing that is held because it is out.
 TEST_F(ReachAgainOnTheBench, ASwingThatIsHeldDoesNotHoldTheArm) {
   Loading run(1, start_pose(), events_.fd());
