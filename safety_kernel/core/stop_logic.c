@@ -285,26 +285,36 @@ static void step_stopping(sk_stop_state *s, stop_demand d, bool standstill, bool
   }
 }
 
+/* A time of the last hold reason that cannot be is none: nothing but the wait depends on it. */
+/*@ requires \valid_read(s) && \valid_read(in);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_stop_settled(s, in);
+  @*/
+static bool is_settled(const sk_stop_state *s, const sk_stop_input *in)
+{
+  return s->hold_seen_us < 0 || in->now_us < s->hold_seen_us || in->now_us - s->hold_seen_us >= SK_RESUME_QUIET_US;
+}
+
 /* From STOPPED for a hold reason: power is on, the machine stands. */
 /*@ requires \valid(s) && demand_ok(d) && sk_stop_held(s) && s->code == SK_STATE_STOPPED;
   @ assigns s->code, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
   @ ensures sk_stop_valid(s);
   @ ensures codes: s->code == SK_STATE_RUN || s->code == SK_STATE_STANDBY || s->code == SK_STATE_STOPPED || s->code == SK_STATE_FAULT;
-  @ ensures run: s->code == SK_STATE_RUN <==> d.rank == SK_RANK_NONE && d.go == true;
+  @ ensures run: s->code == SK_STATE_RUN <==> d.rank == SK_RANK_NONE && d.go == true && settled == true;
   @ ensures standby: s->code == SK_STATE_STANDBY ==> d.rank <= SK_RANK_HOLD;
   @ ensures fault: s->code == SK_STATE_FAULT <==> d.rank == SK_RANK_FAULT;
   @ ensures latch: d.rank == SK_RANK_LATCH <==> s->rank == SK_RANK_LATCH;
   @ ensures first: s->rank == SK_RANK_HOLD ==> s->reason == \old(s->reason);
   @ ensures cut: d.cut == true ==> s->category == SK_CATEGORY_0;
   @*/
-static void step_held(sk_stop_state *s, stop_demand d)
+static void step_held(sk_stop_state *s, stop_demand d, bool settled)
 {
   if (d.rank >= SK_RANK_LATCH) {
     take_up(s, d);
     come_to_rest(s);
   } else if (!d.go) {
     enter_idle(s, SK_STATE_STANDBY);
-  } else if (d.rank == SK_RANK_NONE) {
+  } else if (d.rank == SK_RANK_NONE && settled) {
     enter_idle(s, SK_STATE_RUN);
   }
 }
@@ -338,7 +348,8 @@ static void step_latched(sk_stop_state *s, stop_demand d, bool standstill, bool 
   @ assigns s->code, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
   @ ensures sk_stop_valid(s);
   @ ensures run: s->code == SK_STATE_RUN <==> d.rank == SK_RANK_NONE && d.go == true && \old(s->latched) == false &&
-  @   (\old(s->code) == SK_STATE_STANDBY || \old(s->code) == SK_STATE_RUN || \old(s->code) == SK_STATE_STOPPED);
+  @   (\old(s->code) == SK_STATE_STANDBY || \old(s->code) == SK_STATE_RUN ||
+  @    (\old(s->code) == SK_STATE_STOPPED && sk_stop_settled{Pre}(s, in)));
   @ ensures init: s->code == SK_STATE_INIT ==> \old(s->code) == SK_STATE_INIT;
   @ ensures fault: d.rank == SK_RANK_FAULT ==> s->rank == SK_RANK_FAULT;
   @ ensures latch: d.rank == SK_RANK_LATCH && \old(s->code) != SK_STATE_INIT ==> s->latched == true;
@@ -359,7 +370,7 @@ static void advance(sk_stop_state *s, stop_demand d, const sk_stop_input *in)
   if (s->code == SK_STATE_RUN) { step_run(s, d); }
   else if (s->code == SK_STATE_STOPPING) { step_stopping(s, d, in->standstill, is_overdue(s, in)); }
   else if (s->latched) { step_latched(s, d, in->standstill, in->operator_reset); }
-  else if (s->code == SK_STATE_STOPPED) { step_held(s, d); }
+  else if (s->code == SK_STATE_STOPPED) { step_held(s, d, is_settled(s, in)); }
   else { step_idle(s, d, in->inputs_ready); }
 }
 
@@ -372,6 +383,7 @@ void sk_stop_init(sk_stop_state *s)
   s->latched = false;
   s->reset_seen_released = false;
   s->since_us = 0;
+  s->hold_seen_us = 0;
 }
 
 /*@ requires \valid_read(s) && sk_stop_valid(s);
@@ -393,6 +405,7 @@ void sk_stop_step(sk_stop_state *s, const sk_stop_input *in, sk_stop_output *out
   if (valid(s)) { advance(s, d, in); }
   else { enter_latched(s, SK_STATE_FAULT, SK_RANK_FAULT, BERM_STOP_INTERNAL, SK_CATEGORY_0); }
   if (s->code != before) { s->since_us = in->now_us; }
+  if (in->hold_reason != 0U) { s->hold_seen_us = in->now_us; }
   out->motion_enabled = s->code == SK_STATE_RUN;
   out->heartbeat_enable = keeps_power(s);
 }

@@ -25,6 +25,7 @@ SK_BEGIN
 #define SK_CATEGORY_NONE 255u
 
 #define SK_STOPPING_LIMIT_US 6000000 /* a stop that has not come to standstill by then is a fault (BERM_STOP_BRAKING), category 0 */
+#define SK_RESUME_QUIET_US 300000    /* a held stop resumes when no hold reason was seen for so long: noise must not start and stop the machine */
 
 /* Inputs of one cycle. reason codes are BERM_STOP_* of the contract; a code that is none of them is read as the fault BERM_STOP_INTERNAL. */
 typedef struct sk_stop_input {
@@ -48,6 +49,7 @@ typedef struct sk_stop_state {
   bool latched;
   bool reset_seen_released;  /* a reset counts only after the key was seen released in this latched stop */
   int64_t since_us;          /* when this state was entered */
+  int64_t hold_seen_us;      /* the last cycle with a hold reason */
 } sk_stop_state;
 
 typedef struct sk_stop_output {
@@ -68,6 +70,8 @@ typedef struct sk_stop_output {
   @   i->operator_reset == true && s->reset_seen_released == true && i->standstill == true && sk_stop_quiet(i);
   @ predicate sk_stop_overdue(sk_stop_state *s, sk_stop_input *i) =
   @   !(0 <= s->since_us <= i->now_us && i->now_us - s->since_us <= SK_STOPPING_LIMIT_US);
+  @ predicate sk_stop_settled(sk_stop_state *s, sk_stop_input *i) =
+  @   !(0 <= s->hold_seen_us <= i->now_us && i->now_us - s->hold_seen_us < SK_RESUME_QUIET_US);
   @
   @ predicate sk_stop_idle(sk_stop_state *s) =
   @   s->rank == SK_RANK_NONE && s->reason == 0 && s->category == SK_CATEGORY_NONE && s->latched == false;
@@ -90,7 +94,7 @@ typedef struct sk_stop_output {
 
 /*@ requires \valid(s);
   @ assigns *s;
-  @ ensures sk_stop_valid(s) && s->code == SK_STATE_INIT && s->since_us == 0;
+  @ ensures sk_stop_valid(s) && s->code == SK_STATE_INIT && s->since_us == 0 && s->hold_seen_us == 0;
   @*/
 void sk_stop_init(sk_stop_state *s);
 
@@ -124,11 +128,14 @@ void sk_stop_init(sk_stop_state *s);
   @ ensures starts: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_STANDBY && sk_stop_quiet{Pre}(in) && sk_stop_go{Pre}(in) ==> s->code == SK_STATE_RUN;
   @ ensures runs_on: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_RUN && sk_stop_quiet{Pre}(in) && sk_stop_go{Pre}(in) ==> s->code == SK_STATE_RUN;
   @ ensures resumes: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_STOPPED && \old(s->latched) == false && sk_stop_quiet{Pre}(in) &&
-  @   sk_stop_go{Pre}(in) ==> s->code == SK_STATE_RUN;
+  @   sk_stop_go{Pre}(in) && sk_stop_settled{Pre}(s, in) ==> s->code == SK_STATE_RUN;
+  @ ensures waits: \old(s->code) == SK_STATE_STOPPED && s->code == SK_STATE_RUN ==> sk_stop_settled{Pre}(s, in);
   @ ensures resets: sk_stop_valid{Pre}(s) && (\old(s->code) == SK_STATE_STOPPED || \old(s->code) == SK_STATE_FAULT) &&
   @   \old(s->latched) == true && sk_stop_reset{Pre}(s, in) ==> s->code == SK_STATE_STANDBY;
   @ ensures since: s->code != \old(s->code) ==> s->since_us == in->now_us;
   @ ensures since_kept: s->code == \old(s->code) ==> s->since_us == \old(s->since_us);
+  @ ensures hold_seen: in->hold_reason != 0 ==> s->hold_seen_us == in->now_us;
+  @ ensures hold_seen_kept: in->hold_reason == 0 ==> s->hold_seen_us == \old(s->hold_seen_us);
   @*/
 void sk_stop_step(sk_stop_state *s, const sk_stop_input *in, sk_stop_output *out);
 

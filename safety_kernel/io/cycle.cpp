@@ -235,6 +235,10 @@ void Cycle::step_stop_logic(const CycleInputs& in) {
   if (met_tail) tail_met_ = verdict_;
   if (met_tail && stop_in.latch_reason == BERM_STOP_NONE) stop_in.latch_reason = BERM_STOP_TAIL;
   hold_reason_ = judge_hold(in.now_us);
+  if (hold_reason_ != BERM_STOP_NONE) {
+    last_hold_reason_ = hold_reason_;
+    last_hold_cell_ = cell_of(hold_reason_);
+  }
   stop_in.hold_reason = hold_reason_;
   stop_in.inputs_ready = inputs_ready(frames_, {scans_.health(), lidars_, sight_}, parameters_, in.now_us);
   stop_in.standstill = standstill_;

@@ -119,7 +119,9 @@ class Cycle {
     std::int32_t x_mm, y_mm, height_mm;
     std::uint32_t link;
   };
+  ShownCell cell_of(std::uint8_t reason) const;
   ShownCell shown_cell() const;
+  bool held() const { return stop_.code == SK_STATE_STOPPED && !stop_.latched; }
 
   const berm_parameters& parameters_;
   const bool map_only_;
@@ -157,6 +159,8 @@ class Cycle {
   std::uint8_t hold_reason_ = BERM_STOP_NONE;
   MotionVerdict verdict_{};
   std::uint8_t motion_fault_ = BERM_STOP_NONE;
+  std::uint8_t last_hold_reason_ = BERM_STOP_NONE;
+  ShownCell last_hold_cell_{};
   MotionVerdict tail_met_{};  // when the tail was last stopped: while that is latched its place is shown
   std::int32_t sent_urad_s_[4] = {};
   std::uint32_t map_points_ = 0;

@@ -19,22 +19,27 @@ std::uint8_t contract_state(std::uint16_t code) {
 
 std::uint8_t Cycle::published_reason() const {
   // The stop logic keeps the first reason. When that is gone and another keeps the machine, who waits for the first waits for ever.
-  if (stop_.code == SK_STATE_STOPPED && !stop_.latched && hold_reason_ != BERM_STOP_NONE) return hold_reason_;
+  if (held()) return last_hold_reason_;
   if (stop_.reason != BERM_STOP_NONE || stop_.code != SK_STATE_STANDBY) return stop_.reason;
   // In STANDBY nothing is stopped, but the app should know why RUN does not begin.
   return app_.heard ? hold_reason_ : static_cast<std::uint8_t>(BERM_STOP_NONE);
 }
 
-// Whose blocking cell is published: of a latched stop that has one, the one that it was latched for.
-Cycle::ShownCell Cycle::shown_cell() const {
-  ShownCell shown{false, 0, 0, 0, BERM_JOINTS};
-  if (published_reason() == BERM_STOP_INTRUDER) {
-    shown.has_cell = workspace_.place(shown.x_mm, shown.y_mm, shown.height_mm);
-    return shown;
+// The blocking cell of this cycle; of a latched stop that has one, the one that it was latched for.
+Cycle::ShownCell Cycle::cell_of(std::uint8_t reason) const {
+  ShownCell cell{false, 0, 0, 0, BERM_JOINTS};
+  if (reason == BERM_STOP_INTRUDER) {
+    cell.has_cell = workspace_.place(cell.x_mm, cell.y_mm, cell.height_mm);
+    return cell;
   }
   const MotionVerdict& v = stop_.latched && stop_.reason == BERM_STOP_TAIL ? tail_met_ : verdict_;
-  if (v.has_cell) shown = {true, v.blocked_x_mm, v.blocked_y_mm, v.blocked_height_mm, v.blocked_link};
-  return shown;
+  if (v.has_cell) cell = {true, v.blocked_x_mm, v.blocked_y_mm, v.blocked_height_mm, v.blocked_link};
+  return cell;
+}
+
+// While a held stop waits for its reason to stay away the place of that is shown, not none.
+Cycle::ShownCell Cycle::shown_cell() const {
+  return held() && hold_reason_ == BERM_STOP_NONE ? last_hold_cell_ : cell_of(published_reason());
 }
 
 std::uint32_t Cycle::panel_flags(std::int64_t now_us) const {

@@ -15,6 +15,7 @@ sk_stop_state make(std::uint16_t code, std::uint8_t reason, std::uint8_t categor
   s.latched = rank >= 2;
   s.reset_seen_released = released;
   s.since_us = kEntered;
+  s.hold_seen_us = kHoldSeen;
   return s;
 }
 
@@ -76,13 +77,13 @@ std::vector<sk_stop_input> inputs(std::int64_t now_us) {
 }
 
 std::vector<std::int64_t> times() {
-  return {kEntered, kEntered + SK_STOPPING_LIMIT_US, kEntered + SK_STOPPING_LIMIT_US + 1, kEntered - 1, std::numeric_limits<std::int64_t>::min(),
+  return {kEntered, kHoldSeen - 1, kHoldSeen + SK_RESUME_QUIET_US - 1, kHoldSeen + SK_RESUME_QUIET_US, kEntered + SK_STOPPING_LIMIT_US, kEntered + SK_STOPPING_LIMIT_US + 1, kEntered - 1, std::numeric_limits<std::int64_t>::min(),
           std::numeric_limits<std::int64_t>::max()};
 }
 
 bool same(const sk_stop_state& a, const sk_stop_state& b) {
   return a.code == b.code && a.reason == b.reason && a.category == b.category && a.rank == b.rank && a.latched == b.latched &&
-         a.reset_seen_released == b.reset_seen_released && a.since_us == b.since_us;
+         a.reset_seen_released == b.reset_seen_released && a.since_us == b.since_us && a.hold_seen_us == b.hold_seen_us;
 }
 
 const char* name(std::uint16_t code) {

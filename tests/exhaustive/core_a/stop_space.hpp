@@ -1,5 +1,5 @@
 // All states and all inputs of the stop logic. Reason codes stand for themselves only as far as the logic can tell them apart: none, one of the
-// contract's, another of the contract's, none of the contract's; times as: within the limit, at it, beyond it, backwards.
+// contract's, another of the contract's, none of the contract's; times as: within each limit, at it, beyond it, backwards.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace berm::core_test {
 
-constexpr std::int64_t kEntered = 1'000'000;
+constexpr std::int64_t kEntered = 1'000'000, kHoldSeen = 1'150'000;
 constexpr std::uint16_t kCodes[] = {SK_STATE_INIT, SK_STATE_STANDBY, SK_STATE_RUN, SK_STATE_STOPPING, SK_STATE_STOPPED, SK_STATE_FAULT};
 
 // An independent statement of which states are valid.
 bool valid_state(const sk_stop_state& s);
-// All valid states entered at kEntered; reasons: two codes for each rank.
+// All valid states entered at kEntered, a hold reason last seen at kHoldSeen; reasons: two codes for each rank.
 std::vector<sk_stop_state> valid_states();
 // All inputs at now_us; reasons of each kind: none, two of the contract's, one beyond them.
 std::vector<sk_stop_input> inputs(std::int64_t now_us);

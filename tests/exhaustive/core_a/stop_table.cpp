@@ -39,6 +39,7 @@ Goal goal(const sk_stop_state& s, const sk_stop_input& in) {
   const bool cut = ask.cut || s.category == 0;
   const int category = cut ? 0 : rank == 1 ? 2 : 1;
   const bool overdue = in.now_us < s.since_us || in.now_us > s.since_us + SK_STOPPING_LIMIT_US;
+  const bool settled = in.now_us < s.hold_seen_us || in.now_us >= s.hold_seen_us + SK_RESUME_QUIET_US;
   const Goal idle_here{s.code, 0, 0, 255, s.reset_seen_released};
   const Goal standby{SK_STATE_STANDBY, 0, 0, 255, false};
   const Goal run{SK_STATE_RUN, 0, 0, 255, false};
@@ -71,7 +72,7 @@ Goal goal(const sk_stop_state& s, const sk_stop_input& in) {
   if (!s.latched) {  // STOPPED for a hold reason
     if (ask.rank >= 2) return {ask.rank == 3 ? kFault : kStopped, ask.rank, ask.reason, ask.cut ? 0 : 1, false};
     if (!go) return standby;
-    if (ask.rank == 0) return run;
+    if (ask.rank == 0 && settled) return run;
     return {SK_STATE_STOPPED, 1, s.reason, 2, s.reset_seen_released};
   }
   const bool reset = ask.rank == 0 && in.standstill && in.operator_reset && s.reset_seen_released;
@@ -92,6 +93,7 @@ sk_stop_state expected_state(const sk_stop_state& s, const sk_stop_input& in) {
   next.latched = g.rank >= 2;
   next.reset_seen_released = g.released;
   next.since_us = g.code == s.code ? s.since_us : in.now_us;
+  next.hold_seen_us = in.hold_reason ? in.now_us : s.hold_seen_us;
   return next;
 }
 

@@ -14,12 +14,12 @@ namespace {
 using Key = std::tuple<std::uint16_t, std::uint8_t, std::uint8_t, std::uint8_t, bool, bool>;
 Key key(const sk_stop_state& s) { return {s.code, s.reason, s.category, s.rank, s.latched, s.reset_seen_released}; }
 
-// Breadth first over all inputs that pass; time is either fresh or overdue, so the state's own is always kEntered.
+// Breadth first over all inputs that pass; time is either fresh or overdue, so the state's own are always kEntered.
 template <class Allowed>
 std::map<Key, sk_stop_state> reach(sk_stop_state from, Allowed allowed) {
   std::map<Key, sk_stop_state> seen;
   std::deque<sk_stop_state> waiting;
-  from.since_us = kEntered;
+  from.since_us = from.hold_seen_us = kEntered;
   seen.emplace(key(from), from);
   waiting.push_back(from);
   std::vector<sk_stop_input> all = inputs(kEntered);
@@ -33,7 +33,7 @@ std::map<Key, sk_stop_state> reach(sk_stop_state from, Allowed allowed) {
       sk_stop_state next = s;
       sk_stop_output out{};
       sk_stop_step(&next, &in, &out);
-      next.since_us = kEntered;
+      next.since_us = next.hold_seen_us = kEntered;
       if (seen.emplace(key(next), next).second) waiting.push_back(next);
     }
   }

@@ -54,8 +54,28 @@ TEST_F(StopLogic, AHoldResumesByItself) {
   EXPECT_EQ(step(), SK_STATE_STOPPED);
   EXPECT_TRUE(out.heartbeat_enable);
   in.hold_reason = 0;
+  const std::int64_t seen = in.now_us;
+  while (in.now_us + 10'000 < seen + SK_RESUME_QUIET_US) ASSERT_EQ(step(), SK_STATE_STOPPED);
+  EXPECT_EQ(s.reason, BERM_STOP_COLLISION_PREDICTED);
   EXPECT_EQ(step(), SK_STATE_RUN);
   EXPECT_EQ(s.reason, BERM_STOP_NONE);
+}
+
+// verifies: SK-ST-13
+TEST_F(StopLogic, AHoldInNoiseIsOneStop) {
+  start();
+  in.standstill = true;
+  int starts = 0;
+  for (int cycle = 0; cycle < 250; ++cycle) {
+    in.hold_reason = cycle % 5 < 2 ? BERM_STOP_UNKNOWN_GROUND : 0;
+    const bool ran = s.code == SK_STATE_RUN;
+    step();
+    starts += !ran && s.code == SK_STATE_RUN;
+  }
+  EXPECT_EQ(starts, 0);
+  in.hold_reason = 0;
+  for (int cycle = 0; cycle < 30; ++cycle) step();
+  EXPECT_EQ(s.code, SK_STATE_RUN);
 }
 
 // verifies: SK-ST-10, SK-ST-11, SK-ST-30

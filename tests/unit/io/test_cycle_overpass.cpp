@@ -64,6 +64,25 @@ TEST_F(CycleOverpass, NothingGoesOverTheStepNotEvenCreeping) {
   EXPECT_EQ(rig->state().stop_reason, BERM_STOP_OVERPASS);
 }
 
+// verifies: SK-CY-27
+TEST_F(CycleOverpass, UntilItGoesOnItSaysWhereItWasStopped) {
+  begin();
+  for (int cycle = 0; cycle < 1500 && rig->state().kernel_state != BERM_STATE_STOPPED; ++cycle) swing(1);
+  ASSERT_EQ(rig->state().kernel_state, BERM_STATE_STOPPED);
+  rig->wanted_urad_s[0] = -300000;  // away from it
+  int waited = 0;
+  for (; rig->state().kernel_state == BERM_STATE_STOPPED && waited < 100; ++waited) {
+    EXPECT_EQ(rig->state().stop_reason, BERM_STOP_OVERPASS) << waited;
+    EXPECT_GT(rig->state().blocked_height_mm, parameters.pass_over_mm) << waited;
+    EXPECT_GT(rig->state().blocked_y_mm, 6000) << waited;
+    rig->steps(1);
+  }
+  EXPECT_EQ(rig->state().kernel_state, BERM_STATE_RUN);
+  EXPECT_GE(waited, 1);
+  EXPECT_EQ(rig->state().stop_reason, BERM_STOP_NONE);
+  EXPECT_EQ(rig->state().blocked_height_mm, 0);
+}
+
 // verifies: SK-CY-36
 TEST_F(CycleOverpass, AnAdmittedTruckInItsZoneIsPassedOverAndNoOther) {
   parameters.truck_zones = 1;
