@@ -19,6 +19,7 @@ constexpr double closing_s = 1.2;                 // the tilt's time constant, a
 constexpr double slowest = radians(3.0), fastest = radians(45.0);
 constexpr double slides_kg = 40.0, not_yet = radians(15.0);  // by the scale of the load: less gone is noise, and a small load lies still up to a steep tilt
 constexpr double under_way_s = 0.8;               // from the tilt to the weighing that shows what it let go
+constexpr double under_way_share = 0.004;         // of the truck's target, at most: it may not come, and in a small truck it would be missed
 
 }  // namespace
 
@@ -75,7 +76,8 @@ double LoadCheck::step(const Lifted& now, const TruckFill& fill, const ProgressL
       const double still_in = recent_.kg() > 0.0 ? recent_.kg() : lifted_, excess = still_in - rest_;
       const double slow = lifted_ - still_in < slides_kg * load_scale_ ? not_yet : slowest;
       const double rate = now.attitude < resting ? fastest : std::clamp(excess / (kg_per_rad * closing_s), slow, fastest);
-      if (excess > slowest * kg_per_rad * under_way_s && now.attitude < steepest) return rate;
+      const double under_way_kg = std::min(slowest * kg_per_rad * under_way_s, under_way_share * fill.target_kg());
+      if (excess > under_way_kg && now.attitude < steepest) return rate;
       keeps_rest_ = true;
       enter(Stage::passed, now.time_s);
       return nothing;

@@ -10,6 +10,7 @@ public:
 
   void add_pass(double before_kg, double after_kg);
   double loaded_kg() const { return loaded_; }
+  double target_kg() const { return target_; }
   int passes() const { return passes_; }
   double rest_kg() const { return aim_share * target_ - loaded_; }
   bool full() const { return full_with(0.0); }

@@ -76,7 +76,7 @@ TEST(LoadCheck, OfWhatIsTooMuchAPartIsPoured) {
       const Outcome out = run(loaded, 1600.0, seed);
       EXPECT_TRUE(out.tilted && out.keeps);
       EXPECT_NEAR(out.lifted, 1600.0, 30.0);
-      EXPECT_GE(loaded + out.poured, 0.975 * target) << loaded << " loaded, seed " << seed;
+      EXPECT_GE(loaded + out.poured, 0.98 * target) << loaded << " loaded, seed " << seed;
       EXPECT_LE(loaded + out.poured, 1.0 * target) << loaded << " loaded, seed " << seed;
       EXPECT_LT(out.seconds, 12.0);
     }
@@ -113,6 +113,21 @@ TEST(LoadCheck, OfAHandfulTooMuchAPartIsPouredToo) {
   }
 }
 
+// What is 28 kg more than it is to keep may yet be on its way out, and be it: of a small truck 28 kg are a lot.
+TEST(LoadCheck, OfASmallTruckLittleIsLeftToWhatIsOnItsWayOut) {
+  for (const double truck : {target, 18000.0}) {
+    TruckFill fill(truck, full_bucket);
+    fill.add_pass(TruckFill::part_share * truck - 546.0, 0.0);
+    LoadCheck check;
+    check.begin(0.0, true);
+    double rate = -1.0;
+    for (int k = 0; k < 800 && !check.passed(); ++k)
+      rate = check.step({.time_s = k * cycle, .payload_kg = k < 300 ? 900.0 : 382.0, .attitude = radians(-100.0), .over_bed = k >= 200}, fill, ProgressLog(-1));
+    EXPECT_EQ(check.passed(), truck > target);
+    EXPECT_EQ(rate > 0.0, truck == target);
+  }
+}
+
 TEST(LoadCheck, WithoutAWeighingItGoesInTheEnd) {
   const Outcome out = run(3300.0, 1600.0, 3, 1e9);
   EXPECT_FALSE(out.tilted);
@@ -134,7 +149,7 @@ TEST(LoadCheck, WithoutAWeighingThePressuresSayWhatItHolds) {
     for (const double loaded : {3050.0, 3900.0, 4300.0}) {
       const Outcome out = run(loaded, 1600.0, seed, 1e9, 5.0, 0.0, true);
       EXPECT_TRUE(out.tilted && out.keeps);
-      EXPECT_GE(loaded + out.poured, 0.97 * target) << loaded << " loaded, seed " << seed;
+      EXPECT_GE(loaded + out.poured, 0.98 * target) << loaded << " loaded, seed " << seed;
       EXPECT_LE(loaded + out.poured, 1.0 * target) << loaded << " loaded, seed " << seed;
       EXPECT_LT(out.seconds, 14.0);
     }
