@@ -21,6 +21,7 @@ struct Observation {
   std::uint8_t kernel_state = BERM_STATE_INIT;
   std::uint8_t stop_reason = BERM_STOP_NONE;
   bool slowed_by_dust = false;
+  bool held_by_dust = false;    // so much that nothing may move, whatever reason is published
   bool latched = false;         // stopped until the operator resets
   Joints commanded{};           // what the kernel told the machine in this cycle
   // Speeds permitted now, low <= 0 <= high: where a request was cut what of it went out, else the joint's largest; nothing unless running.

@@ -46,8 +46,8 @@ nlohmann::ordered_json with_place(const Observation& o, nlohmann::ordered_json f
   return fields;
 }
 
-const char* advice_for(const Observation& o) {
-  switch (o.stop_reason) {
+const char* advice_for(std::uint8_t reason, bool latched) {
+  switch (reason) {
     case BERM_STOP_TAIL: return "send away who stands behind the machine, look all round it, beside the tracks too, then press reset";
     case BERM_STOP_JOINT_RANGE: return "move the joint back into its range by hand";
     case BERM_STOP_INTRUDER: return "send away who or what came; if nobody is there, press relearn";
@@ -56,7 +56,7 @@ const char* advice_for(const Observation& o) {
       return "look what lies on the sensors' windows, clean them, then press reset; relearn before it if that does not help";
     case BERM_STOP_DUST: return "wait until the dust has settled, or lay it with water; if there is none, clean the sensors' windows";
     case BERM_STOP_OVERPASS: return "send away who or what stands there, or admit the truck; if nothing stands there, press relearn, with the implements lifted by hand if need be";
-    default: return o.latched ? "mend the cause, then press reset"
+    default: return latched ? "mend the cause, then press reset"
                                  : "clear the place; if nothing stands there, press relearn; if that does not help, lift the implements by hand before it";
   }
 }
@@ -94,14 +94,18 @@ bool Recovery::retreating(const Observation& o) const {
 
 // What a person must do, each advice once a trouble: what keeps the machine may become another thing meanwhile. True when the call was made just now.
 bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
-  const double after = o.stop_reason == BERM_STOP_INTRUDER ? call_after_intruder : call_after;
-  if (!(o.latched || (by_place(o.stop_reason) && o.time_s - since_s_ > after))) return false;
-  if (std::find(told_.begin(), told_.end(), advice_for(o)) != told_.end()) return false;
-  told_.emplace_back(advice_for(o));
+  // Whoever is seen in dust, and ground that it hides, may be none when it has settled: a map that is learned anew in it is empty.
+  const bool in_dust = o.held_by_dust && !o.latched;
+  const std::uint8_t reason = in_dust ? static_cast<std::uint8_t>(BERM_STOP_DUST) : o.stop_reason;
+  const double after = reason == BERM_STOP_INTRUDER ? call_after_intruder : call_after, from_s = in_dust ? since_s_ : std::max(since_s_, dust_s_);
+  if (!(o.latched || (by_place(reason) && o.time_s - from_s > after))) return false;
+  const char* const advice = advice_for(reason, o.latched);
+  if (std::find(told_.begin(), told_.end(), advice) != told_.end()) return false;
+  told_.emplace_back(advice);
   waits_for_reset_ = o.latched;
-  nlohmann::ordered_json fields{{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}, {"stopped_s", o.time_s - since_s_}};
-  if (!o.latched) fields = with_place(o, std::move(fields));
-  fields["advice"] = advice_for(o);
+  nlohmann::ordered_json fields{{"time_s", o.time_s}, {"reason", stop_reason_name(reason)}, {"stopped_s", o.time_s - since_s_}};
+  if (!o.latched && !in_dust) fields = with_place(o, std::move(fields));
+  fields["advice"] = advice;
   log.event("operator_needed", fields);
   return true;
 }
@@ -121,6 +125,7 @@ void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
     since_s_ = o.time_s;
     next_rescan_s_ = since_s_ + rescan_after;
     next_back_s_ = since_s_ + back_after;
+    dust_s_ = -1.0;
     told_.clear();
     waits_for_reset_ = false;
     moved_ = false;
@@ -219,6 +224,7 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log, bo
     waits_for_reset_ = false;
     since_s_ = o.time_s;
   }
+  if (o.held_by_dust) dust_s_ = o.time_s;
   advice.operator_called = call_operator(o, log);
   if (!by_place(o.stop_reason)) return advice;
   const double blocked = o.time_s - stop_s_;  // with no more than moments in which standing was permitted

@@ -78,7 +78,7 @@ void Sequencer::hear(const Observation& o) {
 }
 
 void Sequencer::watch_joints(const Observation& o) {
-  const bool digs = stage_ == Stage::dig || stage_ == Stage::curl, lands = stage_ == Stage::pass || stage_ == Stage::approach || stage_ == Stage::settle;
+  const bool digs = stage_ == Stage::dig || stage_ == Stage::curl, lands = stage_ == Stage::pass || stage_ == Stage::leave_bed || stage_ == Stage::approach || stage_ == Stage::settle;
   // What was dug may be more than the weighing has seen yet.
   const double carried_kg = holds_nothing_ ? 0.0 : std::max(recent_.kg(), goal_kg_);
   joint_watch_.step(o, {carried_kg, !holds_nothing_, !digs, lands && script_.running() ? std::optional(script_.goals()) : std::nullopt}, log_);
@@ -167,6 +167,7 @@ Joints Sequencer::plan(const Observation& o) {
     case Stage::dig: return dig(o);
     case Stage::curl: return curl(o);
     case Stage::pass: return pass(o);
+    case Stage::leave_bed: return leave_bed(o);
     case Stage::horn:
     case Stage::wait_leave: return {};  // follow_truck
     case Stage::raise_for_move: return raise_for_move(o);

@@ -51,7 +51,7 @@ public:
   TruckSweep& sweep() { return look_.sweep(); }
 
 private:
-  enum class Stage { survey, wait_truck, go_look, look, approach, settle, dig, curl, pass, horn, wait_leave, raise_for_move, ask_move, being_moved, exhausted, finished };
+  enum class Stage { survey, wait_truck, go_look, look, approach, settle, dig, curl, pass, leave_bed, horn, wait_leave, raise_for_move, ask_move, being_moved, exhausted, finished };
 
   void enter(Stage stage, const Observation& o);
   void enter_phase(std::uint16_t phase, const Observation& o);
@@ -122,6 +122,9 @@ private:
   void book_pass(const Observation& o);
   void end_pass(const Observation& o);
   void go_on_after_pass(const Observation& o, bool lowered);
+  bool back_from_bed(const Observation& o) const;
+  bool begin_leave_bed(const Observation& o);
+  Joints leave_bed(const Observation& o);
   bool face_too_poor_for_a_truck();
   void begin_move_back(const Observation& o, const char* why);
   Joints raise_for_move(const Observation& o);

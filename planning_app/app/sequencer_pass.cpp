@@ -147,20 +147,44 @@ void Sequencer::end_pass(const Observation& o) {
 
 // lowered: over the next dig.
 void Sequencer::go_on_after_pass(const Observation& o, bool lowered) {
-  if ((poor_passes_ >= most_poor_passes || face_yield_.poor()) && !fill_.full()) {
-    part_filled_ = true;
-    begin_move_back(o, "the last passes found too little");
-    return;
-  }
-  if (!fill_.full() && more_fits(o)) {
+  const bool poor = (poor_passes_ >= most_poor_passes || face_yield_.poor()) && !fill_.full();
+  if (!poor && !fill_.full() && more_fits(o)) {
     if (lowered) enter(Stage::settle, o);
     else begin_approach(o, true);  // it weighed less than expected
+    return;
+  }
+  // Nobody is told to drive off, and the machine is not trammed, under a bucket that a stop has left over the bed.
+  if (!back_from_bed(o) && begin_leave_bed(o)) return;
+  if (poor) {
+    part_filled_ = true;
+    begin_move_back(o, "the last passes found too little");
     return;
   }
   log_.event("truck_full", {{"time_s", o.time_s}, {"truck", truck_}, {"payload_kg", fill_.loaded_kg()}, {"target_kg", site_.place.target_kg}, {"passes", fill_.passes()},
                             {"seconds", o.time_s - truck_began_s_}});
   enter_phase(BERM_PHASE_WAIT, o);
   enter(Stage::horn, o);
+}
+
+bool Sequencer::back_from_bed(const Observation& o) const {
+  constexpr double near = radians(15.0);
+  return std::fabs(wrapped(o.angle[swing] - task_.next_bearing)) < near;
+}
+
+// Raised, to where the pass was to end. False where there is no way.
+bool Sequencer::begin_leave_bed(const Observation& o) {
+  const auto script = approach_script(scripts_, machine_, {o.angle, task_.next_bearing, site_.bed->wall_top, std::nullopt, brings_load_});
+  if (!script) return false;
+  begin_script(*script);
+  enter(Stage::leave_bed, o);
+  return true;
+}
+
+Joints Sequencer::leave_bed(const Observation& o) {
+  enter_phase(BERM_PHASE_SWING_TO_DIG, o);
+  const Joints command = run_script(o, event_none);
+  if (script_.at_last() && back_from_bed(o)) go_on_after_pass(o, false);
+  return command;
 }
 
 }  // namespace berm::app

@@ -10,7 +10,7 @@ constexpr int most_tries = 3;  // to begin anew; then the operator is told
 }  // namespace
 
 // Whether the plan is to move the machine now, and waits for nobody.
-bool Sequencer::works() const { return stage_ == Stage::go_look || stage_ == Stage::pass || stage_ == Stage::curl || digs_or_comes_to_dig(); }
+bool Sequencer::works() const { return stage_ == Stage::go_look || stage_ == Stage::pass || stage_ == Stage::leave_bed || stage_ == Stage::curl || digs_or_comes_to_dig(); }
 
 bool Sequencer::digs_or_comes_to_dig() const { return stage_ == Stage::dig || stage_ == Stage::settle || stage_ == Stage::approach; }
 
@@ -20,7 +20,7 @@ bool Sequencer::has_poured() const { return stage_ == Stage::pass && pours_; }
 // The work is begun anew from where the implements are: high and folded, back to the dig. What helped once may help again, but somebody has to know.
 void Sequencer::go_on_from_a_stand(const Observation& o) {
   nlohmann::ordered_json fields{{"time_s", o.time_s}, {"phase", phase_name(phase_)}, {"stood_s", StandingWatch::patience}, {"pass", pass_ + 1}};
-  const bool scripted = stage_ == Stage::go_look || stage_ == Stage::approach || stage_ == Stage::pass;
+  const bool scripted = stage_ == Stage::go_look || stage_ == Stage::approach || stage_ == Stage::pass || stage_ == Stage::leave_bed;
   for (const Joint j : {swing, boom, stick, bucket}) {
     const JointScript& script = script_.of(j);
     if (scripted && script.running() && !script.at_last()) fields["waits"][joint_names[j]] = script.rules()[static_cast<std::size_t>(script.active()) + 1].name;
@@ -38,7 +38,7 @@ void Sequencer::go_on_from_a_stand(const Observation& o) {
 
 // High and folded to the next dig, wherever the implements are.
 void Sequencer::begin_dig_from_here(const Observation& o) {
-  const bool poured = has_poured();
+  const bool poured = has_poured() || stage_ == Stage::leave_bed;
   take_load_back(o);
   if (poured) go_on_after_pass(o, false);
   else begin_approach(o, true);
@@ -47,7 +47,7 @@ void Sequencer::begin_dig_from_here(const Observation& o) {
 // A pass on its way to the truck goes on where it is. One on its way back may be lowering already: where the stop's mending has carried it there is
 // no dig.
 bool Sequencer::begins_anew_where_moved() const {
-  return digs_or_comes_to_dig() || (stage_ == Stage::pass && script_.of(swing).reached(RuleMark::returns));
+  return digs_or_comes_to_dig() || stage_ == Stage::leave_bed || (stage_ == Stage::pass && script_.of(swing).reached(RuleMark::returns));
 }
 
 void Sequencer::go_on_with_script(const Observation& o) {

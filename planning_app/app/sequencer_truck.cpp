@@ -141,6 +141,7 @@ void Sequencer::follow_truck(const Observation& o) {
     case Stage::dig:
     case Stage::curl:
     case Stage::pass:
+    case Stage::leave_bed:
       if (gone) leave_truck(o);
       return;
     case Stage::horn:

@@ -41,6 +41,7 @@ class Operator {
     std::array<double, 4> angle{};          // of the joints, rad
     bool implements_up = false;             // HandLift: done
     bool run_switch = true;                 // as others leave it
+    double dust = 0.0;                      // share of the sensors' samples that it meets
   };
   // From the cycle before to t. signal: of the horn, complete just now.
   void step(double t, const HornSignal& signal, const Sees& sees);

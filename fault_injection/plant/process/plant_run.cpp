@@ -168,6 +168,7 @@ void PlantRun::attend(double t) {
   sees.angle = dynamics_.state().angle;
   sees.implements_up = hand_lift_.done();
   sees.run_switch = panel_at(scenario_, t).run;
+  sees.dust = world_.dust(t);
   operator_->step(t, signal, sees);
   take_levers(t);
   if (operator_->wants_place()) world_.make_way(t);

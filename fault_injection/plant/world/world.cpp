@@ -316,6 +316,11 @@ void World::make_way(double t) {
   if (w.current < w.truck.size()) w.truck[w.current].make_way(t);
 }
 
+double World::dust(double t) const {
+  const SensorAir air = state_->air({}, 0, t);
+  return air.dust + air.lost;
+}
+
 bool World::truck_about() const { return std::any_of(state_->truck.begin(), state_->truck.end(), [](const Truck& t) { return t.present(); }); }
 
 void World::machine_stands(double t, double x, double y) {

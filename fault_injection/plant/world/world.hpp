@@ -100,6 +100,7 @@ class World {
   void release_truck(double t);           // the horn: the full truck drives off, the next one comes if there is one
   // The machine is about to tram: the truck that is here makes way, and none comes before machine_stands.
   void make_way(double t);
+  double dust(double t) const;            // in the air of all sensors: the share of samples that it meets
   bool truck_about() const;               // one stands or drives at the machine
   // The machine trammed by so much: dig zones and the places of the trucks to come are moved along with it, and the next truck is called.
   void machine_stands(double t, double x, double y);

@@ -130,6 +130,41 @@ TEST(Sequencer, IsNotLoweredWhereTheSwingWasCarriedMeanwhile) {
   expect_no_contact(run);
 }
 
+// What mends a stop on the way back may carry the bucket over the bed again. The truck is full; but it is not sent off, nor anybody told that it is, from under
+// the bucket.
+TEST(Sequencer, AFullTruckIsNotSentOffFromUnderTheBucket) {
+  const app_bench::Events events;
+  SiteModel site = app_bench::bench();
+  site.place.target_kg = 1300.0;
+  Loading run(1, start_pose(), events.fd(), site);
+  while (run.last.phase != BERM_PHASE_DUMP && run.seconds < 90.0) run.step();
+  const double bed = run.plant.angle()[swing];
+  while (run.last.phase != BERM_PHASE_SWING_TO_DIG && run.seconds < 90.0) run.step();
+  ASSERT_LT(run.seconds, 90.0);
+  for (int k = 0; k < 200; ++k) run.step();
+  run.plant.kernel_runs = false;
+  for (int k = 0; k < 100; ++k) run.step();
+  run.plant.put(swing, bed);
+  for (int k = 0; k < 100; ++k) run.step();
+  run.plant.kernel_runs = true;
+  const double resumed = run.seconds;
+  while (std::fabs(run.plant.angle()[swing] - bed) < radians(15.0) && run.seconds < resumed + 10.0) run.step();
+  run.plant.kernel_runs = false;  // and once more, on its way off
+  for (int k = 0; k < 100; ++k) run.step();
+  run.plant.put(swing, bed);
+  for (int k = 0; k < 100; ++k) run.step();
+  run.plant.kernel_runs = true;
+  while (!run.last.horn && run.seconds < resumed + 40.0) {
+    ASSERT_TRUE(events.named("truck_full").empty());
+    for (int k = 0; k < 10 && !run.last.horn; ++k) run.step();
+  }
+  EXPECT_TRUE(run.last.horn);
+  EXPECT_EQ(events.named("truck_full").size(), 1U);
+  EXPECT_EQ(events.named("pass").size(), 1U);
+  EXPECT_GT(std::fabs(run.plant.angle()[swing] - bed), radians(40.0));
+  expect_no_contact(run);
+}
+
 // A thing under the arm that the kernel does not let it pass over: while it stands in the kernel's map nothing is tried; but the truck stays, and its cab is
 // gone round.
 TEST(Sequencer, TriesNothingWhileWhatIsTooHighStands) {

@@ -60,7 +60,7 @@ struct Attended {
   void until(double seconds, const HornSignal& first = {}) {
     HornSignal signal = first;
     for (; t < seconds; t += kCycle) {
-      person.step(t, signal, {true, truck_about, &panel, 0.0, angle, person.lifts() && lifting_helps, run_switch});
+      person.step(t, signal, {true, truck_about, &panel, 0.0, angle, person.lifts() && lifting_helps, run_switch, dust});
       lifted = lifted || person.lifts();
       relearned_by_hand = relearned_by_hand || (person.lifts() && person.relearn());
       signal = {};
@@ -76,7 +76,7 @@ struct Attended {
   berm_heartbeat panel{true, 255, BERM_STATE_RUN, 0, 0, 0};
   std::array<double, 4> angle{};
   bool lifting_helps = true, run_switch = true, lifted = false, relearned_by_hand = false;
-  double t = 0.0;
+  double t = 0.0, dust = 0.0;
   bool truck_about = true, run_off = false, relearned = false, reset_after_relearn = false, moved = false, moved_with_truck = false;
 };
 
@@ -121,6 +121,27 @@ TEST(Operator, LeavesAHeldMachineAlone) {
   EXPECT_TRUE(site.person.presses().empty());
   site.until(60.0);
   EXPECT_EQ(site.person.presses().size(), 1U) << "after a minute he has the map learned anew";
+}
+
+TEST(Operator, InThickDustHeWaitsUntilItHasSettled) {
+  for (const double dust : {0.0, 0.1, 0.5}) {
+    Attended site(kAttends);
+    site.panel = {true, 2, BERM_STATE_STOPPED, BERM_STOP_INTRUDER, 0, 0};
+    site.dust = dust;
+    site.until(70.0);
+    EXPECT_EQ(site.person.presses().size(), dust < 0.3 ? 1U : 0U) << dust;
+    site.dust = 0.0;
+    if (dust < 0.3) continue;
+    site.until(115.0);
+    EXPECT_EQ(site.person.presses().size(), 0U) << "45 s, in which it might have ended by itself";
+    site.until(130.0);
+    EXPECT_EQ(site.person.presses().size(), 1U);
+  }
+  Attended latched(kAttends);
+  latched.panel = {false, 1, BERM_STATE_FAULT, BERM_STOP_SENSOR_BLOCKED, 0, 0};
+  latched.dust = 0.5;
+  latched.until(60.0);
+  EXPECT_GE(latched.person.presses().size(), 1U) << "what latches does not end with the dust";
 }
 
 TEST(Operator, LiftsByHandWhereHisLastPressDidNotHelp) {
