@@ -117,8 +117,7 @@ void Sequencer::learn_yield(double weighed_kg, double brought_along_kg) {
 
 // What is in the bucket though it is as empty as it gets: weighed on the way back, and then until the next dig's soil is on top of it.
 double Sequencer::stuck_kg() const {
-  if (!sticking_.sticks()) return 0.0;
-  return stage_ == Stage::pass && emptied_ && after_.known() ? after_.kg() : sticking_.in_bucket_kg();
+  return sticking_.sticks() && stage_ == Stage::pass && emptied_ && after_.known() ? after_.kg() : sticking_.left_kg();
 }
 
 // Whether the implements' own weight can be learned: on the first way back of a soil that sticks, and until the bucket has been weighed there, it cannot.

@@ -14,12 +14,15 @@ public:
   double share() const { return share_; }
   // What stayed after the last dump: the next dig begins with it.
   double in_bucket_kg() const { return in_bucket_; }
+  // The same where it is more than the weighing shows of nothing, however little it is of the load; else 0.
+  double left_kg() const { return sticks() || in_bucket_ > nothing_kg ? in_bucket_ : 0.0; }
   // How much farther the bucket is to open over the bed, rad: more after each pass that left something, a little less after one that did not,
   // for another soil may have come.
   double open_farther() const { return open_farther_; }
 
 private:
   static constexpr double noticed = 0.03;  // of the load; less may be the weighing's error
+  static constexpr double nothing_kg = 12.0;
 
   double share_ = 0.0, in_bucket_ = 0.0, open_farther_ = 0.0;
 };

@@ -266,6 +266,20 @@ TEST(Sequencer, BooksWhatComesIntoTheTruckWhereSoilSticks) {
   EXPECT_EQ(passes, 5U);
 }
 
+// So little sticks that nothing is done for it; but it is weighed after a dump, and the pressures are not to take it for the bucket's own.
+TEST(Sequencer, BooksWhatComesIntoTheTruckWhereSoilHardlySticks) {
+  const app_bench::Events events;
+  Loading run(1, start_pose(), events.fd());
+  run.plant.has_pressures = true;
+  run.plant.sticks = 0.023;
+  while (events.named("pass").size() < 6 && run.seconds < 300.0)
+    for (int k = 0; k < 50; ++k) run.step();
+  const auto booked = events.named("pass");
+  ASSERT_EQ(booked.size(), 6U);
+  EXPECT_TRUE(events.named("sticking").empty());
+  EXPECT_NEAR(booked.back().at("loaded_kg").get<double>(), run.plant.site().bed_mass(), 6 * 5.0);
+}
+
 // Dug for a truck that stands as usual, and for one whose bed lies at the end of the arm's reach: there a heap would slide off before the near wall.
 TEST(Sequencer, DigsLessForADumpThatTheArmHardlyReaches) {
   const auto first_goal_kg = [](double farther) {

@@ -47,6 +47,16 @@ TEST(StickingSoil, AHandfulSaysNothing) {
   EXPECT_DOUBLE_EQ(soil.in_bucket_kg(), 60.0);
 }
 
+TEST(StickingSoil, WhatIsLeftIsKnownThoughItIsTooLittleToStick) {
+  StickingSoil soil;
+  for (int pass = 0; pass < 5; ++pass) soil.learn(1500.0, 33.0);
+  EXPECT_FALSE(soil.sticks());
+  EXPECT_DOUBLE_EQ(soil.left_kg(), 33.0);
+  EXPECT_DOUBLE_EQ(soil.stays_kg(1500.0), 0.0);
+  soil.learn(1500.0, 8.0);
+  EXPECT_DOUBLE_EQ(soil.left_kg(), 0.0) << "what the weighing shows of nothing";
+}
+
 TEST(TruckFill, WhatStaysInTheBucketDoesNotCountForTheTruck) {
   TruckFill fill(18000.0, 1560.0);
   fill.add_pass(16500.0, 0.0);
