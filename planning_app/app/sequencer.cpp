@@ -78,10 +78,10 @@ void Sequencer::hear(const Observation& o) {
 }
 
 void Sequencer::watch_joints(const Observation& o) {
-  const bool digs = stage_ == Stage::dig || stage_ == Stage::curl, lands = stage_ == Stage::pass || stage_ == Stage::leave_bed || stage_ == Stage::approach || stage_ == Stage::settle;
+  const bool digs = stage_ == Stage::dig || stage_ == Stage::curl;
   // What was dug may be more than the weighing has seen yet.
   const double carried_kg = holds_nothing_ ? 0.0 : std::max(recent_.kg(), goal_kg_);
-  joint_watch_.step(o, {carried_kg, !holds_nothing_, !digs, lands && script_.running() ? std::optional(script_.goals()) : std::nullopt}, log_);
+  joint_watch_.step(o, {carried_kg, !holds_nothing_, !digs, comes_down() && script_.running() ? std::optional(script_.goals()) : std::nullopt}, log_);
   arm_.carries(carried_kg);
   arm_.limit(joint_watch_.paces(!holds_nothing_));
 }
@@ -102,7 +102,7 @@ Joints Sequencer::tempos() const {
 
 void Sequencer::plan_landing(const Observation& o) {
   // Full it lands near the truck, whose cab the kernel wants room to: there a harder landing would be stopped.
-  if (o.running() && holds_nothing_ && (stage_ == Stage::pass || stage_ == Stage::settle || stage_ == Stage::approach)) brakes_.step(o.time_s, o.velocity[swing], arm_.swing_deceleration());
+  if (o.running() && holds_nothing_ && comes_down()) brakes_.step(o.time_s, o.velocity[swing], arm_.swing_deceleration());
   arm_.brake_swing(holds_nothing_ ? brakes_.known() : 0.0);
 }
 

@@ -90,6 +90,7 @@ private:
   void leave_truck(const Observation& o);     // it left before it was full
   bool works() const;
   bool digs_or_comes_to_dig() const;
+  bool comes_down() const;
   bool has_poured() const;
   void go_on_from_a_stand(const Observation& o);
   void begin_dig_from_here(const Observation& o);

@@ -164,7 +164,7 @@ Joints Sequencer::dig(const Observation& o) {
   const bool in_soil = now.tip.z < cut_->surface().at(now.tip.r) + 0.15;
   // The weighing is blind while the bucket is in the soil: the force that it took tells what is in it; until a bucket was weighed, with a usual
   // soil's figure, what both it and the cut model say.
-  const double modelled_kg = cut_->volume() * bank_density * yield_, felt_kg = filled_.kg() + (sticking_.sticks() ? sticking_.in_bucket_kg() : 0.0);
+  const double modelled_kg = cut_->volume() * bank_density * yield_, felt_kg = filled_.kg() + sticking_.left_kg();
   const double in_bucket_kg = filled_.known() ? felt_kg : filled_.impulse() > 0.0 ? std::min(modelled_kg, felt_kg) : modelled_kg;
   const bool heavy = in_bucket_kg >= goal_kg_;
   if (filled_.known()) hold_fill(in_bucket_kg);

@@ -121,7 +121,7 @@ void Sequencer::book_pass(const Observation& o) {
   fill_.add_pass(before - beside_kg, after);
   const double payload = fill_.loaded_kg() - had;
   if (weighed) {
-    const double lifted = std::max(before, load_check_.lifted_kg()), brought_along = sticking_.sticks() ? sticking_.in_bucket_kg() : 0.0;
+    const double lifted = std::max(before, load_check_.lifted_kg()), brought_along = sticking_.left_kg();
     learn_yield(lifted, brought_along);
     filled_.learn(lifted - brought_along, heaped_kg_ - brought_along);
     if (!load_check_.keeps_rest()) sticking_.learn(lifted, after);

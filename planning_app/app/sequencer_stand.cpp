@@ -14,6 +14,9 @@ bool Sequencer::works() const { return stage_ == Stage::go_look || stage_ == Sta
 
 bool Sequencer::digs_or_comes_to_dig() const { return stage_ == Stage::dig || stage_ == Stage::settle || stage_ == Stage::approach; }
 
+// Whether a swing is on its way that ends over the dig, or has ended there.
+bool Sequencer::comes_down() const { return stage_ == Stage::pass || stage_ == Stage::leave_bed || stage_ == Stage::approach || stage_ == Stage::settle; }
+
 // Whether what was in the bucket, or a part of it, is in the truck and not booked yet.
 bool Sequencer::has_poured() const { return stage_ == Stage::pass && pours_; }
 

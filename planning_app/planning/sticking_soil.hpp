@@ -12,9 +12,7 @@ public:
   double stays_kg(double carried_kg) const { return sticks() ? share_ * carried_kg : 0.0; }
   bool sticks() const { return share_ > noticed; }
   double share() const { return share_; }
-  // What stayed after the last dump: the next dig begins with it.
-  double in_bucket_kg() const { return in_bucket_; }
-  // The same where it is more than the weighing shows of nothing, however little it is of the load; else 0.
+  // What stayed after the last dump, however little of the load: the next dig begins with it. 0 where the weighing shows as much of nothing.
   double left_kg() const { return sticks() || in_bucket_ > nothing_kg ? in_bucket_ : 0.0; }
   // How much farther the bucket is to open over the bed, rad: more after each pass that left something, a little less after one that did not,
   // for another soil may have come.
@@ -22,7 +20,7 @@ public:
 
 private:
   static constexpr double noticed = 0.03;  // of the load; less may be the weighing's error
-  static constexpr double nothing_kg = 12.0;
+  static constexpr double nothing_kg = 12.0;  // the weighing's own error, in kg whatever it weighs, and a little
 
   double share_ = 0.0, in_bucket_ = 0.0, open_farther_ = 0.0;
 };

@@ -14,7 +14,7 @@ constexpr std::uint8_t kHeld = 2;            // berm_contract.h, stop_category: 
 constexpr double kRock = 2.0 * std::numbers::pi / 180, kRock_s = 0.6;  // the upper body nods when tracks start and stop
 constexpr double kBeforeTram_s = 1.0, kAfterTram_s = 2.0, kKey_s = 0.5, kBetween_s = 1.0;
 constexpr double kHeldPatience_s = 45.0;     // a stop that should resume by itself and does not: the app has called after 30 s
-constexpr double kThick = 0.3;             // dust in which he cannot see what he would do
+constexpr double kThick = 0.3;               // dust in which he cannot see what he would do
 constexpr double kMoved = 3.0 * std::numbers::pi / 180;  // of any joint: the last press helped
 constexpr double kRounding = 1e-6;
 

@@ -77,8 +77,9 @@ std::vector<sk_stop_input> inputs(std::int64_t now_us) {
 }
 
 std::vector<std::int64_t> times() {
-  return {kEntered, kHoldSeen - 1, kHoldSeen + SK_RESUME_QUIET_US - 1, kHoldSeen + SK_RESUME_QUIET_US, kEntered + SK_STOPPING_LIMIT_US, kEntered + SK_STOPPING_LIMIT_US + 1, kEntered - 1, std::numeric_limits<std::int64_t>::min(),
-          std::numeric_limits<std::int64_t>::max()};
+  return {kEntered, kEntered + SK_STOPPING_LIMIT_US, kEntered + SK_STOPPING_LIMIT_US + 1, kEntered - 1,
+          kHoldSeen - 1, kHoldSeen + SK_RESUME_QUIET_US - 1, kHoldSeen + SK_RESUME_QUIET_US,
+          std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()};
 }
 
 bool same(const sk_stop_state& a, const sk_stop_state& b) {

@@ -20,7 +20,7 @@ TEST(StickingSoil, ConvergesToTheShareAndOpensFartherUpToALimit) {
   EXPECT_TRUE(soil.sticks());
   EXPECT_NEAR(soil.share(), 0.12, 0.001);
   EXPECT_NEAR(soil.stays_kg(1000.0), 120.0, 1.0);
-  EXPECT_DOUBLE_EQ(soil.in_bucket_kg(), 180.0);
+  EXPECT_DOUBLE_EQ(soil.left_kg(), 180.0);
   EXPECT_DOUBLE_EQ(opened, radians(38.0));
 }
 
@@ -44,7 +44,7 @@ TEST(StickingSoil, AHandfulSaysNothing) {
   StickingSoil soil;
   soil.learn(200.0, 60.0);
   EXPECT_FALSE(soil.sticks());
-  EXPECT_DOUBLE_EQ(soil.in_bucket_kg(), 60.0);
+  EXPECT_DOUBLE_EQ(soil.left_kg(), 60.0);
 }
 
 TEST(StickingSoil, WhatIsLeftIsKnownThoughItIsTooLittleToStick) {
