@@ -39,6 +39,9 @@ extern "C" {
 /* simulation only: the virtual clock of lockstep runs; ignored unless the kernel was started with --lockstep */
 #define BERM_CAN_SIMULATION_CLOCK 0x18FFE0FEu
 
+/* The machine obeys what it was told last until it has heard no heartbeat for so long (IF-CAN-14); then it brakes by itself. */
+#define BERM_CAN_SILENCE_US 50000
+
 /* The data id of a guarded message: its PDU specific byte (bits 8 to 15 of the id), unique in this network. */
 #define BERM_CAN_DATA_ID(can_id) ((uint8_t)(((can_id) >> 8) & 0xFFu))
 

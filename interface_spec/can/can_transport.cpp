@@ -108,17 +108,17 @@ bool Transport::send(const berm_can_frame& frame) {
 }
 
 bool Transport::send(const berm_can_frame* frames, int count) {
-  bool good = true;
   for (int sent = 0; sent < count;) {
     const int batch = std::min(count - sent, kBatch);
     if (multicast_ && segments_ && batch > 1 && send_batch(frames + sent, batch)) {
       counters_.sent += static_cast<std::uint64_t>(batch);
       sent += batch;
-    } else {
-      good = send(frames[sent++]) && good;
+    } else if (!send(frames[sent++])) {
+      counters_.send_failed += static_cast<std::uint64_t>(count - sent);
+      return false;
     }
   }
-  return good;
+  return true;
 }
 
 // One message that the system cuts into datagrams, each as send() makes it.

@@ -63,7 +63,7 @@ typedef struct berm_parameters {
   int32_t acceleration_max_urad_s2[4];            /* largest the machine can do, either direction */
   int32_t creep_velocity_urad_s[4];               /* recovery motion: see SK requirements */
   int32_t angle_error_urad[4], velocity_error_urad_s[4];
-  int32_t state_latency_us;                       /* age of a state frame when it arrives, at most */
+  int32_t state_latency_us;                       /* age of a state frame when a cycle takes it, at most */
   int32_t command_latency_us;                     /* from sending a command to the joint obeying it, at most */
   /* braking table: angle from obeying the stop to standstill, worst case for speeds and reaches up to the entry, heaviest payload */
   int32_t brake_reach_mm[BERM_BRAKE_REACHES];

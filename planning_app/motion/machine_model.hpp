@@ -40,6 +40,9 @@ struct BrakingTable {
 
 struct Cylinder { double bottom = 0.0, rod = 0.0; };  // moment about the joint's pin that a kPa in either side makes, N m
 
+// s without a heartbeat of the kernel, after which the machine brakes by itself (interface_spec/can/CAN.md, IF-CAN-14).
+constexpr double heartbeat_silence = 0.05;
+
 struct MachineModel {
   // Of one joint in one direction, identified from step responses. Rates in rad/s2, [empty, heaviest payload][reach]; joints that the reach does not
   // matter to have one for all.

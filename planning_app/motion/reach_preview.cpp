@@ -9,6 +9,14 @@ namespace berm::app {
 
 namespace {
 
+// s from a reading on in which a joint may gain speed; commands are no faster than what is previewed, but for what is measured wrong.
+double gaining(const MachineModel& machine) { return machine.state_latency + machine.command_latency + machine.cycle; }
+
+// s from a reading on until the command going out now has had its time, if it is the last that the machine hears before it brakes by itself.
+double obeyed_for(const MachineModel& machine) {
+  return machine.state_latency + machine.command_latency + std::max(machine.cycle, heartbeat_silence);
+}
+
 double brake_angle(const BrakingTable& table, std::size_t joint, double reach_m, double speed, double velocity_max) {
   std::size_t row = 0;
   while (row + 1 < table.reach.size() && table.reach[row] < reach_m) ++row;
@@ -82,10 +90,9 @@ double reach_over(const MachineModel& machine, const ReachIntervals& box) {
 
 double stop_travel(const MachineModel& machine, std::size_t joint, double reach_m, double velocity) {
   const JointLimits& limits = machine.joint[joint];
-  const double latency = machine.state_latency + machine.command_latency + machine.cycle;
   const double start = velocity + limits.velocity_error;
-  const double end = std::clamp(start + limits.acceleration_max * latency, 0.0, limits.velocity_max);
-  const double before_braking = 0.5 * (std::max(start, 0.0) + end) * latency;
+  const double end = std::clamp(start + limits.acceleration_max * gaining(machine), 0.0, limits.velocity_max);
+  const double before_braking = 0.5 * (std::max(start, 0.0) + end) * obeyed_for(machine);
   const double braking = end > 0.0 ? brake_angle(machine.braking, joint, reach_m, end, limits.velocity_max) : 0.0;
   return limits.angle_error + before_braking + braking;
 }
@@ -114,8 +121,7 @@ ReachIntervals preview(const MachineModel& machine, const Joints& angle, const J
   box.reach = reach_over(machine, box);
   joint(swing, box.reach);
   const JointLimits& s = machine.joint[swing];
-  const double latency = machine.state_latency + machine.command_latency + machine.cycle;
-  box.swing_speed = std::fabs(velocity[swing]) + s.velocity_error + s.acceleration_max * latency;
+  box.swing_speed = std::fabs(velocity[swing]) + s.velocity_error + s.acceleration_max * gaining(machine);
   return box;
 }
 

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "can/berm_can.h"
+
 namespace berm::kernel {
 
 std::int64_t monotonic_us();
@@ -20,9 +22,9 @@ class CycleTimer {
   std::int32_t period_us_;
 };
 
-// Judges the distance between the starts of consecutive cycles.
-constexpr std::int64_t kCycleLateUs = 50000;
-constexpr std::int64_t kCycleFaultUs = 100000;
+// Judges the distance between the starts of consecutive cycles. After the longest the machine has braked by itself, and is not to go on unasked.
+constexpr std::int64_t kCycleLateUs = 20000;
+constexpr std::int64_t kCycleFaultUs = BERM_CAN_SILENCE_US;
 
 class CycleWatch {
  public:

@@ -11,7 +11,7 @@ class CommandHistory {
   explicit CommandHistory(std::int32_t window_us) : window_us_(window_us) {}
 
   void push(std::int64_t sent_us, const std::int32_t (&velocity_urad_s)[4]);
-  // Smallest and largest command of each joint under way at now_us. Before the first command the machine is under none: zero.
+  // Smallest and largest command of each joint under way at now_us, or sent since. Before the first command the machine is under none: zero.
   void range(std::int64_t now_us, std::int32_t (&low_urad_s)[4], std::int32_t (&high_urad_s)[4]) const;
 
  private:

@@ -70,10 +70,17 @@ void Cycle::step(const CycleInputs& in, CycleOutputs& out) {
   report_decision(in, out.decision);
 }
 
+// A frame may have come as soon as the cycle before had begun; what it waits more than a cycle for the next is not in the state latency.
 void Cycle::take_frames(const CycleInputs& in) {
-  const std::int64_t angle_before_us = frames_.angle_us();
+  const std::int64_t angle_before_us = frames_.angle_us(), velocity_before_us = frames_.velocity_us();
   for (int i = 0; i < in.frame_count; ++i) frames_.take(in.frame[i], in.now_us);
-  if (frames_.angle_us() != angle_before_us) joints_.push(in.now_us, frames_.picture().angle.angle_urad);
+  const std::int64_t waited_us = cycle_us_ < 0 ? 0 : std::max<std::int64_t>(in.now_us - cycle_us_ - parameters_.cycle_us, 0);
+  if (frames_.angle_us() != angle_before_us) {
+    joints_.push(in.now_us, frames_.picture().angle.angle_urad);
+    angle_since_us_ = in.now_us - waited_us;
+  }
+  if (frames_.velocity_us() != velocity_before_us) velocity_since_us_ = in.now_us - waited_us;
+  cycle_us_ = in.now_us;
 }
 
 void Cycle::take_scans(const CycleInputs& in, ScanBlocks& blocks) {
@@ -197,10 +204,11 @@ void Cycle::judge_motion(std::int64_t now_us) {
   }
   MotionQuery query{};
   query.now_us = now_us;
+  query.late_us = now_us - std::min(angle_since_us_, velocity_since_us_);
   std::copy(picture.angle.angle_urad, picture.angle.angle_urad + SK_JOINTS, query.angle_urad);
   std::copy(picture.velocity.velocity_urad_s, picture.velocity.velocity_urad_s + SK_JOINTS, query.velocity_urad_s);
   std::copy(requested_urad_s_, requested_urad_s_ + SK_JOINTS, query.requested_urad_s);
-  commands_.range(now_us, query.under_way_low_urad_s, query.under_way_high_urad_s);
+  commands_.range(now_us - query.late_us, query.under_way_low_urad_s, query.under_way_high_urad_s);
   query.truck_admitted = frames_.truck_admitted(now_us);
   if (sight_.dust() == SK_DUST_SLOW) query.speed_permille = parameters_.dust_speed_permille;
   query.sectors = sectors_.evaluated() ? &sectors_ : nullptr;

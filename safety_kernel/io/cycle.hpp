@@ -146,6 +146,8 @@ class Cycle {
   sk_stop_state stop_{};
   sk_stop_output permit_{};
   AppPulse app_;
+  std::int64_t cycle_us_ = -1;                             // start of the cycle before; -1: none
+  std::int64_t angle_since_us_ = 0, velocity_since_us_ = 0;  // the newest came no earlier
   std::uint32_t app_connections_ = 0;
   std::uint64_t scans_rejected_ = 0, lidars_rejected_ = 0;
   std::uint32_t stop_count_[BERM_STOP_REASONS] = {};

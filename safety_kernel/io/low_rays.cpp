@@ -21,7 +21,7 @@ void pass_cell(MonitorWatch& own, const MonitorWatch::Others& others, SpaceWatch
   if (!foreign && !another && !own.somebody(at)) return;
   if (!own.pass(at, z_mm, now_us, others)) return;
   for (int i = 0; i < others.count; ++i) others.monitor[i]->pass_of_another(at, z_mm, now_us, own);
-  if (foreign) space->pass_low(at, now_us);
+  if (foreign) space->pass_low(at, z_mm, now_us);
 }
 
 }  // namespace

@@ -106,18 +106,30 @@ bool MonitorWatch::somebody(const sk_monitor_cell& at) const {
   return state != SK_CELL_CLEAR && state != SK_CELL_LEARNING;
 }
 
-bool MonitorWatch::nobody_about(const sk_monitor_cell& at) const {
+// Somebody whom a sensor meets in a point or two a turn is nobody to it (SK-WM-62), and is about.
+bool MonitorWatch::nobody_about(const sk_monitor_cell& at, std::int64_t now_us) const {
+  const std::int64_t lately_us = std::int64_t{rules_.wait_us} + 2 * std::int64_t{rules_.period_us};
+  const sk_monitor_histogram& h = histogram_.front();
   for (std::int32_t iy = at.iy - 1; iy <= at.iy + 1; ++iy)
-    for (std::int32_t ix = at.ix - 1; ix <= at.ix + 1; ++ix)
-      if (sk_is_in_map(iy, ix) && somebody({iy, ix})) return false;
+    for (std::int32_t ix = at.ix - 1; ix <= at.ix + 1; ++ix) {
+      if (!sk_is_in_map(iy, ix)) continue;
+      const std::int64_t departed_us = h.departed_us[iy][ix][0];
+      if (somebody({iy, ix}) || (departed_us >= 0 && now_us - departed_us <= lately_us)) return false;
+    }
   return true;
+}
+
+bool MonitorWatch::ground_known(const sk_monitor_cell& at, std::int32_t known) const {
+  const sk_monitor_histogram& h = histogram_.front();
+  return known >= 0 || h.observed[at.iy][at.ix] >= SK_HISTOGRAM_ENOUGH || h.lines[at.iy][at.ix] >= SK_LINES_ENOUGH;
 }
 
 bool MonitorWatch::pass(const sk_monitor_cell& at, std::int32_t z_mm, std::int64_t now_us, const Others& others) {
   sk_monitor_histogram& h = histogram_.front();
   const std::int32_t known = known_elsewhere(at.iy, at.ix, others);
   sk_histogram_pass(&h, known, &rules_, at.iy, at.ix, z_mm, now_us);
-  return !learned_anew(at.iy, at.ix) && nobody_about(at) && !sk_histogram_departs(&h, known, &rules_, at.iy, at.ix, z_mm);
+  // Where nothing is known nothing departs, however high.
+  return !learned_anew(at.iy, at.ix) && ground_known(at, known) && nobody_about(at, now_us) && !sk_histogram_departs(&h, known, &rules_, at.iy, at.ix, z_mm);
 }
 
 void MonitorWatch::pass_of_another(const sk_monitor_cell& at, std::int32_t z_mm, std::int64_t now_us, const MonitorWatch& other) {

@@ -56,7 +56,8 @@ class MonitorWatch {
  private:
   static constexpr std::int64_t kStepsMost = 250;  // across the whole map
 
-  bool nobody_about(const sk_monitor_cell& at) const;  // in the cell and the eight round it
+  bool nobody_about(const sk_monitor_cell& at, std::int64_t now_us) const;  // in the cell and the eight round it
+  bool ground_known(const sk_monitor_cell& at, std::int32_t known) const;   // by points or lines of its own, or elsewhere
   bool learned_anew(std::int32_t iy, std::int32_t ix) const { return learned_anew_[static_cast<std::size_t>(iy * SK_MAP_CELLS + ix)] != 0; }
   void watch_region(const berm_parameters& parameters, bool lanes_open);
   void note_learned_anew(std::int32_t x_low_mm, std::int32_t y_low_mm, std::int32_t x_high_mm, std::int32_t y_high_mm);

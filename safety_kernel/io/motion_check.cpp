@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "can/berm_can.h"
 #include "core/overpass.h"
 #include "geometry/reach.hpp"
 #include "geometry/separation.hpp"
@@ -30,7 +31,9 @@ std::int32_t cell_centre_mm(std::int32_t index) { return SK_MAP_ORIGIN_MM + inde
 }  // namespace
 
 MotionCheck::MotionCheck(const berm_parameters& parameters, const OwnCells& own_cells)
-    : parameters_(parameters), shape_(parameters), own_cells_(own_cells), rules_{}, columns_{}, tail_columns_{}, choice_{} {
+    : parameters_(parameters), state_latency_us_(parameters.state_latency_us), shape_(parameters), own_cells_(own_cells), rules_{}, columns_{}, tail_columns_{}, choice_{} {
+  // A cycle may be the last that the machine hears of.
+  parameters_.cycle_us = std::max<std::int32_t>(parameters.cycle_us, BERM_CAN_SILENCE_US);
   rules_.fresh_us = parameters.fresh_us;
   rules_.margin_mm = parameters.margin_mm;
   rules_.dig_zones = parameters.dig_zones;
@@ -74,6 +77,11 @@ bool MotionCheck::joints_within(const sk_reach_box& box, const Commands& c) cons
   return true;
 }
 
+bool MotionCheck::folds(const Commands& c) {
+  return c.low_urad_s[BERM_SWING] == 0 && c.high_urad_s[BERM_SWING] == 0 && c.low_urad_s[BERM_BOOM] >= 0 && c.high_urad_s[BERM_STICK] <= 0 &&
+         c.high_urad_s[BERM_BUCKET] <= 0;
+}
+
 void MotionCheck::note_cell(const sk_height_map& map, const sk_slice& slice, const sk_clearance_result& result, MotionVerdict& verdict) const {
   verdict.has_cell = true;
   verdict.blocked_link = static_cast<std::uint32_t>(slice.link);
@@ -95,11 +103,11 @@ std::uint8_t MotionCheck::clear_one(const sk_height_map& map, SliceSet& slices, 
   return result.verdict == SK_CLEAR ? static_cast<std::uint8_t>(BERM_STOP_NONE) : reason_of(result.verdict, slice.link);
 }
 
-std::uint8_t MotionCheck::clear(const MotionQuery& query, const sk_height_map& map, const sk_reach_box& box, SliceSet& slices, bool creeping,
+std::uint8_t MotionCheck::clear(const MotionQuery& query, const sk_height_map& map, const sk_reach_box& box, SliceSet& slices, bool dig_stale,
                                 MotionVerdict& verdict) {
   if (!build_slices(shape_, box, slices)) return BERM_STOP_INTERNAL;
   rules_.now_us = query.now_us;
-  rules_.dig_stale = creeping;  // else a bucket that stood in a pit, which hides the ground before it, could never leave
+  rules_.dig_stale = dig_stale;
   rules_.dig_allowed = box.speed_urad_s[BERM_SWING] <= parameters_.dig_swing_limit_urad_s;
   for (std::int32_t i = 0; i < slices.count; ++i) {
     sk_clearance_result result;
@@ -120,7 +128,7 @@ std::uint8_t MotionCheck::judge(const MotionQuery& query, const sk_height_map& m
     if (!build_slices(shape_, box, slices)) slices.count = 0;  // for observers only
     return BERM_STOP_JOINT_RANGE;
   }
-  const std::uint8_t reason = clear(query, map, box, slices, creeping, verdict);
+  const std::uint8_t reason = clear(query, map, box, slices, creeping && folds(c), verdict);
   if (reason != BERM_STOP_NONE) return reason;
   std::copy(c.send_urad_s, c.send_urad_s + SK_JOINTS, verdict.command_urad_s);
   return BERM_STOP_NONE;
@@ -266,6 +274,7 @@ void MotionCheck::check(const MotionQuery& query, const sk_height_map& map, Moti
   verdict = MotionVerdict{};
   request_slices_.count = 0;
   rules_.now_us = query.now_us;
+  parameters_.state_latency_us = static_cast<std::int32_t>(std::min<std::int64_t>(state_latency_us_ + query.late_us, INT32_MAX));
   if (!limit_overpass(query.truck_admitted) || !make_columns(map)) {
     verdict.permission = Permission::kHeld;
     verdict.reason = BERM_STOP_INTERNAL;

@@ -1,6 +1,7 @@
 // What motion is permitted in this cycle: the reach box, the volume swept over it, its clearance against the map, and the governor.
 //
-// The box is that of the commands sent and perhaps still under way and of the one to be sent, and of a stop after it. Clear: the request goes
+// The box is that of the commands sent and perhaps still under way and of the one to be sent, and of a stop after it: from when angles and velocities
+// were read, and until the machine would brake by itself if no other command came (a kernel that is late, or dead). Clear: the request goes
 // out, its swing cut to the speed for which there is room ahead. Else the same with the request slowed. Else recovery: a machine slower than
 // the creep speeds may creep, by the same rule. Else the machine is held, with what blocked.
 // Where ISO 13855's distance is enforced, the request is cut to the speeds from which the machine stands in the time left, and nothing goes out from
@@ -25,6 +26,7 @@ enum class Permission { kFull, kGoverned, kCreep, kHeld };
 
 struct MotionQuery {
   std::int64_t now_us;
+  std::int64_t late_us;                  // how much older than the state latency angle and velocity may be
   std::int32_t angle_urad[4];
   std::int32_t velocity_urad_s[4];
   std::int32_t requested_urad_s[4];     // zeros when there is no usable request
@@ -66,9 +68,12 @@ class MotionCheck {
 
   // Box of the commands; false where it cannot be bounded (speed or reach beyond the braking table).
   bool reach(const MotionQuery& query, const Commands& commands, sk_reach_box& box) const;
+  // The arm folds in, or stands, and the swing stands. Only so may the dig-zone rule take stale ground as it was last seen, or a bucket that stood in a
+  // pit, and hides the ground before it, could never leave; to either side, or outward, somebody may have come since.
+  static bool folds(const Commands& commands);
   bool joints_within(const sk_reach_box& box, const Commands& commands) const;
   std::uint8_t clear_one(const sk_height_map& map, SliceSet& slices, std::int32_t index, sk_clearance_result& result, MotionVerdict& verdict);
-  std::uint8_t clear(const MotionQuery& query, const sk_height_map& map, const sk_reach_box& box, SliceSet& slices, bool creeping, MotionVerdict& verdict);
+  std::uint8_t clear(const MotionQuery& query, const sk_height_map& map, const sk_reach_box& box, SliceSet& slices, bool dig_stale, MotionVerdict& verdict);
   Commands commands(const MotionQuery& query, std::int32_t percent, bool creeping) const;
   std::uint8_t judge(const MotionQuery& query, const sk_height_map& map, const Commands& commands, SliceSet& slices, bool creeping, MotionVerdict& verdict);
   bool slower(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
@@ -85,7 +90,8 @@ class MotionCheck {
   bool make_columns(const sk_height_map& map);
   void note_cell(const sk_height_map& map, const sk_slice& slice, const sk_clearance_result& result, MotionVerdict& verdict) const;
 
-  const berm_parameters& parameters_;
+  berm_parameters parameters_;  // cycle_us and state_latency_us are those of this cycle's box
+  const std::int32_t state_latency_us_;
   const ImplementShape shape_;
   const OwnCells& own_cells_;
   sk_clearance_rules rules_{};

@@ -46,6 +46,9 @@ BERM_LANES_CLONES void places_along(const sk_point& head, const Way& way, int st
   }
 }
 
+// Of the voxels that reach above the height.
+std::int32_t lowest_above(std::int32_t z_mm) { return std::clamp((z_mm - SK_VOXEL_FLOOR_MM) / SK_VOXEL_MM, 0, SK_VOXEL_LEVELS); }
+
 }  // namespace
 
 SpaceWatch::SpaceWatch(const berm_parameters& parameters) : parameters_(parameters), without_truck_zones_(parameters), limits_{}, region_{} {
@@ -61,6 +64,7 @@ void SpaceWatch::begin() {
     sk_space_begin(&space_);
     std::fill_n(&met_us_[0][0], SK_MAP_CELLS * SK_MAP_CELLS, -1);
     std::fill_n(&low_us_[0][0], SK_MAP_CELLS * SK_MAP_CELLS, -1);
+    std::fill_n(&low_mm_[0][0], SK_MAP_CELLS * SK_MAP_CELLS, 0);
   }
   blank_ = true;
 }
@@ -105,13 +109,14 @@ bool SpaceWatch::met_about(const sk_monitor_cell& at, std::int64_t now_us) const
   return false;
 }
 
-void SpaceWatch::pass_low(const sk_monitor_cell& at, std::int64_t now_us) {
+void SpaceWatch::pass_low(const sk_monitor_cell& at, std::int32_t z_mm, std::int64_t now_us) {
   if (!sk_is_in_map(at.iy, at.ix) || space_.foreign[at.iy][at.ix] == 0 || met_about(at, now_us)) return;
   std::int64_t& low_us = low_us_[at.iy][at.ix];
-  if (low_us < 0 || low_us > now_us) low_us = now_us;
+  std::int32_t& low_mm = low_mm_[at.iy][at.ix];
+  if (low_us < 0 || low_us > now_us) low_us = now_us, low_mm = z_mm;
   if (now_us - low_us < parameters_.workspace_wait_us) return;
   low_us = -1;
-  for (std::int32_t level = 0; level < SK_VOXEL_LEVELS; ++level)
+  for (std::int32_t level = lowest_above(std::max(low_mm, z_mm)); level < SK_VOXEL_LEVELS; ++level)
     for (std::int32_t n = 0; n < 4; ++n) {
       const sk_voxel v{level, 2 * at.iy + n / 2, 2 * at.ix + n % 2};
       if (space_.voxel[level][v.jy][v.jx] == SK_VOXEL_FOREIGN) sk_space_pass(&space_, v);

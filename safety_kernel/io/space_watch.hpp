@@ -25,10 +25,10 @@ class SpaceWatch {
   void take(const sk_point& head, const sk_point& point, bool learning, std::int64_t now_us);
   // The return alone.
   void meet(const sk_point& point, bool learning, std::int64_t now_us);
-  // A ray that met something beyond passed over the cell as low as its ground, and its sensor knows of nobody about (MonitorWatch::pass): twice, the
-  // monitor's wait apart, with nothing met in FOREIGN voxels of the cell between, nor of the eight round it lately, and they are free. Rays above the
-  // level do not come back from the sky, and free nothing.
-  void pass_low(const sk_monitor_cell& at, std::int64_t now_us);
+  // A ray that met something beyond passed over the cell as low as its ground, no higher than z_mm, and its sensor knows of nobody about
+  // (MonitorWatch::pass): twice, the monitor's wait apart, with nothing met in FOREIGN voxels of the cell between, nor of the eight round it lately, and
+  // they are free from the higher of the two on. Rays above the level do not come back from the sky, and free nothing.
+  void pass_low(const sk_monitor_cell& at, std::int32_t z_mm, std::int64_t now_us);
   // The region, less what the machine itself changes: as the Workspace Monitor's; but of a truck zone only the box round what stands in it is left
   // out, higher than may be passed over: the truck and its load. While nobody knows what stands there, the whole zone is.
   void watch(bool lanes_open, bool truck_learned);
@@ -57,6 +57,7 @@ class SpaceWatch {
   sk_free_space space_;
   std::int64_t met_us_[SK_MAP_CELLS][SK_MAP_CELLS];  // when something was last met in a FOREIGN voxel of the cell; -1 never
   std::int64_t low_us_[SK_MAP_CELLS][SK_MAP_CELLS];  // when a ray first passed it low since then; -1 not yet
+  std::int32_t low_mm_[SK_MAP_CELLS][SK_MAP_CELLS];  // how high that ray was; where low_us_ has one
   bool blank_ = false;          // nothing has been taken since the begin
 };
 

@@ -105,6 +105,16 @@ TEST(LoadCheck, AHandfulOfASmallLoadIsPouredWithoutAWaitForItToSlide) {
 }
 
 // Of so little a part only runs out at a steep tilt.
+// It lies still up to a steep tilt, which is gone to at once; at the pace of what may slide that alone would take 5 s.
+TEST(LoadCheck, ASmallLoadIsTiltedFastUntilItMaySlide) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Outcome out = run(target - 350.0, 600.0, seed);
+    EXPECT_TRUE(out.keeps);
+    EXPECT_NEAR(out.poured, 290.0, 75.0) << "seed " << seed;
+    EXPECT_LT(out.seconds, 5.0 + 5.0) << "seed " << seed;
+  }
+}
+
 TEST(LoadCheck, OfAHandfulTooMuchAPartIsPouredToo) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const Outcome out = run(4294.0, 395.0, seed);

@@ -122,6 +122,50 @@ TEST_F(MonitorOthersTest, NorWhileTheOtherSeesHim) {
   EXPECT_TRUE(holds(1));
 }
 
+// Met in a point a turn he is nobody to that sensor; his cells are no free passage for it either.
+// verifies: SK-WM-73
+TEST_F(MonitorOthersTest, NorWhileItMeetsHimItselfNowAndThen) {
+  const std::int64_t turn = 2 * std::int64_t{parameters.workspace_period_us} + 1;
+  const auto pass_once = [&] { pass_low(*monitors[2], others_of(2), nullptr, {kX - 12000, kY, kGround + 1500}, {kX + 3000, kY, kGround}, now_us); };
+  somebody_of(1);
+  for (int time = 0; time < 10; ++time, now_us += turn) {
+    monitors[2]->insert({kX, kY + SK_CELL_MM, kGround + 1700}, now_us, others_of(2));
+    ASSERT_FALSE(holds(2));
+    pass_once();
+  }
+  EXPECT_TRUE(holds(1));
+  now_us += parameters.workspace_wait_us + 2 * std::int64_t{parameters.workspace_period_us};
+  pass_once();
+  now_us += parameters.workspace_wait_us;
+  pass_once();
+  EXPECT_FALSE(holds(1)) << "gone";
+}
+
+// Where nothing is known nothing departs, and any height would be low.
+// verifies: SK-FS-14
+TEST_F(MonitorOthersTest, OverGroundThatNobodyKnowsNoRayFreesASpace) {
+  const auto space = std::make_unique<SpaceWatch>(parameters);
+  space->begin();
+  const auto board = [&](std::int32_t x, std::int32_t half_width, std::int32_t high, bool learning) {
+    for (std::int32_t y = kY - half_width; y <= kY + half_width; y += 75)
+      for (std::int32_t z = 75; z <= high; z += 75) space->take({0, kY, 2000}, {x, y, z}, learning, now_us);
+  };
+  board(kX + 1000, 2000, 2700, true);
+  board(kX, 225, 1100, false);
+  const auto foreign = [&] { return space->space().foreign[sk_map_index(kY)][sk_map_index(kX)]; };
+  ASSERT_GT(foreign(), 3);
+  now_us += 2 * parameters.workspace_period_us + 1;
+  const auto passes = [&](std::int32_t z_mm) {
+    for (int time = 0; time < 2; ++time, now_us += parameters.workspace_wait_us)
+      pass_low(*monitors[2], others_of(2), space.get(), {kX - 12000, kY, kGround + 5 * (z_mm - kGround)}, {kX + 3000, kY, kGround}, now_us);
+  };
+  passes(kGround + 300);
+  EXPECT_GT(foreign(), 3);
+  for (int i = 0; i < SK_HISTOGRAM_ENOUGH; ++i) monitors[1]->insert({kX, kY, kGround}, now_us, others_of(1));
+  passes(kGround + 300);
+  EXPECT_LE(foreign(), 2) << "another sensor knows the ground there";
+}
+
 // There somebody may have been learned by the sensor that passes.
 // verifies: SK-WM-73
 TEST_F(MonitorOthersTest, NorWhereCellsAreLearnedAnew) {

@@ -85,31 +85,51 @@ TEST_F(SpaceWatchTest, WhatNoRayFreesAnyMoreIsFreeWhenRaysPassLow) {
   const sk_monitor_cell at{sk_map_index(0), sk_map_index(8000)}, beside{sk_map_index(1), sk_map_index(8000 + SK_CELL_MM)};
   ASSERT_GT(watch->space().foreign[at.iy][at.ix], 3);
   const auto foreign = [&] { return watch->space().foreign[at.iy][at.ix]; };
-  watch->pass_low(at, now_us);
+  watch->pass_low(at, -2000, now_us);
   now_us += lately;
-  watch->pass_low(at, now_us);
+  watch->pass_low(at, -2000, now_us);
   now_us += wait - 1;
-  watch->pass_low(at, now_us);
+  watch->pass_low(at, -2000, now_us);
   EXPECT_GT(foreign(), 3) << "too soon";
   comes(0);
   now_us += lately;
-  watch->pass_low(at, now_us);
+  watch->pass_low(at, -2000, now_us);
   now_us += 1;
-  watch->pass_low(at, now_us);
+  watch->pass_low(at, -2000, now_us);
   EXPECT_GT(foreign(), 3) << "he was met between";
   now_us += wait;
   comes(750);
-  watch->pass_low(at, now_us);
+  watch->pass_low(at, -2000, now_us);
   EXPECT_GT(foreign(), 3) << "somebody is beside it";
   now_us += lately;
-  watch->pass_low(beside, now_us), watch->pass_low({-1, 0}, now_us), watch->pass_low({0, SK_MAP_CELLS}, now_us);
+  watch->pass_low(beside, -2000, now_us), watch->pass_low({-1, 0}, -2000, now_us), watch->pass_low({0, SK_MAP_CELLS}, -2000, now_us);
   const std::uint16_t next = watch->space().foreign[sk_map_index(550)][at.ix];
   ASSERT_GT(next, 3);
-  watch->pass_low(at, now_us);
+  watch->pass_low(at, -2000, now_us);
   EXPECT_EQ(foreign(), 0);
   EXPECT_EQ(flag(7950, 0, 675), SK_VOXEL_FREE);
   EXPECT_EQ(watch->space().foreign[sk_map_index(550)][at.ix], next) << "of another cell";
   EXPECT_TRUE(watch->find(where)) << "who is beside it";
+}
+
+// Of what is lower than the rays they say nothing.
+// verifies: SK-FS-14
+TEST_F(SpaceWatchTest, LowRaysFreeWhatReachesAboveTheHigherOfThem) {
+  const std::int64_t lately = 2 * std::int64_t{parameters.workspace_period_us} + 1;
+  board(9000, 0, 6000, 2700, true);
+  board(8000, 0, 450, 1100, false);
+  const sk_monitor_cell at{sk_map_index(0), sk_map_index(8000)};
+  now_us += lately;
+  watch->pass_low(at, 700, now_us);
+  now_us += parameters.workspace_wait_us;
+  watch->pass_low(at, 300, now_us);
+  EXPECT_EQ(flag(7950, 0, 825), SK_VOXEL_FREE);
+  EXPECT_EQ(flag(7950, 0, 675), SK_VOXEL_FREE) << "it reaches above the higher";
+  EXPECT_EQ(flag(7950, 0, 525), SK_VOXEL_FOREIGN);
+  watch->pass_low(at, 300, now_us);
+  now_us += parameters.workspace_wait_us;
+  watch->pass_low(at, 300, now_us);
+  EXPECT_EQ(flag(7950, 0, 525), SK_VOXEL_FREE);
 }
 
 // verifies: SK-FS-12
