@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "can/berm_can.h"
+
 namespace berm::app {
 
 static_assert(config::kJoints == joints);
+static_assert(heartbeat_silence * 1e6 == BERM_CAN_SILENCE_US);
 
 namespace {
 

@@ -77,9 +77,10 @@ bool MotionCheck::joints_within(const sk_reach_box& box, const Commands& c) cons
   return true;
 }
 
-bool MotionCheck::folds(const Commands& c) {
-  return c.low_urad_s[BERM_SWING] == 0 && c.high_urad_s[BERM_SWING] == 0 && c.low_urad_s[BERM_BOOM] >= 0 && c.high_urad_s[BERM_STICK] <= 0 &&
-         c.high_urad_s[BERM_BUCKET] <= 0;
+bool MotionCheck::folds(const MotionQuery& query, const Commands& c) const {
+  const auto none_up = [&](int j) { return c.high_urad_s[j] <= 0 && query.velocity_urad_s[j] <= parameters_.standstill_urad_s; };
+  const auto none_down = [&](int j) { return c.low_urad_s[j] >= 0 && query.velocity_urad_s[j] >= -parameters_.standstill_urad_s; };
+  return none_up(BERM_SWING) && none_down(BERM_SWING) && none_down(BERM_BOOM) && none_up(BERM_STICK) && none_up(BERM_BUCKET);
 }
 
 void MotionCheck::note_cell(const sk_height_map& map, const sk_slice& slice, const sk_clearance_result& result, MotionVerdict& verdict) const {
@@ -128,7 +129,7 @@ std::uint8_t MotionCheck::judge(const MotionQuery& query, const sk_height_map& m
     if (!build_slices(shape_, box, slices)) slices.count = 0;  // for observers only
     return BERM_STOP_JOINT_RANGE;
   }
-  const std::uint8_t reason = clear(query, map, box, slices, creeping && folds(c), verdict);
+  const std::uint8_t reason = clear(query, map, box, slices, creeping && folds(query, c), verdict);
   if (reason != BERM_STOP_NONE) return reason;
   std::copy(c.send_urad_s, c.send_urad_s + SK_JOINTS, verdict.command_urad_s);
   return BERM_STOP_NONE;

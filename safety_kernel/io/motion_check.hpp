@@ -68,9 +68,9 @@ class MotionCheck {
 
   // Box of the commands; false where it cannot be bounded (speed or reach beyond the braking table).
   bool reach(const MotionQuery& query, const Commands& commands, sk_reach_box& box) const;
-  // The arm folds in, or stands, and the swing stands. Only so may the dig-zone rule take stale ground as it was last seen, or a bucket that stood in a
+  // The arm folds in, or stands, and the swing stands, by commands and as measured. Only so may the dig-zone rule take stale ground as it was last seen, or a bucket that stood in a
   // pit, and hides the ground before it, could never leave; to either side, or outward, somebody may have come since.
-  static bool folds(const Commands& commands);
+  bool folds(const MotionQuery& query, const Commands& commands) const;
   bool joints_within(const sk_reach_box& box, const Commands& commands) const;
   std::uint8_t clear_one(const sk_height_map& map, SliceSet& slices, std::int32_t index, sk_clearance_result& result, MotionVerdict& verdict);
   std::uint8_t clear(const MotionQuery& query, const sk_height_map& map, const sk_reach_box& box, SliceSet& slices, bool dig_stale, MotionVerdict& verdict);

@@ -3,7 +3,6 @@
 
 #include "core/reach_box.h"
 #include "cycle_rig.hpp"
-#include "io/command_history.hpp"
 
 namespace berm::kernel::test {
 namespace {
@@ -83,22 +82,6 @@ TEST_F(CycleLate, CommandsAreUnderWayFromWhenTheReadingWasTaken) {
   rig.machine.joints_silent = false;
   rig.step();
   EXPECT_TRUE(holds(0, BERM_CAN_SILENCE_US, 0));
-}
-
-// verifies: SK-CY-21
-TEST(CommandHistory, IsAskedFromWhenTheReadingWasTaken) {
-  constexpr std::int32_t kWindow = 30000;
-  CommandHistory commands(kWindow);
-  for (std::int64_t t = 0; t <= 100000; t += kCycle) {
-    const std::int32_t v[4] = {t < 50000 ? kUp : 0, 0, 0, 0};
-    commands.push(t, v);
-  }
-  std::int32_t low[4], high[4];
-  commands.range(110000, low, high);
-  EXPECT_EQ(high[0], 0);
-  commands.range(110000 - 4 * kCycle, low, high);
-  EXPECT_EQ(high[0], kUp) << "in force when a reading 40 ms old was taken";
-  EXPECT_EQ(low[0], 0) << "and sent since";
 }
 
 }  // namespace

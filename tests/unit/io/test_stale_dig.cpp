@@ -43,6 +43,7 @@ class StaleDig : public testing::Test {
     const std::int32_t wanted[] = {swing, boom, stick, bucket};
     for (int j = 0; j < SK_JOINTS; ++j) {
       query.angle_urad[j] = angle_urad[j];
+      query.velocity_urad_s[j] = velocity_urad_s[j];
       query.requested_urad_s[j] = wanted[j];
     }
     MotionVerdict verdict{};
@@ -52,7 +53,7 @@ class StaleDig : public testing::Test {
   berm_parameters parameters;
   std::unique_ptr<OwnCells> own_cells;
   std::unique_ptr<MotionCheck> check;
-  std::int32_t angle_urad[SK_JOINTS];
+  std::int32_t angle_urad[SK_JOINTS], velocity_urad_s[SK_JOINTS] = {};
   sk_height_map map;
 };
 
@@ -82,6 +83,23 @@ TEST_F(StaleDig, OverStaleGroundTheArmFoldsInAndUpAndNothingElseMoves) {
   EXPECT_EQ(ask(0, 0, kCreep, 0).permission, Permission::kHeld) << "outward";
   EXPECT_EQ(ask(0, 0, 0, kCreep).permission, Permission::kHeld) << "opened";
   EXPECT_EQ(ask(0, -kCreep, 0, 0).reason, BERM_STOP_STALE_GROUND);
+}
+
+// What goes on after its command would sweep to a side, down or outward all the same.
+// verifies: SK-CY-22
+TEST_F(StaleDig, NorDoesAnArmFoldThatYetMovesAnotherWay) {
+  seen(parameters.fresh_us + 1);
+  const std::int32_t moves = parameters.standstill_urad_s + 1;
+  ASSERT_LT(moves, kCreep);
+  for (int joint = 0; joint < SK_JOINTS; ++joint)
+    for (const std::int32_t way : {moves, -moves}) {
+      velocity_urad_s[joint] = way;
+      const bool folds = joint == BERM_BOOM ? way > 0 : joint != BERM_SWING && way < 0;
+      EXPECT_EQ(ask(0, kCreep, 0, 0).permission, folds ? Permission::kCreep : Permission::kHeld) << joint << ", " << way;
+      velocity_urad_s[joint] = folds ? way : parameters.standstill_urad_s;
+      EXPECT_EQ(ask(0, kCreep, 0, 0).permission, Permission::kCreep) << joint << ", at rest";
+      velocity_urad_s[joint] = 0;
+    }
 }
 
 }  // namespace
