@@ -234,9 +234,9 @@ void Cycle::step_stop_logic(const CycleInputs& in) {
   sk_stop_input stop_in{};
   stop_in.now_us = in.now_us;
   supervise(frames_, {scans_.health(), lidars_, sight_}, app_, in.clock_fault, parameters_, stop_in);
-  if (motion_fault_ != BERM_STOP_NONE) {  // before any other fault: it alone removes power at once
+  if (motion_fault_ != BERM_STOP_NONE) {  // before any other fault: it alone removes power at once, but where a sensor lies and the joints may well obey
     stop_in.fault_reason = motion_fault_;
-    stop_in.fault_category_0 = true;
+    stop_in.fault_category_0 = motion_fault_ != BERM_STOP_STATE_FRAME;
   }
   // Where the ground round the tail ends the own body begins, of which no sensor tells: who was seen there may have gone in, not away.
   const bool met_tail = verdict_.permission == Permission::kHeld && verdict_.reason == BERM_STOP_TAIL;

@@ -1,9 +1,11 @@
-// Whether the machine moves as it was told: feeds the readings and the commands under way to core/motion_supervision, joint by joint.
+// Whether the machine moves as it was told, and its angles as its speeds say: feeds the readings and the commands under way to
+// core/motion_supervision and core/joint_agreement, joint by joint.
 #pragma once
 
 #include <cstdint>
 
 #include "config/parameter_block.h"
+#include "core/joint_agreement.h"
 #include "core/motion_supervision.h"
 #include "io/motion_check.hpp"
 
@@ -20,6 +22,7 @@ class MotionWatch {
   std::uint8_t check(const MotionQuery& query, const sk_reach_box& box, std::int64_t angle_us, std::int64_t velocity_us);
 
  private:
+  std::uint8_t agree(const MotionQuery& query);
   std::int32_t row_of(const MotionQuery& query, const sk_reach_box& box) const;
 
   const berm_parameters& parameters_;
@@ -27,6 +30,7 @@ class MotionWatch {
   std::int64_t heard_us_ = -1;                       // first of the readings without a gap
   std::int64_t angle_us_ = -1, velocity_us_ = -1;    // of the newest reading judged
   sk_motion_joint joint_[SK_JOINTS];
+  sk_agreement agreement_[SK_JOINTS];
 };
 
 }  // namespace berm::kernel

@@ -42,6 +42,7 @@ void JointDynamics::break_joint(const MachineFault& fault) {
   switch (fault.kind) {
     case MachineFaultKind::weak_brake: brake_share_[fault.joint] = fault.factor; break;
     case MachineFaultKind::stuck_valve: valve_sticks_[fault.joint] = true; break;
+    case MachineFaultKind::stuck_angle: break;  // the joint is sound
     case MachineFaultKind::runaway: driven_[fault.joint] = fault.factor * config_.joint[fault.joint].velocity_max; break;
   }
 }

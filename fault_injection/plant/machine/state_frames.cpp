@@ -29,6 +29,8 @@ void StateFrames::every_cycle(std::vector<berm_can_frame>& out, const MachineSna
   berm_front_velocity velocity{};
   for (std::size_t j = 0; j < 4; ++j) {
     angle.angle_urad[j] = micro(now.joints.angle[j] + noise_.bounded(profile_.sensors.angle));
+    if (angle_sticks_[j]) angle.angle_urad[j] = last_angle_urad_[j];
+    last_angle_urad_[j] = angle.angle_urad[j];
     velocity.velocity_urad_s[j] = micro(now.joints.velocity[j] + noise_.bounded(profile_.sensors.velocity));
   }
   guarded(out, angle_guard_, berm_encode_front_angle(&angle));

@@ -34,6 +34,8 @@ class StateFrames {
   StateFrames(const PlantProfile& profile, std::uint64_t seed);
   // Frames of this cycle (10 ms each, from 1), without the simulation clock.
   std::vector<berm_can_frame> frames(std::uint64_t cycle, const MachineSnapshot& now);
+  // From now on this joint's angle (0 swing, 1 boom, 2 stick, 3 bucket) is said to be what it was.
+  void stick_angle(std::size_t joint) { angle_sticks_[joint] = true; }
 
  private:
   void guarded(std::vector<berm_can_frame>& out, GuardSender& guard, const berm_can_frame& frame);
@@ -46,6 +48,8 @@ class StateFrames {
   SeededNoise track_noise_, pressure_noise_;  // streams of their own
   GuardSender angle_guard_, velocity_guard_, machine_guard_, estop_guard_, operator_guard_, spotter_guard_;
   std::uint8_t alive_ = 0;
+  std::array<bool, 4> angle_sticks_{};
+  std::array<std::int32_t, 4> last_angle_urad_{};
 };
 
 }  // namespace berm::plant

@@ -73,8 +73,11 @@ PlantRun::PlantRun(const Scenario& scenario, const PlantProfile& profile, const 
 
 void PlantRun::break_machine() {
   constexpr double kRounding = 1e-6;  // times are multiples of the cycle in floating point
-  for (const MachineFault& fault : scenario_.machine_fault)
-    if (now_ + kRounding >= fault.at_s && now_ + kRounding < fault.at_s + kCycle) dynamics_.break_joint(fault);
+  for (const MachineFault& fault : scenario_.machine_fault) {
+    if (now_ + kRounding < fault.at_s || now_ + kRounding >= fault.at_s + kCycle) continue;
+    dynamics_.break_joint(fault);
+    if (fault.kind == MachineFaultKind::stuck_angle) frames_.stick_angle(fault.joint);
+  }
 }
 
 void PlantRun::advance(double t) {

@@ -63,6 +63,8 @@ void MiniMachine::make_frames() {
     berm_front_velocity velocity{};
     for (int j = 0; j < 4; ++j) {
       angle.angle_urad[j] = static_cast<std::int32_t>(std::lround(angle_rad[j] * 1e6));
+      if (angle_sticks[j]) angle.angle_urad[j] = said_urad_[j];
+      said_urad_[j] = angle.angle_urad[j];
       velocity.velocity_urad_s[j] = static_cast<std::int32_t>(std::lround(velocity_rad_s[j] * 1e6));
     }
     add_guarded(berm_encode_front_angle(&angle));

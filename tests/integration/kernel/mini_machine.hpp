@@ -33,6 +33,7 @@ class MiniMachine {
 
   // Faults and inputs, changed by the test between cycles.
   bool joints_silent = false;
+  bool angle_sticks[4] = {};     // the joint's angle is said to be what it was
   bool scanners_silent = false;
   bool operator_silent = false;
   bool reset_key = false;
@@ -80,6 +81,7 @@ class MiniMachine {
 
   berm_parameters parameters_;
   std::uint32_t cycle_ = 0;
+  std::int32_t said_urad_[4] = {};
   std::uint8_t counter_[256] = {};  // by data id
   std::uint32_t sequence_[2] = {};
   std::uint64_t sample_[2] = {};

@@ -8,7 +8,7 @@ import shutil
 from berm_command import ROOT, load, main
 
 STATE_FAULT = 5
-REASONS = {"braking": 12, "uncommanded": 17}  # BERM_STOP_* of the contract
+REASONS = {"state_frame": 7, "braking": 12, "uncommanded": 17}  # BERM_STOP_* of the contract
 JOINTS = ("swing", "boom", "stick", "bucket")
 SEED = 1
 SWINGING = 0.55  # rad/s: nearly full speed
@@ -109,4 +109,13 @@ def joints_that_move_untold_are_uncommanded():
         check(f"runaway_{joint}", [("machine_fault", {"kind": '"runaway"', "joint": f'"{joint}"', "at_s": at, "factor": factor})], at, "uncommanded", 3.0)
 
 
-main([weak_swing_brake_is_braking, stuck_boom_valve_goes_on_after_zero, stuck_swing_valve_stands, joints_that_move_untold_are_uncommanded])
+def stuck_angles_are_bad_state_frames():
+    """The angle's sensor of a joint in full motion says what it said: the speed goes on, so one of the two lies."""
+    swing = time_when(loaded_swing)
+    boom = time_when(lambda row: abs(float(row["boom_rad_s"])) > 0.3 and abs(float(row["swing_rad_s"])) > 0.1)
+    stick = time_when(lambda row: abs(float(row["stick_rad_s"])) > 0.3, swing)
+    for joint, at in (("swing", swing), ("boom", boom), ("stick", stick)):
+        check(f"stuck_angle_{joint}", [("machine_fault", {"kind": '"stuck_angle"', "joint": f'"{joint}"', "at_s": at})], at, "state_frame", 3.0)
+
+
+main([stuck_angles_are_bad_state_frames, weak_swing_brake_is_braking, stuck_boom_valve_goes_on_after_zero, stuck_swing_valve_stands, joints_that_move_untold_are_uncommanded])
