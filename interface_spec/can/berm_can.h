@@ -41,6 +41,8 @@ extern "C" {
 
 /* The machine obeys what it was told last until it has heard no heartbeat for so long (IF-CAN-14); then it brakes by itself. */
 #define BERM_CAN_SILENCE_US 50000
+/* The kernel sends within this of its cycle's start, or nothing in that cycle (IF-CAN-22). */
+#define BERM_CAN_SEND_LATE_US 5000
 
 /* The data id of a guarded message: its PDU specific byte (bits 8 to 15 of the id), unique in this network. */
 #define BERM_CAN_DATA_ID(can_id) ((uint8_t)(((can_id) >> 8) & 0xFFu))

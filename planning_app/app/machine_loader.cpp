@@ -8,7 +8,7 @@
 namespace berm::app {
 
 static_assert(config::kJoints == joints);
-static_assert(heartbeat_silence * 1e6 == BERM_CAN_SILENCE_US);
+static_assert(heartbeat_silence * 1e6 == BERM_CAN_SILENCE_US && kernel_sends_within * 1e6 == BERM_CAN_SEND_LATE_US);
 
 namespace {
 

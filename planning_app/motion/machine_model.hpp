@@ -42,6 +42,8 @@ struct Cylinder { double bottom = 0.0, rod = 0.0; };  // moment about the joint'
 
 // s without a heartbeat of the kernel, after which the machine brakes by itself (interface_spec/can/CAN.md, IF-CAN-14).
 constexpr double heartbeat_silence = 0.05;
+// s after its cycle's start in which the kernel sends, or not at all (IF-CAN-22).
+constexpr double kernel_sends_within = 0.005;
 
 struct MachineModel {
   // Of one joint in one direction, identified from step responses. Rates in rad/s2, [empty, heaviest payload][reach]; joints that the reach does not

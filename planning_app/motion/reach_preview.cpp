@@ -14,7 +14,7 @@ double gaining(const MachineModel& machine) { return machine.state_latency + mac
 
 // s from a reading on until the command going out now has had its time, if it is the last that the machine hears before it brakes by itself.
 double obeyed_for(const MachineModel& machine) {
-  return machine.state_latency + machine.command_latency + std::max(machine.cycle, heartbeat_silence);
+  return machine.state_latency + machine.command_latency + std::max(machine.cycle, heartbeat_silence) + kernel_sends_within;
 }
 
 double brake_angle(const BrakingTable& table, std::size_t joint, double reach_m, double speed, double velocity_max) {

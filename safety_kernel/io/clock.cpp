@@ -38,4 +38,10 @@ bool CycleWatch::check(std::int64_t now_us) {
   return gap_us <= 0 || gap_us > kCycleFaultUs;
 }
 
+bool CycleWatch::may_send(std::int64_t now_us) {
+  const bool in_time = now_us >= previous_us_ && now_us - previous_us_ <= BERM_CAN_SEND_LATE_US;
+  if (!in_time) ++unsent_cycles_;
+  return in_time;
+}
+
 }  // namespace berm::kernel

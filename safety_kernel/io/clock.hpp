@@ -31,10 +31,13 @@ class CycleWatch {
   // Returns true when time ran backwards or the cycle came so late that it is a fault (BERM_STOP_CLOCK).
   bool check(std::int64_t now_us);
   std::uint64_t lost_cycles() const { return lost_cycles_; }
+  // Whether what the cycle that began last has decided may still be sent, now; counts when not. The box has no more than that (SK-CY-28).
+  bool may_send(std::int64_t now_us);
+  std::uint64_t unsent_cycles() const { return unsent_cycles_; }
 
  private:
   std::int64_t previous_us_ = -1;
-  std::uint64_t lost_cycles_ = 0;
+  std::uint64_t lost_cycles_ = 0, unsent_cycles_ = 0;
 };
 
 }  // namespace berm::kernel

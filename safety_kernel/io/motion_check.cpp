@@ -32,8 +32,8 @@ std::int32_t cell_centre_mm(std::int32_t index) { return SK_MAP_ORIGIN_MM + inde
 
 MotionCheck::MotionCheck(const berm_parameters& parameters, const OwnCells& own_cells)
     : parameters_(parameters), state_latency_us_(parameters.state_latency_us), shape_(parameters), own_cells_(own_cells), rules_{}, columns_{}, tail_columns_{}, choice_{} {
-  // A cycle may be the last that the machine hears of.
-  parameters_.cycle_us = std::max<std::int32_t>(parameters.cycle_us, BERM_CAN_SILENCE_US);
+  // A cycle may be the last that the machine hears of, and may have been sent as late as that is allowed.
+  parameters_.cycle_us = std::max<std::int32_t>(parameters.cycle_us, BERM_CAN_SILENCE_US) + BERM_CAN_SEND_LATE_US;
   rules_.fresh_us = parameters.fresh_us;
   rules_.margin_mm = parameters.margin_mm;
   rules_.dig_zones = parameters.dig_zones;

@@ -88,7 +88,7 @@ void Shell::one_cycle() {
   in_->clock_fault = watch_.check(in_->now_us);
   in_->journal_lost = journal_.lost_before();
   cycle_->step(*in_, *out_);
-  receiver_.can().send(out_->frames.frame, out_->frames.count);
+  if (options_.lockstep || watch_.may_send(monotonic_us())) receiver_.can().send(out_->frames.frame, out_->frames.count);
   publisher_->state(out_->state);
   publisher_->decision(out_->decision);
   publisher_->scans(out_->blocks);
@@ -130,6 +130,7 @@ std::string Shell::report() const {
   add("scan_rejected", c.scan_rejected + cycle_->scans_rejected());
   add("scan_missing", c.scan_missing);
   add("lost_cycles", watch_.lost_cycles());
+  add("unsent_cycles", watch_.unsent_cycles());
   add("vlp16_packets", c.vlp16_packets);
   add("vlp16_rejected", c.vlp16_rejected);
   add("vlp16_points", c.vlp16_points);

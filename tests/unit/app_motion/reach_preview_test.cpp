@@ -33,7 +33,7 @@ TEST(StopTravel, GrowsWithSpeedAndReachAndCoversTheTable) {
     before = travel;
   }
   // Full speed at 6.5 m: the table's last column in its second row, and the way during the latencies and until a machine that hears nothing brakes by itself.
-  const double known = m.braking.angle[swing][1].back() + radians(50.0) * (m.state_latency + m.command_latency + heartbeat_silence);
+  const double known = m.braking.angle[swing][1].back() + radians(50.0) * (m.state_latency + m.command_latency + heartbeat_silence + kernel_sends_within);
   EXPECT_GE(before, known);
   EXPECT_LE(before, known + radians(1.0));
   EXPECT_GT(stop_travel(m, swing, 9.0, radians(30.0)), stop_travel(m, swing, 6.0, radians(30.0)));

@@ -24,6 +24,20 @@ TEST(CycleWatch, CountsLateCyclesAndFaultsVeryLateOnesAndTimeThatRunsBackwards) 
   EXPECT_FALSE(watch.check(1170000));
 }
 
+// verifies: SK-CY-28, IF-CAN-22
+TEST(CycleWatch, WhatWasDecidedTooLongAgoIsNotSent) {
+  CycleWatch watch;
+  watch.check(1000000);
+  EXPECT_TRUE(watch.may_send(1000000));
+  EXPECT_TRUE(watch.may_send(1000000 + BERM_CAN_SEND_LATE_US));
+  EXPECT_EQ(watch.unsent_cycles(), 0U);
+  EXPECT_FALSE(watch.may_send(1000001 + BERM_CAN_SEND_LATE_US));
+  EXPECT_FALSE(watch.may_send(999999)) << "time that runs backwards";
+  EXPECT_EQ(watch.unsent_cycles(), 2U);
+  watch.check(1010000);
+  EXPECT_TRUE(watch.may_send(1010100));
+}
+
 // verifies: SK-CY-90
 TEST(CpuHistogram, GivesQuantilesOfWhatWasAdded) {
   CpuHistogram histogram;
