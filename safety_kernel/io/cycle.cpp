@@ -73,6 +73,7 @@ void Cycle::step(const CycleInputs& in, CycleOutputs& out) {
 // A frame may have come as soon as the cycle before had begun; what it waits more than a cycle for the next is not in the state latency.
 void Cycle::take_frames(const CycleInputs& in) {
   const std::int64_t angle_before_us = frames_.angle_us(), velocity_before_us = frames_.velocity_us();
+  frames_.begin_cycle();
   for (int i = 0; i < in.frame_count; ++i) frames_.take(in.frame[i], in.now_us);
   const std::int64_t waited_us = cycle_us_ < 0 ? 0 : std::max<std::int64_t>(in.now_us - cycle_us_ - parameters_.cycle_us, 0);
   if (frames_.angle_us() != angle_before_us) {

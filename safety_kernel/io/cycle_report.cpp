@@ -46,8 +46,8 @@ std::uint32_t Cycle::panel_flags(std::int64_t now_us) const {
   const MachinePicture& picture = frames_.picture();
   std::uint32_t flags = 0;
   if (frames_.operator_fresh(now_us) && picture.panel.run) flags |= BERM_PANEL_OPERATOR_RUN;
-  if (frames_.spotter_fresh(now_us) && picture.spotter.truck_parked) flags |= BERM_PANEL_TRUCK_PARKED;
-  if (frames_.spotter_fresh(now_us) && picture.spotter.truck_leaving) flags |= BERM_PANEL_TRUCK_LEAVING;
+  if (frames_.spotter_fresh(now_us) && frames_.truck_parked()) flags |= BERM_PANEL_TRUCK_PARKED;
+  if (frames_.spotter_fresh(now_us) && frames_.truck_leaving()) flags |= BERM_PANEL_TRUCK_LEAVING;
   return flags;
 }
 

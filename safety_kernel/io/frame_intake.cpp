@@ -16,6 +16,10 @@ bool within(const std::int32_t (&value)[4], std::int32_t limit) {
   return true;
 }
 
+bool without_error(const berm_machine_state& s) {
+  return !s.system_error && s.can_errors == 0 && !s.lock_receiver_error && !s.estop_receiver_error && !s.switch_error;
+}
+
 bool is_guard(std::uint32_t id) {
   return id == BERM_CAN_GUARD_MACHINE || id == BERM_CAN_GUARD_OPERATOR || id == BERM_CAN_GUARD_SPOTTER;
 }
@@ -75,12 +79,39 @@ bool FrameIntake::decode(int message, const berm_can_frame& frame) {
       picture_.velocity = velocity;
       return true;
     }
-    case kMachineState: return berm_decode_machine_state(&frame, &picture_.state);
-    case kEstop: return berm_decode_estop(&frame, &picture_.estop);
-    case kOperator: return berm_decode_operator(&frame, &picture_.panel);
-    case kSpotter: return berm_decode_spotter(&frame, &picture_.spotter);
+    case kMachineState: return decode_machine_state(frame);
+    case kEstop: return decode_estop(frame);
+    case kOperator: return decode_operator(frame);
+    case kSpotter: return decode_spotter(frame);
     default: return false;
   }
+}
+
+bool FrameIntake::decode_machine_state(const berm_can_frame& frame) {
+  if (!berm_decode_machine_state(&frame, &picture_.state)) return false;
+  said_.machine_error = said_.machine_error || !without_error(picture_.state);
+  return true;
+}
+
+bool FrameIntake::decode_estop(const berm_can_frame& frame) {
+  if (!berm_decode_estop(&frame, &picture_.estop)) return false;
+  said_.estop_pressed = said_.estop_pressed || picture_.estop.pressed;
+  said_.machine_error = said_.machine_error || !picture_.estop.receiver_ok;
+  return true;
+}
+
+bool FrameIntake::decode_operator(const berm_can_frame& frame) {
+  if (!berm_decode_operator(&frame, &picture_.panel)) return false;
+  said_.operator_stop = said_.operator_stop || picture_.panel.stop;
+  return true;
+}
+
+bool FrameIntake::decode_spotter(const berm_can_frame& frame) {
+  if (!berm_decode_spotter(&frame, &picture_.spotter)) return false;
+  said_.spotter_stop = said_.spotter_stop || picture_.spotter.stop;
+  said_.truck_leaving = said_.truck_leaving || picture_.spotter.truck_leaving;
+  said_.no_truck = said_.no_truck || !picture_.spotter.truck_parked;
+  return true;
 }
 
 bool FrameIntake::take_plain(const berm_can_frame& frame, std::int64_t now_us) {
@@ -121,14 +152,11 @@ bool FrameIntake::operator_fresh(std::int64_t now_us) const { return sk_guard_fr
 bool FrameIntake::spotter_fresh(std::int64_t now_us) const { return sk_guard_fresh(&guard_[kSpotter], now_us, parameters_.operator_age_us); }
 
 bool FrameIntake::truck_admitted(std::int64_t now_us) const {
-  return spotter_fresh(now_us) && picture_.spotter.truck_parked && !picture_.spotter.truck_leaving;
+  return spotter_fresh(now_us) && truck_parked() && !truck_leaving();
 }
 
 bool FrameIntake::spotter_lost(std::int64_t now_us) const { return heard(kSpotter) && !spotter_fresh(now_us); }
 
-bool machine_healthy(const MachinePicture& picture) {
-  const berm_machine_state& s = picture.state;
-  return !s.system_error && s.can_errors == 0 && !s.lock_receiver_error && !s.estop_receiver_error && !s.switch_error && picture.estop.receiver_ok;
-}
+bool FrameIntake::machine_healthy() const { return without_error(picture_.state) && picture_.estop.receiver_ok && !said_.machine_error; }
 
 }  // namespace berm::kernel

@@ -29,6 +29,8 @@ class FrameIntake {
  public:
   explicit FrameIntake(const berm_parameters& parameters);
 
+  // Before the frames of a cycle: what those of the cycle before said counts no longer, but for the newest.
+  void begin_cycle() { said_ = Said{}; }
   void take(const berm_can_frame& frame, std::int64_t now_us);
 
   const MachinePicture& picture() const { return picture_; }
@@ -48,10 +50,19 @@ class FrameIntake {
   bool machine_fresh(std::int64_t now_us) const;   // machine state and e-stop status
   bool operator_fresh(std::int64_t now_us) const;
   bool spotter_fresh(std::int64_t now_us) const;
-  // By a fresh word of the spotter: a truck stands to be loaded, and is not leaving.
+  // By a fresh word of the spotter: a truck stands to be loaded, and is not leaving. So say the newest frame and all of this cycle.
   bool truck_admitted(std::int64_t now_us) const;
   // The spotter is optional: silent from the start is no matter, falling silent is.
   bool spotter_lost(std::int64_t now_us) const;
+
+  // What stops, or takes an admission back: said by the newest frame, or by any that was accepted in this cycle. Several may come at once, and a key
+  // that was pressed and let go between two cycles was pressed.
+  bool estop_pressed() const { return picture_.estop.pressed || said_.estop_pressed; }
+  bool operator_stop() const { return picture_.panel.stop || said_.operator_stop; }
+  bool spotter_stop() const { return picture_.spotter.stop || said_.spotter_stop; }
+  bool truck_parked() const { return picture_.spotter.truck_parked && !said_.no_truck; }
+  bool truck_leaving() const { return picture_.spotter.truck_leaving || said_.truck_leaving; }
+  bool machine_healthy() const;  // no error of the machine's own is reported
 
  private:
   enum Message { kAngle, kVelocity, kMachineState, kEstop, kOperator, kSpotter, kMessages };
@@ -60,16 +71,23 @@ class FrameIntake {
   bool take_guarded(int message, const berm_can_frame& frame, std::int64_t now_us);
   bool take_plain(const berm_can_frame& frame, std::int64_t now_us);
   bool decode(int message, const berm_can_frame& frame);
+  bool decode_machine_state(const berm_can_frame& frame);
+  bool decode_estop(const berm_can_frame& frame);
+  bool decode_operator(const berm_can_frame& frame);
+  bool decode_spotter(const berm_can_frame& frame);
   bool heard(int message) const { return guard_[message].last_us >= 0; }
 
+  // By any accepted frame of this cycle.
+  struct Said {
+    bool estop_pressed = false, operator_stop = false, spotter_stop = false, truck_leaving = false, no_truck = false, machine_error = false;
+  };
+
   const berm_parameters& parameters_;
+  Said said_;
   sk_guard_state guard_[kMessages];
   MachinePicture picture_;
   sk_base_state base_;
   std::uint64_t rejected_ = 0;
 };
-
-// No error of the machine's own is reported.
-bool machine_healthy(const MachinePicture& picture);
 
 }  // namespace berm::kernel

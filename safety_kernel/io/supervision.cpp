@@ -27,19 +27,18 @@ std::uint8_t fault_of(const FrameIntake& frames, const RangeSensors& sensors, bo
   if (!frames.state_heard()) return BERM_STOP_NONE;  // still in INIT
   if (!frames.joints_fresh(now_us) || !frames.machine_fresh(now_us)) return BERM_STOP_STATE_FRAME;
   if (frames.base().learned && !sk_base_fresh(&frames.base(), &p, now_us)) return BERM_STOP_STATE_FRAME;
-  if (!machine_healthy(frames.picture())) return BERM_STOP_MACHINE_FAULT;
+  if (!frames.machine_healthy()) return BERM_STOP_MACHINE_FAULT;
   if (sensors.silent(now_us, p.scanner_silent_us)) return BERM_STOP_SCANNER_SILENT;
   if (sensors.sight.blocked()) return BERM_STOP_SENSOR_BLOCKED;
   return BERM_STOP_NONE;
 }
 
 std::uint8_t latch_of(const FrameIntake& frames, const AppPulse& app, const berm_parameters& p, std::int64_t now_us) {
-  const MachinePicture& picture = frames.picture();
-  if (picture.estop.pressed) return BERM_STOP_EMERGENCY;
+  if (frames.estop_pressed()) return BERM_STOP_EMERGENCY;
   if (frames.base().moved) return BERM_STOP_BASE_MOVED;
   // A panel or spotter that falls silent is one whose stop would not be heard.
   const bool operator_lost = frames.operator_heard() && !frames.operator_fresh(now_us);
-  if (picture.panel.stop || picture.spotter.stop || operator_lost || frames.spotter_lost(now_us)) return BERM_STOP_OPERATOR;
+  if (frames.operator_stop() || frames.spotter_stop() || operator_lost || frames.spotter_lost(now_us)) return BERM_STOP_OPERATOR;
   return app.holds(now_us, p.request_silent_us) ? BERM_STOP_APP_SILENT : BERM_STOP_NONE;
 }
 
