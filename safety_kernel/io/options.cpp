@@ -126,6 +126,11 @@ OptionsResult parse_options(int argc, const char* const* argv, Options& options,
     error = std::string("--lockstep cannot go with ") + (realtime ? "--realtime" : "--map-only");
     return OptionsResult::kError;
   }
+  // Its packets carry no sign of life that is looked at: with a machine, ground that nobody sees any more would stay fresh.
+  if (options.vlp16_port != 0 && !options.map_only) {
+    error = "--vlp16-port goes with --map-only alone; lidars of a machine are given by --lidar-port";
+    return OptionsResult::kError;
+  }
   if (const char* missing = missing_option(options)) {
     error = std::string(missing) + " is required";
     return OptionsResult::kError;
@@ -142,7 +147,7 @@ const char* options_help() {
          "  --can ADDRESS          udp:GROUP:PORT (frames by multicast on loopback) or can:INTERFACE (SocketCAN)\n"
          "  --scan-port PORT       UDP port on 127.0.0.1 for the scan datagrams of the panning scanners\n"
          "  --socket PATH          Unix socket on which app and recorders are given the shared memory\n"
-         "  --vlp16-port PORT      UDP port on 127.0.0.1 for native packets of a Velodyne VLP-16\n"
+         "  --vlp16-port PORT      UDP port on 127.0.0.1 for native packets of a Velodyne VLP-16; with --map-only alone\n"
          "  --vlp16-mount X,Y,Z,A  its place in the base frame, metres, and its yaw in degrees (0,0,1.8,0)\n"
          "  --lidar-port PORT      UDP port on 127.0.0.1 of a lidar on the upper body; once for each that the parameter block has\n"
          "  --app-uid N            uid the app must have (default: the kernel's own)\n"

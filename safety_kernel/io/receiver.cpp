@@ -18,7 +18,8 @@ bool Receiver::open(std::string& error) {
   if (options_.scan_port != 0 && !options_.map_only && !scan_.open(options_.scan_port, error)) return false;
   for (int i = 0; i < options_.lidar_ports && !options_.map_only; ++i)
     if (!lidar_[i].open(options_.lidar_port[i], error)) return false;
-  return options_.vlp16_port == 0 || vlp16_.open(options_.vlp16_port, error);
+  if (!options_.map_only || options_.vlp16_port == 0) return true;
+  return vlp16_.open(options_.vlp16_port, error);
 }
 
 void Receiver::add_frame(const berm_can_frame& frame, CycleInputs& in) {

@@ -212,7 +212,7 @@ TEST(KernelMapOnly, FillsTheMapWithoutAMachineAndRefusesTheApp) {
   EXPECT_EQ(json_number(report, "vlp16_points"), 384);
 }
 
-// verifies: SK-CY-60, SK-CY-91
+// verifies: SK-CY-55, SK-CY-60, SK-CY-91
 TEST(KernelStart, BadInputIsOneLineAndAFailure) {
   const struct {
     const char* arguments;
@@ -222,6 +222,7 @@ TEST(KernelStart, BadInputIsOneLineAndAFailure) {
       {"--parameters /dev/null --can udp:239.255.66.1:4000 --scan-port 5000 --socket /tmp/x", "bytes"},
       {"--scan-port 0", "--scan-port"},
       {"--unknown", "--unknown"},
+      {"--parameters p --can udp:239.255.66.1:4000 --scan-port 5000 --socket /tmp/x --vlp16-port 5001", "--vlp16-port goes with --map-only"},
   };
   for (const auto& c : cases) {
     std::FILE* pipe = popen((std::string(BERM_KERNEL) + " " + c.arguments + " 2>&1").c_str(), "r");

@@ -25,7 +25,7 @@ Parsed parse(std::vector<const char*> arguments) {
 // verifies: SK-CY-91
 TEST(KernelOptions, TakesWhatTheLauncherGives) {
   const Parsed p = parse({"--parameters", "p", "--can", "udp:239.255.66.1:4000", "--scan-port", "5000", "--socket", "s", "--lockstep", "--app-uid", "64601",
-                          "--recorder-uid", "0", "--ready-fd", "10", "--vlp16-port", "2368", "--vlp16-mount", "1,-2.5,1.8,90", "--lidar-port", "2370", "--lidar-port", "2371"});
+                          "--recorder-uid", "0", "--ready-fd", "10", "--vlp16-mount", "1,-2.5,1.8,90", "--lidar-port", "2370", "--lidar-port", "2371"});
   ASSERT_EQ(p.result, OptionsResult::kRun) << p.error;
   EXPECT_TRUE(p.options.lockstep);
   EXPECT_EQ(p.options.scan_port, 5000);
@@ -42,7 +42,21 @@ TEST(KernelOptions, TakesWhatTheLauncherGives) {
 TEST(KernelOptions, MapOnlyNeedsNoMachine) {
   const Parsed p = parse({"--parameters", "p", "--socket", "s", "--map-only", "--vlp16-port", "2368"});
   ASSERT_EQ(p.result, OptionsResult::kRun) << p.error;
+  EXPECT_EQ(p.options.vlp16_port, 2368);
   EXPECT_EQ(p.options.app_uid, geteuid());
+}
+
+// verifies: SK-CY-55
+TEST(KernelOptions, AFixedVlp16GoesWithNoMachine) {
+  for (const bool lockstep : {false, true}) {
+    std::vector<const char*> arguments = {"--parameters", "p", "--can", "x", "--socket", "s", "--scan-port", "1"};
+    if (lockstep) arguments.push_back("--lockstep");
+    ASSERT_EQ(parse(arguments).result, OptionsResult::kRun);
+    arguments.insert(arguments.end(), {"--vlp16-port", "2"});
+    const Parsed p = parse(arguments);
+    EXPECT_EQ(p.result, OptionsResult::kError);
+    EXPECT_NE(p.error.find("--vlp16-port goes with --map-only alone"), std::string::npos) << p.error;
+  }
 }
 
 // verifies: SK-CY-91
