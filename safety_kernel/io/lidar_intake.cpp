@@ -33,6 +33,12 @@ LidarIntake::LidarIntake(const berm_parameters& parameters)
   }
 }
 
+// A firing without a return counts: it tells of the head, not of what it sees.
+void LidarIntake::Mount::note_sectors(const std::uint8_t* bytes, std::int64_t now_us) {
+  static_assert(kVlp16TurnMdeg % kSectors == 0);
+  for (int block = 0; block < kVlp16Blocks; ++block) sector_us[vlp16_block_mdeg(bytes, block) / (kVlp16TurnMdeg / kSectors)] = now_us;
+}
+
 bool LidarIntake::accept(Mount& mount, const std::uint8_t* bytes, std::int64_t now_us) const {
   const std::uint32_t clock_us = vlp16_clock_us(bytes);
   if (clock_us >= SensorClock::kHourUs) return false;
@@ -96,6 +102,7 @@ bool LidarIntake::take(int lidar, const std::uint8_t* bytes, std::size_t size, c
   if (lidar < 0 || lidar >= lidars_ || vlp16_decode(bytes, size, packet_) != Vlp16Result::kOk) return false;
   Mount& mount = mount_[lidar];
   if (!accept(mount, bytes, now_us)) return false;
+  mount.note_sectors(bytes, now_us);
   const JointAngles angles = joints.at(now_us).angles;
   const Swung swung{self_.pose(angles), std::cos(angles.swing), std::sin(angles.swing)};
   const Firings firings(packet_);
@@ -107,11 +114,11 @@ bool LidarIntake::take(int lidar, const std::uint8_t* bytes, std::size_t size, c
 }
 
 bool LidarIntake::all_heard() const {
-  return std::all_of(mount_, mount_ + lidars_, [](const Mount& m) { return m.heard_us >= 0; });
+  return std::all_of(mount_, mount_ + lidars_, [](const Mount& m) { return m.turned_us() >= 0; });
 }
 
 bool LidarIntake::silent(std::int64_t now_us, std::int32_t limit_us) const {
-  return all_heard() && std::any_of(mount_, mount_ + lidars_, [&](const Mount& m) { return now_us - m.heard_us > limit_us; });
+  return all_heard() && std::any_of(mount_, mount_ + lidars_, [&](const Mount& m) { return now_us - m.heard_us > limit_us || now_us - m.turned_us() > limit_us + kTurnUs; });
 }
 
 }  // namespace berm::kernel

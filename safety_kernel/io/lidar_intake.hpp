@@ -1,10 +1,13 @@
 // Packets of the lidars on the upper body (VLP-16, the parameter block's `lidar`) into the height map, and whether each is alive.
 //
+// Alive is a lidar that sends, and that turns: one whose head stands, or that sends a part of its turn alone, is blind to all the rest, and what comes
+// back from the part says nothing of it. So its life is that of the sector of its turn that was fired into longest ago.
 // They are for the ground near the machine, round the tail: farther returns are left to the panning scanners, and of the firings every eighth is taken.
 // A return that too few of those round it support is spurious (dust, an outlier): where the implements hide the ground from the scanners it would stay.
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 
 #include "config/parameter_block.h"
@@ -26,6 +29,8 @@ class LidarIntake {
   static constexpr std::uint32_t kBesideMdeg = 1000;  // firings farther apart are no neighbours
   static constexpr int kSupporters = 2;               // of the returns round it
   static constexpr std::int64_t kLateMaxUs = 100000;  // more than the one that came with the least delay
+  static constexpr int kSectors = 36;                 // of the sensor's own turn
+  static constexpr std::int64_t kTurnUs = 100000;     // a turn at 600 a minute: a sector is due again so long after it was fired into
 
   explicit LidarIntake(const berm_parameters& parameters);
 
@@ -34,8 +39,10 @@ class LidarIntake {
   bool take(int lidar, const std::uint8_t* bytes, std::size_t size, const JointHistory& joints, std::int64_t now_us, sk_height_map& map,
             OwnShadow& shadow);
 
+  // Each lidar has fired into every sector of its turn, since start.
   bool all_heard() const;
-  // No usable packet of some lidar for longer than the limit, once all were heard.
+  // No usable packet of some lidar for longer than the limit, or no firing into some sector of its turn for longer than limit and turn, once all were
+  // heard.
   bool silent(std::int64_t now_us, std::int32_t limit_us) const;
   std::uint32_t points() const { return points_; }  // into the map since start, wrapping
   // Of the packet that was taken last, of this lidar: its returns, and the middle of the time in which they were made, on the kernel's clock.
@@ -45,7 +52,11 @@ class LidarIntake {
  private:
   struct Mount : LidarMount {
     std::int64_t heard_us = -1;
+    std::int64_t sector_us[kSectors];  // when it was last fired into, -1: never
     SensorClock clock;
+    Mount() { std::fill(sector_us, sector_us + kSectors, std::int64_t{-1}); }
+    void note_sectors(const std::uint8_t* bytes, std::int64_t now_us);
+    std::int64_t turned_us() const { return *std::min_element(sector_us, sector_us + kSectors); }
   };
   struct Swung {
     ImplementPose pose;

@@ -7,7 +7,6 @@ namespace berm::kernel {
 
 namespace {
 
-constexpr int kBlocks = 12;
 constexpr std::size_t kBlockBytes = 100;
 constexpr std::size_t kClockOffset = 1200, kModeOffset = 1204;
 constexpr std::uint8_t kModeStrongest = 0x37, kModeLast = 0x38, kModeDual = 0x39;
@@ -45,7 +44,7 @@ Vlp16Result check(const std::uint8_t* bytes, std::size_t size) {
   const std::uint8_t mode = bytes[kModeOffset];
   if (mode != kModeStrongest && mode != kModeLast && mode != kModeDual) return Vlp16Result::kMode;
   if (bytes[kModeOffset + 1] != kProductVlp16) return Vlp16Result::kProduct;
-  for (int block = 0; block < kBlocks; ++block) {
+  for (int block = 0; block < kVlp16Blocks; ++block) {
     const std::uint8_t* p = bytes + kBlockBytes * static_cast<std::size_t>(block);
     if (p[0] != 0xFF || p[1] != 0xEE) return Vlp16Result::kFlag;
     if (u16(p + 2) >= kTurnCdeg) return Vlp16Result::kAzimuth;
@@ -57,7 +56,7 @@ Vlp16Result check(const std::uint8_t* bytes, std::size_t size) {
 
 // Turn between the firing of block and that of the next, in 0.01 degrees; at the packet's end that of the pair before.
 std::uint32_t gap_cdeg(const std::uint8_t* bytes, int block, int step) {
-  const int from = block + step < kBlocks ? block : block - step;
+  const int from = block + step < kVlp16Blocks ? block : block - step;
   const std::uint32_t here = u16(bytes + kBlockBytes * static_cast<std::size_t>(from) + 2);
   const std::uint32_t next = u16(bytes + kBlockBytes * static_cast<std::size_t>(from + step) + 2);
   const std::uint32_t gap = (next + kTurnCdeg - here) % kTurnCdeg;
@@ -68,7 +67,9 @@ std::uint32_t gap_cdeg(const std::uint8_t* bytes, int block, int step) {
 
 bool vlp16_is_dual(const std::uint8_t* bytes) { return bytes[kModeOffset] == kModeDual; }
 
-int vlp16_firings(const std::uint8_t* bytes) { return vlp16_is_dual(bytes) ? kBlocks : 2 * kBlocks; }
+int vlp16_firings(const std::uint8_t* bytes) { return vlp16_is_dual(bytes) ? kVlp16Blocks : 2 * kVlp16Blocks; }
+
+std::uint32_t vlp16_block_mdeg(const std::uint8_t* bytes, int block) { return u16(bytes + kBlockBytes * static_cast<std::size_t>(block) + 2) * 10U; }
 
 Vlp16Firing vlp16_firing(const std::uint8_t* bytes, int firing) {
   const int step = vlp16_is_dual(bytes) ? 2 : 1, block = firing / 2 * step, half = firing % 2;

@@ -12,7 +12,8 @@ namespace berm::kernel {
 
 constexpr std::size_t kVlp16PacketBytes = 1206;
 constexpr int kVlp16Channels = 16;
-constexpr int kVlp16MaxPoints = 12 * 2 * kVlp16Channels;  // of one packet, single return
+constexpr int kVlp16Blocks = 12;                          // of a packet, two firings each; of dual return in pairs of the same
+constexpr int kVlp16MaxPoints = kVlp16Blocks * 2 * kVlp16Channels;  // of one packet, single return
 constexpr std::uint32_t kVlp16TurnMdeg = 360000;
 constexpr std::uint32_t kVlp16FiringMdeg = 200;           // a firing's share of the turn at 10 Hz
 constexpr std::int64_t kVlp16FiringNs = 55296;            // from a firing to the next
@@ -54,6 +55,8 @@ struct Vlp16Firing {
 bool vlp16_is_dual(const std::uint8_t* bytes);
 int vlp16_firings(const std::uint8_t* bytes);
 Vlp16Firing vlp16_firing(const std::uint8_t* bytes, int firing);
+// 0..359999: where the head was when a block began, whether anything came back or not. block: 0 to kVlp16Blocks - 1.
+std::uint32_t vlp16_block_mdeg(const std::uint8_t* bytes, int block);
 
 // Cosine and sine of a channel's elevation in the sensor's frame.
 struct Vlp16Elevation {

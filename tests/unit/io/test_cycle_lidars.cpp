@@ -1,9 +1,10 @@
-// Lidars in the kernel's whole cycle: what the Workspace Monitor is fed takes nothing from the height map.
+// Lidars in the kernel's whole cycle: what the Workspace Monitor is fed takes nothing from the height map; one that no longer turns stops the machine.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace {
 
 // A machine at rest between a box and somebody who comes after a second and a half; its two lidars see both.
 struct Scene {
-  explicit Scene(bool watched, bool histogram) {
+  explicit Scene(bool watched, bool histogram, double person_from_s = 1.5) {
     const berm_parameters ring = watched_ring();
     berm_parameters parameters = berm::test::demo_parameters();
     parameters.workspace_watched = watched ? 1 : 0;
@@ -27,7 +28,7 @@ struct Scene {
     parameters.sight_blind_permille = 1000;  // the scene's machine hides more of its lidars' views than a real one
     for (int i = 0; i < 2; ++i) source.emplace_back(parameters.lidar[i] = ring.lidar[i], false, 0.02);
     scene.boxes = {{{-6.0, 2.5, 0.0}, {-4.65, 4.0, 1.2}}};
-    scene.people = {{6.0, -3.0, 0.25, 1.8, 1.5}};
+    scene.people = {{6.0, -3.0, 0.25, 1.8, person_from_s}};
     rig = std::make_unique<CycleRig>(parameters);
   }
   void step() {
@@ -35,7 +36,10 @@ struct Scene {
     for (int i = 0; i < 2; ++i) {
       std::vector<LidarSource::Packet> packets;
       source[static_cast<std::size_t>(i)].until(0.01 * ++cycles[i], scene, [](double) { return 0.0; }, packets);
-      for (const auto& p : packets) ASSERT_TRUE(rig->in->take_lidar(i, p.data(), p.size()));
+      for (auto& p : packets) {
+        if (spoil && !spoil(i, p)) continue;
+        ASSERT_TRUE(rig->in->take_lidar(i, p.data(), p.size()));
+      }
     }
     rig->cycle->step(*rig->in, *rig->out);
     rig->obey();
@@ -45,7 +49,33 @@ struct Scene {
   std::vector<LidarSource> source;
   int cycles[2] = {};
   std::unique_ptr<CycleRig> rig;
+  // What a fault makes of a lidar's packet; false: it does not come. Of none unless given.
+  std::function<bool(int lidar, LidarSource::Packet& packet)> spoil;
 };
+
+unsigned azimuth_cdeg(const LidarSource::Packet& packet) { return packet[2] + 256U * packet[3]; }
+
+// The head stands: what it saw last it sends again and again, by a clock that runs.
+class Stalled {
+ public:
+  bool operator()(LidarSource::Packet& packet) {
+    if (!seen_) last_ = packet;
+    seen_ = true;
+    for (std::size_t block = 0; block < 12; ++block) {
+      std::copy_n(&last_[100 * block + 4], 96, &packet[100 * block + 4]);
+      packet[100 * block + 2] = last_[2];
+      packet[100 * block + 3] = last_[3];
+    }
+    return true;
+  }
+
+ private:
+  bool seen_ = false;
+  LidarSource::Packet last_{};
+};
+
+// Only this part of the turn comes.
+bool sector_only(const LidarSource::Packet& packet) { return azimuth_cdeg(packet) >= 4500 && azimuth_cdeg(packet) < 6500; }
 
 // verifies: SK-LI-6
 TEST(CycleLidars, WatchingTheWorkspaceChangesNothingOfTheHeightMap) {
@@ -65,6 +95,41 @@ TEST(CycleLidars, WatchingTheWorkspaceChangesNothingOfTheHeightMap) {
       for (int ix = 0; ix < SK_MAP_CELLS; ++ix) highest = std::max(highest, sk_map_top(&unwatched.rig->cycle->map(), iy, ix));
     EXPECT_GT(highest, 700) << "the box is in the map";
   }
+}
+
+// Somebody comes up when it no longer turns. Found or not: by then the machine stands.
+// verifies: SK-LI-2, SK-LI-9
+TEST(CycleLidars, OneThatStopsTurningStopsTheMachineWithinHalfASecond) {
+  for (const bool stalls : {true, false}) {
+    for (const unsigned which : {1U, 2U, 3U}) {
+      Scene scene(true, true, 3.5);
+      for (int k = 0; k < 300; ++k) scene.step();
+      ASSERT_EQ(scene.rig->state().kernel_state, BERM_STATE_RUN) << int{scene.rig->state().stop_reason};
+      Stalled head[2];
+      scene.spoil = [&](int lidar, LidarSource::Packet& packet) { return (which >> lidar & 1U) == 0 || (stalls ? head[lidar](packet) : sector_only(packet)); };
+      int cycles = 0;
+      while (scene.rig->state().kernel_state == BERM_STATE_RUN && cycles < 100) {
+        scene.step();
+        ++cycles;
+      }
+      EXPECT_LE(cycles, 50) << "lidars " << which << ", stalled " << stalls;
+      EXPECT_GE(cycles, 20) << "a gap of a scanner's silence is no fault; lidars " << which << ", stalled " << stalls;
+      EXPECT_EQ(scene.rig->state().stop_reason, BERM_STOP_SCANNER_SILENT) << "lidars " << which << ", stalled " << stalls;
+      for (int k = 0; k < 100; ++k) scene.step();
+      EXPECT_EQ(scene.rig->state().kernel_state, BERM_STATE_FAULT);
+    }
+  }
+}
+
+// verifies: SK-LI-9
+TEST(CycleLidars, InitLastsUntilEveryOneHasTurnedAllRound) {
+  Scene scene(true, true, 100.0);
+  scene.spoil = [](int lidar, LidarSource::Packet& packet) { return lidar != 1 || sector_only(packet); };
+  for (int k = 0; k < 300; ++k) scene.step();
+  EXPECT_EQ(scene.rig->state().kernel_state, BERM_STATE_INIT);
+  scene.spoil = nullptr;
+  for (int k = 0; k < 100; ++k) scene.step();
+  EXPECT_EQ(scene.rig->state().kernel_state, BERM_STATE_RUN) << int{scene.rig->state().stop_reason};
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ Bytes packet(std::uint32_t clock_us, int laser = 0, double range_m = 0.0, double
 }
 
 // The same, with a return of every shot.
-Bytes seeing(std::uint32_t clock_us) {
-  Bytes b = packet(clock_us);
+Bytes seeing(std::uint32_t clock_us, double from_deg) {
+  Bytes b = packet(clock_us, 0, 0.0, from_deg);
   for (std::size_t block = 0; block < 12; ++block)
     for (std::size_t shot = 0; shot < 32; ++shot) b[100 * block + 5 + 3 * shot] = 0x08;  // 4.1 m
   return b;
@@ -80,6 +80,12 @@ class LidarIntakeTest : public testing::Test {
     joints->push(kNow + 100000, pose);
   }
   bool take(const Bytes& b, int lidar = 0, std::int64_t now_us = kNow) { return intake->take(lidar, b.data(), b.size(), *joints, now_us, *map, *shadow); }
+  // All round at once, which it cannot: 75 packets, a microsecond apart.
+  bool turn(std::uint32_t clock_us, int lidar, std::int64_t now_us = kNow) {
+    bool all = true;
+    for (std::uint32_t k = 0; k < 75; ++k) all = take(packet(clock_us + k, 0, 0.0, 4.8 * k), lidar, now_us) && all;
+    return all;
+  }
   int observed() const {
     int count = 0;
     for (const auto& row : map->seen_us)
@@ -260,9 +266,9 @@ TEST_F(LidarIntakeTest, RepeatedEarlierAndForeignPacketsAreRefused) {
 // verifies: SK-LI-7
 TEST_F(LidarIntakeTest, APacketMuchLaterThanTheOneWithTheLeastDelayIsRefused) {
   ASSERT_TRUE(take(packet(1000000)));
-  EXPECT_TRUE(take(packet(1050000), 0, kNow + 150000)) << "100 ms late";
+  EXPECT_TRUE(turn(1050000, 0, kNow + 150000)) << "100 ms late";
   EXPECT_FALSE(take(packet(1060000), 0, kNow + 170000)) << "110 ms late";
-  ASSERT_TRUE(take(packet(1000), 1, kNow + 170000));
+  ASSERT_TRUE(turn(1000, 1, kNow + 170000));
   EXPECT_FALSE(intake->silent(kNow + 350000, 200000));
   EXPECT_TRUE(intake->silent(kNow + 350001, 200000)) << "what is refused is no sign of life";
   EXPECT_TRUE(take(packet(1180000), 0, kNow + 180000)) << "in time again";
@@ -271,10 +277,10 @@ TEST_F(LidarIntakeTest, APacketMuchLaterThanTheOneWithTheLeastDelayIsRefused) {
 // verifies: SK-LI-2
 TEST_F(LidarIntakeTest, SilenceOfEitherCountsOnceBothWereHeard) {
   EXPECT_FALSE(intake->all_heard());
-  ASSERT_TRUE(take(packet(1000), 0));
+  ASSERT_TRUE(turn(1000, 0));
   EXPECT_FALSE(intake->all_heard());
   EXPECT_FALSE(intake->silent(kNow + 10000000, 200000));
-  ASSERT_TRUE(take(packet(1000), 1));
+  ASSERT_TRUE(turn(1000, 1));
   EXPECT_TRUE(intake->all_heard());
   EXPECT_FALSE(intake->silent(kNow + 200000, 200000));
   EXPECT_TRUE(intake->silent(kNow + 200001, 200000));
@@ -293,8 +299,10 @@ TEST(CycleLidar, ASilentLidarIsAFault) {
   EXPECT_EQ(rig.state().kernel_state, BERM_STATE_INIT);
   const auto step = [&] {
     rig.gather();
-    const Bytes bytes = seeing(10000 * (rig.machine.cycle() + 1));
-    ASSERT_TRUE(rig.in->take_lidar(0, bytes.data(), bytes.size()));
+    for (std::uint32_t k = 0; k < 8; ++k) {  // 36 degrees in a cycle
+      const Bytes bytes = seeing(10000 * (rig.machine.cycle() + 1) + k, std::fmod(36.0 * rig.machine.cycle() + 4.5 * k, 360.0));
+      ASSERT_TRUE(rig.in->take_lidar(0, bytes.data(), bytes.size()));
+    }
     rig.cycle->step(*rig.in, *rig.out);
     rig.obey();
   };
