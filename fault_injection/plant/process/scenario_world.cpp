@@ -177,16 +177,18 @@ ScannerConfig read_scanner(StrictTable t) {
   return scanner;
 }
 
-SensorFault read_sensor_fault(StrictTable t, const char* sensor, int sensors, const char* turn) {
+SensorFault read_sensor_fault(StrictTable t, const char* sensor, int sensors, const char* turn, const std::vector<std::string>& kinds) {
   SensorFault fault;
   fault.sensor = static_cast<std::size_t>(t.integer(sensor, 1, sensors) - 1);
-  fault.silent = t.choice("kind", {"blocked", "silent"}) == "silent";
+  const std::string kind = t.choice("kind", kinds);
+  fault.silent = kind == "silent";
+  fault.stalled = kind == "stalled";
   fault.at_s = t.number("at_s", 0.0, 36000.0);
   fault.for_s = t.number("for_s", 0.05, 36000.0);
   if (t.has(turn)) {
     const auto degrees = t.array<2>(turn, 0.0, 360.0);
     if (degrees[0] >= degrees[1]) t.fail(turn, "low must be below high");
-    if (fault.silent) t.fail(turn, "is for a window that is blocked in part");
+    if (kind != "blocked") t.fail(turn, "is for a window that is blocked in part");
     fault.turn = {radians(degrees[0]), radians(degrees[1])};
   }
   t.finish();
@@ -250,8 +252,8 @@ WorldConfig read_world(StrictTable& file) {
   for (StrictTable& t : file.tables("dig_zone")) world.dig_zones.push_back(read_dig_zone(t));
   if (world.dig_zones.empty()) file.fail("dig_zone", "is missing");
   world.scanner = read_scanner(file.table("scanner"));
-  for (StrictTable& t : file.tables("scanner_fault")) world.scanner_faults.push_back(read_sensor_fault(t, "scanner", 2, "mirror_deg"));
-  for (StrictTable& t : file.tables("lidar_fault")) world.lidar_faults.push_back(read_sensor_fault(t, "lidar", lidars_most, "sector_deg"));
+  for (StrictTable& t : file.tables("scanner_fault")) world.scanner_faults.push_back(read_sensor_fault(t, "scanner", 2, "mirror_deg", {"blocked", "silent"}));
+  for (StrictTable& t : file.tables("lidar_fault")) world.lidar_faults.push_back(read_sensor_fault(t, "lidar", lidars_most, "sector_deg", {"blocked", "silent", "stalled"}));
   for (StrictTable& t : file.tables("dust")) world.dust.push_back(read_dust(t));
   for (StrictTable& t : file.tables("cloud")) {
     if (world.scanner.waveform_share == 0.0) file.fail("cloud", "is seen by samples with a waveform alone: needs a scanner.waveform_share above 0");

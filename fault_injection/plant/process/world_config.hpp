@@ -117,6 +117,7 @@ struct SensorFault {                      // of a panning scanner, or of a lidar
   double at_s = 0.0, for_s = 0.0;
   // Over this part of the mirror's circle, or of the lidar's azimuth, low first; all of it unless given.
   std::array<double, 2> turn{0.0, 2 * std::numbers::pi};
+  bool stalled = false;                   // of a lidar: its head stands, it goes on sending; nothing lies on its window
 };
 
 struct DustConfig {                       // in the air about every sensor, for a time

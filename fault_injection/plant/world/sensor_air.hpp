@@ -1,4 +1,4 @@
-// What stands between a sensor and the site at one moment: dust in the air, and what lies on its window; or that it is silent.
+// What stands between a sensor and the site at one moment: dust in the air, and what lies on its window; or that it is silent, or stands still.
 #pragma once
 
 #include <array>
@@ -18,6 +18,7 @@ struct SensorAir {
   bool covered = false;  // something lies on the window,
   std::array<double, 2> turn{0.0, 2 * std::numbers::pi};  // over this part of the sensor's turn
   bool silent = false;   // sends nothing
+  bool stalled = false;  // a lidar's head stands, and it goes on sending
   std::vector<DustCloud> clouds;  // what samples with a waveform look through
 
   [[nodiscard]] bool dusty() const { return dust > 0.0 || lost > 0.0; }

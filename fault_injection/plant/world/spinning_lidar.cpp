@@ -238,8 +238,10 @@ void SpinningLidar::step(const Span& span, const SensorAir& air, const Scene& sc
   const std::size_t blocks_a_pair = mount_.dual ? 2 : 1;
   next_ = first_firing(ns.begin);
   Hits anew;
+  if (!air.stalled) stalled_at_.reset();
+  else if (!stalled_at_) stalled_at_ = azimuth(next_);
   for (std::size_t k = 0; time_ns(next_) <= ns.end; ++next_, ++k) {
-    const double at = azimuth(next_), swing = swing_at(span, ns, next_);
+    const double at = stalled_at_.value_or(azimuth(next_)), swing = swing_at(span, ns, next_);
     const std::int64_t place = next_ % firings_a_packet;
     std::uint8_t* block = packet_.bytes.data() + block_bytes * blocks_a_pair * static_cast<std::size_t>(place / 2);
     std::uint8_t* other = mount_.dual ? block + block_bytes : nullptr;
@@ -255,7 +257,7 @@ void SpinningLidar::step(const Span& span, const SensorAir& air, const Scene& sc
     for (std::uint8_t* records : {block, other})
       if (records != nullptr) std::fill_n(records + record, record_bytes * lasers, std::uint8_t{0});
     if (in_sector(at)) {
-      const bool known = k < foreseen.size();
+      const bool known = k < foreseen.size() && !stalled_at_;  // foreseen is where it would look if it turned
       if (!known) look(aim(at, swing, stand), scene, stand, anew);
       report(at, swing, known ? foreseen[k] : anew, air, stand, block + record, other == nullptr ? nullptr : other + record, returns);
     }

@@ -46,7 +46,8 @@ class SpinningLidar {
   };
 
   // The firings in (t - dt, t], appended as packets when twelve blocks are full: of two firings each, or, dual return, each two of two.
-  // air.covered: something lies on the window, and nothing comes back. returns: takes what people and vehicles sent back, or null. foreseen: what its
+  // air.covered: something lies on the window, and nothing comes back. air.stalled: it looks where it looked first, then where it would have turned to.
+  // returns: takes what people and vehicles sent back, or null. foreseen: what its
   // firings meet, or none, and they are looked at here.
   void step(const Span& span, const SensorAir& air, const Scene& scene, const BaseFrame& stand, std::vector<LidarPacket>& out,
             std::vector<MoverReturn>* returns = nullptr, std::span<const Hits> foreseen = {});
@@ -84,6 +85,7 @@ class SpinningLidar {
   Random dust_random_;         // dust of the air draws from its own, so that it leaves all else as it was
   Vec3 x_, y_, z_;             // the sensor's axes in the upper body
   std::int64_t next_ = 0;      // number of the next firing
+  std::optional<double> stalled_at_;  // where the head stands
   LidarPacket packet_{};
 };
 

@@ -90,8 +90,8 @@ struct World::State {
     }
     for (const SensorFault& f : faults) {
       if (f.sensor != i || !during(f)) continue;
-      (f.silent ? a.silent : a.covered) = true;
-      if (!f.silent) a.turn = f.turn;
+      (f.silent ? a.silent : f.stalled ? a.stalled : a.covered) = true;
+      if (!f.silent && !f.stalled) a.turn = f.turn;
     }
     for (const CloudConfig& c : config.clouds) {
       if (!during(c)) continue;

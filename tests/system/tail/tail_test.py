@@ -1,7 +1,7 @@
 """Somebody walks up to the upper body's tail during loading, and the machine stands before the tail is within reach of him; and a lidar whose window is
-covered, or that falls silent, holds the machine. Judged by the plant's oracle and its trace.
+covered, that falls silent, or whose head no longer turns, holds the machine. Judged by the plant's oracle and its trace.
 
-verifies: SK-TS-1, SK-TS-5, SK-TS-6, SK-LI-2, SK-LI-3"""
+verifies: SK-TS-1, SK-TS-5, SK-TS-6, SK-LI-2, SK-LI-3, SK-LI-9"""
 import csv
 import math
 import pathlib
@@ -65,6 +65,8 @@ def held_while(scenario, reasons, from_s, until_s, within_s):
     assert any(result["kernel_stops"].get(reason, 0) >= 1 for reason in reasons), f"kernel stops {result['kernel_stops']}"
     late = [float(row["time_s"]) for row in rows(out / "trace.csv") if from_s + within_s < float(row["time_s"]) < until_s and speed(row) > STILL_RAD_S]
     assert not late, f"moves at {late[:3]} s while the lidar sees nothing"
+    replayed = run("berm_replay", out / "journal.mcap")
+    assert replayed.returncode == 0, replayed.stdout[-500:]
     shutil.rmtree(out)
     return status, result
 
@@ -76,14 +78,18 @@ def blocked_lidar():
     assert result["trucks_loaded"] == 1, "the truck was not loaded after the reset"
 
 
-def silent_lidar():
+def silent_lidar(kind="silent"):
     text = (SCENARIOS / "lidar_blocked.toml").read_text()
     folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
-    scenario = folder / "lidar_silent.toml"
-    scenario.write_text(text.replace('kind = "blocked"', 'kind = "silent"').replace("max_time_s = 1800.0", "max_time_s = 45.0"))
+    scenario = folder / f"lidar_{kind}.toml"
+    scenario.write_text(text.replace('kind = "blocked"', f'kind = "{kind}"').replace("max_time_s = 1800.0", "max_time_s = 45.0"))
     _, result = held_while(scenario, ("scanner_silent",), 30.0, 45.0, 3.5)
     assert result["kernel_faults"] >= 1, result
     shutil.rmtree(folder)
 
 
-main([person_behind, blocked_lidar, silent_lidar])
+def stalled_lidar():
+    silent_lidar("stalled")
+
+
+main([person_behind, blocked_lidar, silent_lidar, stalled_lidar])

@@ -131,9 +131,13 @@ TEST(Scenario, EveryKindOfMistakeIsNamed) {
   EXPECT_EQ(refusal(replaced(good, "cell = 0.1", "cell = 0.02\ncells = 1")), "terrain.cells: is not a known key");
   EXPECT_EQ(refusal(replaced(good, "samples_per_revolution = 400", "samples_per_revolution = 400.5")), "scanner.samples_per_revolution: must be a whole number");
   EXPECT_EQ(refusal(good + "\n[[lidar_fault]]\nlidar = 5\nkind = \"blocked\"\nat_s = 1\nfor_s = 1\n"), "lidar_fault[0].lidar: 5 is outside 1 .. 4");
-  EXPECT_EQ(refusal(good + "\n[[lidar_fault]]\nlidar = 1\nkind = \"wet\"\nat_s = 1\nfor_s = 1\n"), "lidar_fault[0].kind: 'wet' is not one of blocked, silent");
+  EXPECT_EQ(refusal(good + "\n[[lidar_fault]]\nlidar = 1\nkind = \"wet\"\nat_s = 1\nfor_s = 1\n"), "lidar_fault[0].kind: 'wet' is not one of blocked, silent, stalled");
+  const std::string stalled = "\n[[lidar_fault]]\nlidar = 1\nkind = \"stalled\"\nat_s = 1\nfor_s = 1\n";
+  EXPECT_EQ(refusal(good + stalled), "accepted");
+  EXPECT_EQ(refusal(good + stalled + "sector_deg = [20, 30]\n"), "lidar_fault[0].sector_deg: is for a window that is blocked in part");
   const std::string fault = "\n[[scanner_fault]]\nscanner = 2\nkind = \"blocked\"\nat_s = 1\nfor_s = 1\n";
   EXPECT_EQ(refusal(good + fault), "accepted");
+  EXPECT_EQ(refusal(good + replaced(fault, "blocked", "stalled")), "scanner_fault[0].kind: 'stalled' is not one of blocked, silent");
   EXPECT_EQ(refusal(good + replaced(fault, "= 2", "= 0")), "scanner_fault[0].scanner: 0 is outside 1 .. 2");
   EXPECT_EQ(refusal(good + fault + "mirror_deg = [30, 20]\n"), "scanner_fault[0].mirror_deg: low must be below high");
   EXPECT_EQ(refusal(good + replaced(fault, "blocked", "silent") + "mirror_deg = [20, 30]\n"), "scanner_fault[0].mirror_deg: is for a window that is blocked in part");
@@ -164,6 +168,9 @@ TEST(Scenario, FaultsOfSensorsAndDustAreRead) {
   EXPECT_EQ(w.scanner_faults[0].for_s, 10.0);
   EXPECT_NEAR(w.scanner_faults[0].turn[0], 300 * config::radians(1.0), 1e-12);
   EXPECT_NEAR(w.scanner_faults[0].turn[1], 330 * config::radians(1.0), 1e-12);
+  const WorldConfig l = loaded(replaced(text_of("lidar_blocked.toml"), "kind = \"blocked\"", "kind = \"stalled\"")).world;
+  ASSERT_EQ(l.lidar_faults.size(), 1u);
+  EXPECT_TRUE(l.lidar_faults[0].stalled && !l.lidar_faults[0].silent);
   const WorldConfig d = loaded(text_of("dust.toml")).world;
   ASSERT_EQ(d.dust.size(), 2u);
   EXPECT_EQ(d.dust[1].at_s, 45.0);

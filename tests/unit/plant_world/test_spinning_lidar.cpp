@@ -116,6 +116,28 @@ std::vector<double> lowest(const std::vector<LidarPacket>& packets, std::size_t 
   return all;
 }
 
+TEST(SpinningLidar, AHeadThatStallsGoesOnSendingWhatItSeesThere) {
+  WorldConfig config = level_site();
+  config.lidar_faults = {{0, false, 0.5, 0.5}};
+  config.lidar_faults[0].stalled = true;
+  World world(config, level_lidar(180, false, false), 1, 0);
+  const auto sectors = [](const std::vector<LidarPacket>& packets) {
+    std::set<unsigned> seen;
+    for (std::size_t p = 1; p < packets.size(); ++p)  // the first began before
+      for (std::size_t block = 0; block < 12; ++block) seen.insert(u16(&packets[p].bytes[100 * block + 2]) / 1000);
+    return seen.size();
+  };
+  const auto turning = steps(world, 49), stalled = steps(world, 50, 0.49), again = steps(world, 50, 1.0);
+  EXPECT_EQ(sectors(turning), 36u);
+  EXPECT_EQ(sectors(stalled), 1u);
+  EXPECT_NEAR(static_cast<double>(stalled.size()), static_cast<double>(again.size()), 2.0);
+  EXPECT_EQ(sectors(again), 36u);
+  for (std::size_t p = 1; p < stalled.size(); ++p) {
+    EXPECT_EQ(u16(&stalled[p].bytes[2]), u16(&stalled[1].bytes[2]));
+    EXPECT_NEAR(u16(&stalled[p].bytes[4]) * 0.002, 4.64, 0.02) << "laser 0 sees the ground";
+  }
+}
+
 TEST(SpinningLidar, APartOfItsWindowIsCoveredOrTheAirIsDusty) {
   WorldConfig config = level_site();
   config.lidar_faults = {{0, false, 0.0, 5.0, {std::numbers::pi / 2, std::numbers::pi}}};
