@@ -18,6 +18,8 @@ namespace {
 constexpr double kReachMax = 14.99;       // m; the map's half width less a cell
 constexpr double kRoundingRoom = 0.003;   // m; each length is rounded to the millimetre
 constexpr double kLeastInterval_deg = 0.01;
+constexpr double kBrakeShare = 4.0;       // no joint brakes harder than with so many times its largest acceleration
+constexpr double kStopRoom = 1e-5;        // share of a stop; its fields are rounded to the microradian and microsecond
 constexpr double kLeastCross = 1e-9;      // m2; less is a straight corner in whole millimetres
 
 JointFile read_joint(StrictTable table, double turn_deg) {
@@ -29,8 +31,8 @@ JointFile read_joint(StrictTable table, double turn_deg) {
   joint.acceleration_max = table.number("acceleration_max_rad_s2", 0.01, 20.0);
   joint.creep_velocity = table.degrees("creep_deg_s", 0.1, 15.0);
   if (joint.creep_velocity > joint.velocity_max) table.fail("creep_deg_s", "above velocity_max_deg_s");
-  joint.angle_error = table.degrees("angle_error_deg", 0.0, 5.0);
-  joint.velocity_error = table.degrees("velocity_error_deg_s", 0.0, 5.0);
+  joint.angle_error = table.degrees("angle_error_deg", 0.02, 5.0);
+  joint.velocity_error = table.degrees("velocity_error_deg_s", 0.01, 5.0);
   table.finish();
   return joint;
 }
@@ -170,8 +172,8 @@ SightFile read_sight(StrictTable table) {
 
 KernelFile read_kernel(StrictTable table) {
   KernelFile k{};
-  k.cycle = table.number("cycle", 0.001, 0.1);
-  k.margin = table.number("margin", 0.0, 2.0);
+  k.cycle = table.number("cycle", 0.001, 0.02);
+  k.margin = table.number("margin", 0.1, 2.0);
   k.fresh = table.number("fresh", 0.1, 120.0);
   k.generation = table.number("generation", 0.05, 60.0);
   if (k.generation > k.fresh) table.fail("generation", "above fresh");
@@ -196,6 +198,25 @@ KernelFile read_kernel(StrictTable table) {
   k.base_frame_age = table.number("base_frame_age", 0.1, 1.0);
   table.finish();
   return k;
+}
+
+// No stop shorter than any machine's from its column's speed: a table of noughts would leave the reach box without a way to brake.
+void check_stops(const StrictTable& file, const MachineFile& m) {
+  constexpr double kDegree = radians(1.0);
+  for (std::size_t j = 0; j < kJoints; ++j) {
+    const double slowing = kBrakeShare * m.joint[j].acceleration_max;
+    const auto refuse_below = [&](const char* key, std::size_t row, std::size_t column, double value, double least) {
+      if (value >= least * (1.0 + kStopRoom)) return;
+      file.fail(fmt::format("braking.{}.{}", kJointNames[j], key),
+                fmt::format("row {}, column {}: {:.4g} is below {:.4g}, a stop at {} times acceleration_max_rad_s2", row + 1, column + 1, value, least, kBrakeShare));
+    };
+    for (std::size_t r = 0; r < BERM_BRAKE_REACHES; ++r)
+      for (std::size_t k = 1; k < BERM_BRAKE_SPEEDS; ++k) {
+        const double speed = m.joint[j].velocity_max * static_cast<double>(k) / (BERM_BRAKE_SPEEDS - 1);
+        refuse_below("angle_deg", r, k, m.braking.angle[j][r][k] / kDegree, speed * speed / (2.0 * slowing) / kDegree);
+        refuse_below("time_s", r, k, m.braking.time[j][r][k], speed / slowing);
+      }
+  }
 }
 
 void check_every_link(const StrictTable& file, const std::vector<PartFile>& parts) {
@@ -234,12 +255,13 @@ MachineFile load_machine_file(const std::string& path) {
   m.bucket_payload = held.number("payload_kg", 50.0, 50000.0);
   held.finish();
   StrictTable latency = file.table("latency");
-  m.state_latency = latency.number("state", 0.0, 0.5);
-  m.command_latency = latency.number("command", 0.0, 1.0);
+  m.state_latency = latency.number("state", 0.001, 0.5);
+  m.command_latency = latency.number("command", 0.001, 1.0);
   latency.finish();
   m.braking = read_braking(file.table("braking"));
   if (m.braking.reach.back() < reach + kRoundingRoom)
     file.fail("braking.reach_m", fmt::format("the last row ends at {}, the implements reach {}", m.braking.reach.back(), reach));
+  check_stops(file, m);
   if (file.has("response")) m.response = read_response(file.table("response"), kJointNames);
   for (auto& part : file.tables("part")) m.part.push_back(read_part(std::move(part)));
   if (m.part.empty() || m.part.size() > BERM_PARTS) file.fail("part", fmt::format("{} parts, 1 to {} are taken", m.part.size(), BERM_PARTS));
@@ -253,6 +275,8 @@ MachineFile load_machine_file(const std::string& path) {
   m.tail = read_tail(file.table("tail"), m.own_body_radius, m.kernel.fresh);
   m.workspace = read_workspace(file.table("workspace"), m.own_body_radius);
   m.sight = read_sight(file.table("sight"));
+  if (m.kernel.cycle > m.state_latency) file.fail("kernel.cycle", fmt::format("{} is above latency.state, {}", m.kernel.cycle, m.state_latency));
+  if (m.kernel.cycle > m.command_latency) file.fail("kernel.cycle", fmt::format("{} is above latency.command, {}", m.kernel.cycle, m.command_latency));
   if (m.kernel.dig_swing_limit > m.joint[0].velocity_max) file.fail("kernel.dig_swing_limit_deg_s", "above joint.swing.velocity_max_deg_s");
   file.finish();
   return m;

@@ -7,6 +7,7 @@
 #include "parameter_rectangle.h"
 #include "parameter_tail.h"
 #include "parameter_sight.h"
+#include "parameter_stops.h"
 #include "parameter_workspace.h"
 
 /*@ requires \valid_read(v + (0 .. SK_JOINTS - 1));
@@ -95,12 +96,14 @@ static bool creep_within(const berm_parameters *p)
 {
   int32_t k;
   /*@ loop invariant 0 <= k <= SK_JOINTS;
-    @ loop invariant \forall integer j; 0 <= j < k ==> sk_within(p->creep_velocity_urad_s[j], 0, p->velocity_max_urad_s[j]);
+    @ loop invariant \forall integer j; 0 <= j < k ==>
+    @   sk_within(p->creep_velocity_urad_s[j], 0, p->velocity_max_urad_s[j]) && p->creep_velocity_urad_s[j] <= SK_SLOW_MAX_URAD_S;
     @ loop assigns k;
     @ loop variant SK_JOINTS - k;
     @*/
   for (k = 0; k < SK_JOINTS; k++) {
     if (!sk_is_within(p->creep_velocity_urad_s[k], 0, p->velocity_max_urad_s[k])) { return false; }
+    if (p->creep_velocity_urad_s[k] > SK_SLOW_MAX_URAD_S) { return false; }
   }
   return true;
 }
@@ -124,10 +127,10 @@ static int32_t check_joints(const berm_parameters *p)
   if (!joints_within(p->velocity_max_urad_s, 1000, 4000000)) { return SK_RULE_VELOCITY_MAX; }
   if (!joints_within(p->acceleration_max_urad_s2, 1000, 50000000)) { return SK_RULE_ACCELERATION_MAX; }
   if (!creep_within(p)) { return SK_RULE_CREEP_VELOCITY; }
-  if (!joints_within(p->angle_error_urad, 0, 100000)) { return SK_RULE_ANGLE_ERROR; }
-  if (!joints_within(p->velocity_error_urad_s, 0, 200000)) { return SK_RULE_VELOCITY_ERROR; }
-  if (!sk_is_within(p->state_latency_us, 0, 500000)) { return SK_RULE_STATE_LATENCY; }
-  if (!sk_is_within(p->command_latency_us, 0, 1000000)) { return SK_RULE_COMMAND_LATENCY; }
+  if (!joints_within(p->angle_error_urad, 200, 100000)) { return SK_RULE_ANGLE_ERROR; }
+  if (!joints_within(p->velocity_error_urad_s, 100, 200000)) { return SK_RULE_VELOCITY_ERROR; }
+  if (!sk_is_within(p->state_latency_us, 1000, 500000)) { return SK_RULE_STATE_LATENCY; }
+  if (!sk_is_within(p->command_latency_us, 1000, 1000000)) { return SK_RULE_COMMAND_LATENCY; }
   return SK_RULE_NONE;
 }
 
@@ -242,14 +245,24 @@ static bool zone_heights_ok(const berm_parameters *p)
   @*/
 static int32_t check_map(const berm_parameters *p)
 {
-  if (!sk_is_within(p->margin_mm, 0, 3000)) { return SK_RULE_MARGIN; }
+  if (!sk_is_within(p->margin_mm, 100, 3000)) { return SK_RULE_MARGIN; }
   if (!sk_is_within(p->fresh_us, 1, 600000000)) { return SK_RULE_FRESH; }
   if (!sk_is_within(p->generation_us, 1, p->fresh_us)) { return SK_RULE_GENERATION; }
   if (!sk_is_within(p->dig_swing_limit_urad_s, 0, p->velocity_max_urad_s[0])) { return SK_RULE_DIG_SWING_LIMIT; }
+  if (p->dig_swing_limit_urad_s > SK_SLOW_MAX_URAD_S) { return SK_RULE_DIG_SWING_LIMIT; }
   if (!sk_is_within(p->dig_zones, 0, BERM_DIG_ZONES)) { return SK_RULE_DIG_ZONE_COUNT; }
   if (!zones_bounds_ok(p)) { return SK_RULE_DIG_ZONE_BOUNDS; }
   if (!zone_heights_ok(p)) { return SK_RULE_DIG_ZONE_HEIGHTS; }
   return SK_RULE_NONE;
+}
+
+/*@ requires \valid_read(p);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_rule_cycle(p);
+  @*/
+static bool cycle_ok(const berm_parameters *p)
+{
+  return sk_is_within(p->cycle_us, 1000, 20000) && p->cycle_us <= p->state_latency_us && p->cycle_us <= p->command_latency_us;
 }
 
 /*@ requires \valid_read(p);
@@ -274,7 +287,7 @@ static int32_t check_times(const berm_parameters *p)
   if (!sk_is_within(p->state_frame_age_us, 1, 500000)) { return SK_RULE_STATE_FRAME_AGE; }
   if (!sk_is_within(p->machine_state_age_us, 1, 1000000)) { return SK_RULE_MACHINE_STATE_AGE; }
   if (!sk_is_within(p->operator_age_us, 1, 1000000)) { return SK_RULE_OPERATOR_AGE; }
-  if (!sk_is_within(p->cycle_us, 1000, 100000)) { return SK_RULE_CYCLE; }
+  if (!cycle_ok(p)) { return SK_RULE_CYCLE; }
   if (!sk_is_within(p->standstill_urad_s, 1, 100000)) { return SK_RULE_STANDSTILL_SPEED; }
   if (!sk_is_within(p->standstill_us, 1, 2000000)) { return SK_RULE_STANDSTILL_TIME; }
   return SK_RULE_NONE;
@@ -314,5 +327,6 @@ int32_t sk_parameters_check(const berm_parameters *p)
   if (rule == SK_RULE_NONE) { rule = sk_check_lidars(p); }
   if (rule == SK_RULE_NONE) { rule = sk_check_workspace(p); }
   if (rule == SK_RULE_NONE) { rule = sk_check_sight(p); }
+  if (rule == SK_RULE_NONE) { rule = sk_check_stops(p); }
   return rule;
 }

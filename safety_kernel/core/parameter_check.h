@@ -105,6 +105,8 @@ SK_BEGIN
   @ ensures why_dust_stop: \result == SK_RULE_DUST_STOP ==> !sk_rule_dust_stop(p);
   @ ensures why_dust_speed: \result == SK_RULE_DUST_SPEED ==> !sk_rule_dust_speed(p);
   @ ensures why_dust_dwell: \result == SK_RULE_DUST_DWELL ==> !sk_rule_dust_dwell(p);
+  @ ensures why_stop_angle: \result == SK_RULE_STOP_ANGLE ==> !sk_rule_stop_angle(p);
+  @ ensures why_stop_time: \result == SK_RULE_STOP_TIME ==> !sk_rule_stop_time(p);
   @*/
 int32_t sk_parameters_check(const berm_parameters *p);
 

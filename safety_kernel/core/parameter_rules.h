@@ -37,8 +37,12 @@ enum {
   SK_RULE_SEPARATION_MODE = 86, SK_RULE_SEPARATION_APPROACH = 87, SK_RULE_SEPARATION_INTRUSION = 88, SK_RULE_WORKSPACE_LIDAR_TIMES = 89,
   SK_RULE_WORKSPACE_HISTOGRAM = 90,
   SK_RULE_SIGHT_BLIND = 91, SK_RULE_DUST_SLOW = 92, SK_RULE_DUST_STOP = 93, SK_RULE_DUST_SPEED = 94, SK_RULE_DUST_DWELL = 95,
-  SK_RULES = 96
+  SK_RULE_STOP_ANGLE = 96, SK_RULE_STOP_TIME = 97,
+  SK_RULES = 98
 };
+
+#define SK_SLOW_MAX_URAD_S 261799 /* 15 deg/s: recovery motion, and the swing in contact with soil */
+#define SK_BRAKE_SHARE 4          /* no joint brakes harder than with so many times its largest acceleration */
 
 /*@ predicate sk_within(integer v, integer low, integer high) = low <= v <= high;
   @
@@ -62,7 +66,7 @@ enum {
   @   sk_rule_boom_pin_x(p) && sk_rule_boom_pin_z(p) && sk_rule_boom_length(p) && sk_rule_stick_length(p) && sk_rule_bucket_length(p) &&
   @   sk_rule_total_reach(p) && sk_rule_own_body_radius(p);
   @
-  @ // joints
+  @ // joints; what the frames round alone is an error of half a step: 200 urad, 100 urad/s (berm_can.h)
   @ logic integer sk_joint_limit(integer j) = j == 0 ? 6283186 : 3141593;
   @ predicate sk_rule_joint_range(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==>
   @   -sk_joint_limit(j) <= p->joint_low_urad[j] < p->joint_high_urad[j] <= sk_joint_limit(j);
@@ -70,11 +74,11 @@ enum {
   @ predicate sk_rule_acceleration_max(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==>
   @   sk_within(p->acceleration_max_urad_s2[j], 1000, 50000000);
   @ predicate sk_rule_creep_velocity(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==>
-  @   sk_within(p->creep_velocity_urad_s[j], 0, p->velocity_max_urad_s[j]);
-  @ predicate sk_rule_angle_error(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==> sk_within(p->angle_error_urad[j], 0, 100000);
-  @ predicate sk_rule_velocity_error(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==> sk_within(p->velocity_error_urad_s[j], 0, 200000);
-  @ predicate sk_rule_state_latency(berm_parameters *p) = sk_within(p->state_latency_us, 0, 500000);
-  @ predicate sk_rule_command_latency(berm_parameters *p) = sk_within(p->command_latency_us, 0, 1000000);
+  @   sk_within(p->creep_velocity_urad_s[j], 0, p->velocity_max_urad_s[j]) && p->creep_velocity_urad_s[j] <= SK_SLOW_MAX_URAD_S;
+  @ predicate sk_rule_angle_error(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==> sk_within(p->angle_error_urad[j], 200, 100000);
+  @ predicate sk_rule_velocity_error(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==> sk_within(p->velocity_error_urad_s[j], 100, 200000);
+  @ predicate sk_rule_state_latency(berm_parameters *p) = sk_within(p->state_latency_us, 1000, 500000);
+  @ predicate sk_rule_command_latency(berm_parameters *p) = sk_within(p->command_latency_us, 1000, 1000000);
   @ predicate sk_joints_ok(berm_parameters *p) =
   @   sk_rule_joint_range(p) && sk_rule_velocity_max(p) && sk_rule_acceleration_max(p) && sk_rule_creep_velocity(p) &&
   @   sk_rule_angle_error(p) && sk_rule_velocity_error(p) && sk_rule_state_latency(p) && sk_rule_command_latency(p);
@@ -154,10 +158,11 @@ enum {
   @   -15000 <= x_low < x_high <= 15000 && -15000 <= y_low < y_high <= 15000;
   @ predicate sk_zone_bounds_ok(berm_dig_zone *z) = sk_rectangle_ok(z->x_low_mm, z->y_low_mm, z->x_high_mm, z->y_high_mm);
   @ predicate sk_zone_heights_ok(berm_dig_zone *z) = -SK_HEIGHT_MAX_MM <= z->floor_mm < z->ceiling_mm <= SK_HEIGHT_MAX_MM;
-  @ predicate sk_rule_margin(berm_parameters *p) = sk_within(p->margin_mm, 0, 3000);
+  @ predicate sk_rule_margin(berm_parameters *p) = sk_within(p->margin_mm, 100, 3000);
   @ predicate sk_rule_fresh(berm_parameters *p) = sk_within(p->fresh_us, 1, 600000000);
   @ predicate sk_rule_generation(berm_parameters *p) = sk_within(p->generation_us, 1, p->fresh_us);
-  @ predicate sk_rule_dig_swing_limit(berm_parameters *p) = sk_within(p->dig_swing_limit_urad_s, 0, p->velocity_max_urad_s[0]);
+  @ predicate sk_rule_dig_swing_limit(berm_parameters *p) =
+  @   sk_within(p->dig_swing_limit_urad_s, 0, p->velocity_max_urad_s[0]) && p->dig_swing_limit_urad_s <= SK_SLOW_MAX_URAD_S;
   @ predicate sk_rule_dig_zone_count(berm_parameters *p) = sk_within(p->dig_zones, 0, BERM_DIG_ZONES);
   @ predicate sk_rule_dig_zone_bounds(berm_parameters *p) = \forall integer i; 0 <= i < p->dig_zones ==> sk_zone_bounds_ok(&p->dig_zone[i]);
   @ predicate sk_rule_dig_zone_heights(berm_parameters *p) = \forall integer i; 0 <= i < p->dig_zones ==> sk_zone_heights_ok(&p->dig_zone[i]);
@@ -165,14 +170,16 @@ enum {
   @   sk_rule_margin(p) && sk_rule_fresh(p) && sk_rule_generation(p) && sk_rule_dig_swing_limit(p) && sk_rule_dig_zone_count(p) &&
   @   sk_rule_dig_zone_bounds(p) && sk_rule_dig_zone_heights(p);
   @
-  @ // times; hold within 50 ms and latched stop within 500 ms are promised, so nobody may configure more
+  @ // times; hold within 50 ms and latched stop within 500 ms are promised, so nobody may configure more; a cycle 20 ms after the last counts as late,
+  @ // and neither latency is shorter than a cycle
   @ predicate sk_rule_request_age(berm_parameters *p) = sk_within(p->request_age_us, 1, 500000);
   @ predicate sk_rule_request_hold(berm_parameters *p) = sk_within(p->request_hold_us, 1, 50000);
   @ predicate sk_rule_request_silent(berm_parameters *p) = sk_within(p->request_silent_us, p->request_hold_us, 500000);
   @ predicate sk_rule_state_frame_age(berm_parameters *p) = sk_within(p->state_frame_age_us, 1, 500000);
   @ predicate sk_rule_machine_state_age(berm_parameters *p) = sk_within(p->machine_state_age_us, 1, 1000000);
   @ predicate sk_rule_operator_age(berm_parameters *p) = sk_within(p->operator_age_us, 1, 1000000);
-  @ predicate sk_rule_cycle(berm_parameters *p) = sk_within(p->cycle_us, 1000, 100000);
+  @ predicate sk_rule_cycle(berm_parameters *p) =
+  @   sk_within(p->cycle_us, 1000, 20000) && p->cycle_us <= p->state_latency_us && p->cycle_us <= p->command_latency_us;
   @ predicate sk_rule_standstill_speed(berm_parameters *p) = sk_within(p->standstill_urad_s, 1, 100000);
   @ predicate sk_rule_standstill_time(berm_parameters *p) = sk_within(p->standstill_us, 1, 2000000);
   @ predicate sk_times_ok(berm_parameters *p) =
@@ -257,9 +264,27 @@ enum {
   @ predicate sk_sight_ok(berm_parameters *p) =
   @   sk_rule_sight_blind(p) && sk_rule_dust_slow(p) && sk_rule_dust_stop(p) && sk_rule_dust_speed(p) && sk_rule_dust_dwell(p);
   @
+  @ // the shortest stops: a column's speed is k/7 of the largest, and no joint brakes harder than with SK_BRAKE_SHARE times its largest acceleration a, so
+  @ // way >= speed^2 / (2 SK_BRAKE_SHARE a) and time >= speed / (SK_BRAKE_SHARE a); both are above 0 in every column but the first
+  @ predicate sk_way_possible(integer k, integer velocity, integer a, integer angle) =
+  @   (k * velocity) * (k * velocity) <= (98 * SK_BRAKE_SHARE) * (a * angle);
+  @ predicate sk_time_possible(integer k, integer velocity, integer a, integer time) = 1000000 * (k * velocity) <= (7 * SK_BRAKE_SHARE) * (a * time);
+  @ predicate sk_row_ways(int32_t *row, integer velocity, integer a) = \forall integer c; 0 <= c < BERM_BRAKE_SPEEDS ==>
+  @   sk_way_possible(c, velocity, a, row[c]);
+  @ predicate sk_row_times(int32_t *row, integer velocity, integer a) = \forall integer c; 0 <= c < BERM_BRAKE_SPEEDS ==>
+  @   sk_time_possible(c, velocity, a, row[c]);
+  @ predicate sk_joint_ways(berm_parameters *p, integer j) = \forall integer r; 0 <= r < BERM_BRAKE_REACHES ==>
+  @   sk_row_ways(&p->brake_angle_urad[j][r][0], p->velocity_max_urad_s[j], p->acceleration_max_urad_s2[j]);
+  @ predicate sk_joint_times(berm_parameters *p, integer j) = \forall integer r; 0 <= r < BERM_BRAKE_REACHES ==>
+  @   sk_row_times(&p->brake_time_us[j][r][0], p->velocity_max_urad_s[j], p->acceleration_max_urad_s2[j]);
+  @ predicate sk_rule_stop_angle(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==> sk_joint_ways(p, j);
+  @ predicate sk_rule_stop_time(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==> sk_joint_times(p, j);
+  @ predicate sk_stops_ok(berm_parameters *p) = sk_rule_stop_angle(p) && sk_rule_stop_time(p);
+  @
   @ predicate sk_parameters_ok(berm_parameters *p) =
   @   sk_head_ok(p) && sk_kinematics_ok(p) && sk_joints_ok(p) && sk_braking_ok(p) && sk_parts_ok(p) && sk_sensors_ok(p) && sk_map_rules_ok(p) &&
-  @   sk_times_ok(p) && sk_base_ok(p) && sk_overpass_ok(p) && sk_tail_ok(p) && sk_lidars_ok(p) && sk_workspace_ok(p) && sk_sight_ok(p);
+  @   sk_times_ok(p) && sk_base_ok(p) && sk_overpass_ok(p) && sk_tail_ok(p) && sk_lidars_ok(p) && sk_workspace_ok(p) && sk_sight_ok(p) &&
+  @   sk_stops_ok(p);
   @*/
 
 SK_END

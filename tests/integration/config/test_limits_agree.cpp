@@ -24,6 +24,49 @@ TEST(LimitsAgree, TheDefaultsPassTheKernelsCheck) {
   }
 }
 
+// At the very ends of ranges by which a block could void the guarantees.
+// verifies: IF-CF-7
+TEST(LimitsAgree, TheEndsOfTheRangesPassTheKernelsCheck) {
+  const Scratch scratch;
+  for (const auto& [from, to] : {std::pair{"\nmargin = 0.30", "\nmargin = 0.1"}, std::pair{"cycle = 0.01", "cycle = 0.02"}, std::pair{"cycle = 0.01", "cycle = 0.001"},
+                                 std::pair{"state = 0.02", "state = 0.01"}, std::pair{"command = 0.09", "command = 0.01"},
+                                 std::pair{"angle_error_deg = 0.15", "angle_error_deg = 0.02"}, std::pair{"velocity_error_deg_s = 0.3", "velocity_error_deg_s = 0.01"},
+                                 std::pair{"creep_deg_s = 3.0", "creep_deg_s = 15.0"}, std::pair{"dig_swing_limit_deg_s = 6.0", "dig_swing_limit_deg_s = 15.0"}}) {
+    const std::string path = scratch.write("edited.toml", replaced(read_text(machine_path()), from, to));
+    const berm_parameters p = compile_parameters(load_machine_file(path), load_site_file(site_path()));
+    EXPECT_EQ(sk_parameters_check(&p), SK_RULE_NONE) << to;
+  }
+}
+
+// verifies: IF-CF-7, IF-CF-25
+TEST(LimitsAgree, TheShortestStopsTakenPassTheKernelsCheck) {
+  const Scratch scratch;
+  const std::string good = read_text(machine_path());
+  for (const char* measured : {"0.41", "0.8", "3.21", "4.64"}) {
+    const auto with = [&](double acceleration) {
+      char value[40];
+      std::snprintf(value, sizeof value, "%.12f", acceleration);
+      const std::string key = "acceleration_max_rad_s2 = ";
+      return scratch.write("edited.toml", replaced(good, key + measured, key + value));
+    };
+    double refused = 0.01, taken = std::stod(measured);
+    for (int i = 0; i < 50; ++i) {
+      const double middle = 0.5 * (refused + taken);
+      try {
+        load_machine_file(with(middle));
+        taken = middle;
+      } catch (const ConfigError& error) {
+        EXPECT_NE(std::string(error.what()).find("a stop at 4 times acceleration_max_rad_s2"), std::string::npos) << error.what();
+        refused = middle;
+      }
+    }
+    EXPECT_LT(taken, 0.5 * std::stod(measured)) << "a table that was measured is far from it";
+    EXPECT_GT(taken, 0.02);
+    const berm_parameters p = compile_parameters(load_machine_file(with(taken)), load_site_file(site_path()));
+    EXPECT_EQ(sk_parameters_check(&p), SK_RULE_NONE) << taken;
+  }
+}
+
 // Replaces the number at a place by one that is near, far, at a round limit, or nonsense.
 double strange(double value, std::mt19937_64& random) {
   static constexpr double kSpecial[] = {0.0, 1e-9, 0.001, 0.01, 0.05, 0.1, 0.3, 0.5, 1.0, 3.0, 5.0, 6.0, 8.0, 10.0, 12.0, 15.0, 60.0, 120.0, 180.0, 200.0, 360.0, 1e6};

@@ -84,7 +84,7 @@ TEST(MachineFileTest, TheOneWithLidarsAllRoundWatchesItsWorkspace) {
   }
 }
 
-// verifies: IF-CF-1, IF-CF-2, IF-CF-6, IF-CF-7
+// verifies: IF-CF-1, IF-CF-2, IF-CF-6, IF-CF-7, IF-CF-25
 TEST(MachineFileTest, EachBadInputGivesOneLineWithFileFieldAndLimit) {
   const Scratch scratch;
   const std::string good = read_text(machine_path());

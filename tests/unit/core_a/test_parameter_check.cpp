@@ -38,18 +38,18 @@ std::vector<Limit> limits(const berm_parameters& ok) {
       limit(SK_RULE_STICK_LENGTH, 500, 8000, FIELD(stick_length_mm)),
       limit(SK_RULE_BUCKET_LENGTH, 300, 4000, FIELD(bucket_length_mm)),
       limit(SK_RULE_OWN_BODY_RADIUS, 500, 6000, FIELD(own_body_radius_mm)),
-      limit(SK_RULE_STATE_LATENCY, 0, 500000, FIELD(state_latency_us)),
-      limit(SK_RULE_COMMAND_LATENCY, 0, 1000000, FIELD(command_latency_us)),
+      limit(SK_RULE_STATE_LATENCY, 1000, 500000, FIELD(state_latency_us)),
+      limit(SK_RULE_COMMAND_LATENCY, 1000, 1000000, FIELD(command_latency_us)),
       limit(SK_RULE_PART_COUNT, 1, BERM_PARTS, FIELD(parts)),
       limit(SK_RULE_SCANNER_SILENT, 1000, 5000000, FIELD(scanner_silent_us)),
       limit(SK_RULE_SPURIOUS_RANGE, 1, 100000, FIELD(spurious_range_mm)),
       limit(SK_RULE_RANGE_LIMITS, 0, ok.range_max_mm - 1, FIELD(range_min_mm)),
       limit(SK_RULE_RANGE_LIMITS, ok.range_min_mm + 1, 262140, FIELD(range_max_mm)),
       limit(SK_RULE_SELF_MARGIN, 0, 2000, FIELD(self_margin_mm)),
-      limit(SK_RULE_MARGIN, 0, 3000, FIELD(margin_mm)),
+      limit(SK_RULE_MARGIN, 100, 3000, FIELD(margin_mm)),
       limit(SK_RULE_FRESH, 1, 600000000, FIELD(fresh_us)),
       limit(SK_RULE_GENERATION, 1, ok.fresh_us, FIELD(generation_us)),
-      limit(SK_RULE_DIG_SWING_LIMIT, 0, ok.velocity_max_urad_s[0], FIELD(dig_swing_limit_urad_s)),
+      limit(SK_RULE_DIG_SWING_LIMIT, 0, 261799, FIELD(dig_swing_limit_urad_s)),
       limit(SK_RULE_DIG_ZONE_COUNT, 0, BERM_DIG_ZONES, FIELD(dig_zones)),
       limit(SK_RULE_REQUEST_AGE, 1, 500000, FIELD(request_age_us)),
       limit(SK_RULE_REQUEST_HOLD, 1, 50000, FIELD(request_hold_us)),
@@ -57,7 +57,7 @@ std::vector<Limit> limits(const berm_parameters& ok) {
       limit(SK_RULE_STATE_FRAME_AGE, 1, 500000, FIELD(state_frame_age_us)),
       limit(SK_RULE_MACHINE_STATE_AGE, 1, 1000000, FIELD(machine_state_age_us)),
       limit(SK_RULE_OPERATOR_AGE, 1, 1000000, FIELD(operator_age_us)),
-      limit(SK_RULE_CYCLE, 1000, 100000, FIELD(cycle_us)),
+      limit(SK_RULE_CYCLE, 1000, 20000, FIELD(cycle_us)),
       limit(SK_RULE_STANDSTILL_SPEED, 1, 100000, FIELD(standstill_urad_s)),
       limit(SK_RULE_STANDSTILL_TIME, 1, 2000000, FIELD(standstill_us)),
       limit(SK_RULE_BASE_TILT, 1000, 35000, FIELD(base_tilt_urad)),
@@ -108,9 +108,9 @@ std::vector<Limit> limits(const berm_parameters& ok) {
     add(SK_RULE_JOINT_RANGE, ok.joint_low_urad[j] + 1, bound, "joint_high_urad", &berm_parameters::joint_high_urad);
     add(SK_RULE_VELOCITY_MAX, 1000, 4000000, "velocity_max_urad_s", &berm_parameters::velocity_max_urad_s);
     add(SK_RULE_ACCELERATION_MAX, 1000, 50000000, "acceleration_max_urad_s2", &berm_parameters::acceleration_max_urad_s2);
-    add(SK_RULE_CREEP_VELOCITY, 0, ok.velocity_max_urad_s[j], "creep_velocity_urad_s", &berm_parameters::creep_velocity_urad_s);
-    add(SK_RULE_ANGLE_ERROR, 0, 100000, "angle_error_urad", &berm_parameters::angle_error_urad);
-    add(SK_RULE_VELOCITY_ERROR, 0, 200000, "velocity_error_urad_s", &berm_parameters::velocity_error_urad_s);
+    add(SK_RULE_CREEP_VELOCITY, 0, 261799, "creep_velocity_urad_s", &berm_parameters::creep_velocity_urad_s);
+    add(SK_RULE_ANGLE_ERROR, 200, 100000, "angle_error_urad", &berm_parameters::angle_error_urad);
+    add(SK_RULE_VELOCITY_ERROR, 100, 200000, "velocity_error_urad_s", &berm_parameters::velocity_error_urad_s);
   }
   for (int i = 0; i < BERM_SCANNER_MOUNTS; ++i) {
     const auto add = [&](std::int32_t rule, std::int32_t low, std::int32_t high, const char* name, std::int32_t berm_scanner_mount::*member) {
