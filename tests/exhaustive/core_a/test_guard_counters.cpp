@@ -20,7 +20,7 @@ sk_guard_state primed(std::uint8_t last) {
   return s;
 }
 
-// verifies: SK-FG-4, SK-FG-8
+// verifies: SK-FG-4, SK-FG-8, IF-CAN-21 (the kernel: a jump is refused)
 TEST(GuardCounters, EveryPair) {
   const berm_can_frame frame = message();
   for (int counter = 0; counter < 256; ++counter) {

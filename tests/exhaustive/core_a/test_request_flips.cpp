@@ -29,7 +29,7 @@ class RequestFlips : public testing::Test {
   const RequestBytes valid = sealed(valid_request());
 };
 
-// verifies: SK-RQ-1, SK-RQ-2, SK-RQ-9, SK-RQ-12
+// verifies: SK-RQ-1, SK-RQ-2, SK-RQ-9, SK-RQ-12, IF-CT-9, IF-CT-11 (that nothing changes)
 TEST_F(RequestFlips, Single) {
   ASSERT_FALSE(refused(valid, BERM_REQUEST_CRC));
   for (int bit = 0; bit < kBits; ++bit) {
@@ -39,7 +39,7 @@ TEST_F(RequestFlips, Single) {
   }
 }
 
-// verifies: SK-RQ-1, SK-RQ-2, SK-RQ-9, SK-RQ-12
+// verifies: SK-RQ-1, SK-RQ-2, SK-RQ-9, SK-RQ-12, IF-CT-8 (the kernel: bytes that are not whole), IF-CT-9
 TEST_F(RequestFlips, Double) {
   for (int a = 0; a < kBits; ++a) {
     RequestBytes once = valid;

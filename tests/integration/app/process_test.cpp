@@ -137,6 +137,8 @@ protected:
   berm_request_segment* request_ = nullptr;
 };
 
+// verifies: IF-CT-8 (the app: the guard is even, the request whole), IF-CT-9, IF-CT-18 (a reader),
+// IF-CT-26 (each cycle once, request before tick)
 TEST_F(AppProcess, AnswersEachCycleOnceWithAValidRequest) {
   start();
   app_bench::BenchMachine plant(app_bench::zx200(), {0.0, radians(45.0), radians(-100.0), radians(-100.0)}, 3);
@@ -224,18 +226,21 @@ TEST_F(AppProcess, EndsWhenTheKernelIsGone) {
   EXPECT_NE(text("out").find("kernel gone"), std::string::npos);
 }
 
+// verifies: IF-CT-25 (the seal)
 TEST_F(AppProcess, RefusesASegmentThatCouldShrink) {
   start(false);
   EXPECT_EQ(wait_for_end(), 1);
   EXPECT_NE(text("err").find("not sealed against shrinking"), std::string::npos);
 }
 
+// verifies: IF-CT-25 (the sizes)
 TEST_F(AppProcess, RefusesAnotherLayout) {
   start(true, sizeof(berm_state_segment) + 8);
   EXPECT_EQ(wait_for_end(), 1);
   EXPECT_NE(text("err").find("state segment"), std::string::npos);
 }
 
+// verifies: IF-CT-23 (the reason reaches the peer)
 TEST_F(AppProcess, SaysWhyItWasRefused) {
   start(true, sizeof(berm_state_segment), 0);
   EXPECT_EQ(wait_for_end(), 1);

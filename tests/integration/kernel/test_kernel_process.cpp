@@ -68,7 +68,7 @@ TEST_F(KernelLockstep, ReachesStandbyThenRunAndMovesTheBoom) {
   std::printf("%s", report.c_str());
 }
 
-// verifies: SK-CY-10
+// verifies: SK-CY-10, IF-CT-13
 TEST_F(KernelLockstep, AppSilenceIsHeldWithinFiftyMillisecondsAndLatchedWithinFiveHundred) {
   run();
   for (int i = 0; i < 20; ++i) ASSERT_TRUE(kernel.step_with(*app, kBoomUp));
@@ -152,7 +152,7 @@ TEST_F(KernelLockstep, UnknownGroundIsBlocked) {
   EXPECT_EQ(app->state()->state.stop_reason, BERM_STOP_UNKNOWN_GROUND);
 }
 
-// verifies: SK-CY-70
+// verifies: SK-CY-70, IF-CT-5 (the seals), IF-CT-6
 TEST_F(KernelLockstep, TheAppCannotWriteTheStateSegmentNorResizeAny) {
   EXPECT_EQ(mmap(nullptr, sizeof(berm_state_segment), PROT_READ | PROT_WRITE, MAP_SHARED, app->state_fd(), 0), MAP_FAILED);
   EXPECT_EQ(ftruncate(app->state_fd(), 16), -1);
@@ -162,7 +162,7 @@ TEST_F(KernelLockstep, TheAppCannotWriteTheStateSegmentNorResizeAny) {
   EXPECT_EQ(pwrite(app->state_fd(), &byte, 1, 0), -1);
 }
 
-// verifies: SK-CY-71
+// verifies: SK-CY-71, IF-CT-23 (a recorder)
 TEST_F(KernelLockstep, ARecorderSeesDecisionsAndGetsNoRequestSegment) {
   Peer recorder(kernel.socket_path(), BERM_ROLE_RECORDER);
   steps(1);

@@ -26,6 +26,7 @@ struct Published {
   std::unique_ptr<berm_state_segment> at;
 };
 
+// verifies: IF-CT-17 (a height that is UNKNOWN means nothing)
 TEST(KernelMap, SaysWhatTheKernelWillCheck) {
   Published published;
   published.cell(5.0, 2.0, BERM_CELL_OBSERVED, 700);

@@ -62,6 +62,7 @@ TEST(MachineHistory, ATimeThatDoesNotRiseOrIsNoneIsLeftOut) {
   EXPECT_NEAR(history.at(20'000'000)->angle[swing], 0.1, 1e-12);
 }
 
+// verifies: IF-CT-16 (a reader)
 TEST(MachineHistory, TakesEveryCycleThatTheRingStillHas) {
   const double rate = 0.5;
   drawn::Segment segment([&](double t) { return Joints{rate * t, 0.0, 0.0, 0.0}; });

@@ -58,6 +58,7 @@ TEST(ScanIntake, ABlockWaitsForTheStateAfterIt) {
   EXPECT_EQ(b.intake.counts().blocks_refused, 0u);
 }
 
+// verifies: IF-CT-15 (a reader: a block that is being written)
 TEST(ScanIntake, ATornBlockIsLeftOut) {
   Bench b;
   b.segment.publish(b.ground(-1.0, 1, 2'000'000));
@@ -66,6 +67,7 @@ TEST(ScanIntake, ATornBlockIsLeftOut) {
   EXPECT_EQ(b.intake.counts().blocks_missed, 1u);
 }
 
+// verifies: IF-CT-15 (a reader: what was overwritten)
 TEST(ScanIntake, CountsWhatWasOverwritten) {
   Bench b;
   b.segment.publish(b.ground(-1.0, 1, 2'000'000));

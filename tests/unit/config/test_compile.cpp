@@ -243,7 +243,16 @@ TEST(Compile, EveryFieldIsRoundedToTheSafeSide) {
   }
 }
 
-// So that a table measured anew reaches all files. verifies: IF-CF-17, IF-CF-18
+// verifies: IF-CF-21 (none of it reaches the kernel)
+TEST(Compile, WhatTheCylindersAreLikeIsNotInTheBlock) {
+  Default d;
+  const berm_parameters before = compile_parameters(d.machine, d.site);
+  for (CylinderFile& c : d.machine.cylinder) std::swap(c.bottom, c.rod), c.bottom += 1.0;
+  const berm_parameters after = compile_parameters(d.machine, d.site);
+  EXPECT_EQ(std::memcmp(&after, &before, sizeof before), 0);
+}
+
+// So that a table measured anew reaches all files.
 TEST(Compile, TheMachinesWithLidarsAreTheSameButForThemAndWhatTheyWatch) {
   const Default d;
   const berm_parameters plain = compile_parameters(d.machine, d.site);

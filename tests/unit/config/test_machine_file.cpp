@@ -54,7 +54,7 @@ TEST(MachineFileTest, JointModelsAreThereOrNot) {
   EXPECT_FALSE(load_machine_file(scratch.write("machine.toml", text)).response);
 }
 
-// verifies: IF-CF-5, IF-CF-17
+// verifies: IF-CF-5
 TEST(MachineFileTest, TheOneWithLidarsWatchesItsTail) {
   EXPECT_FALSE(load_machine_file(machine_path()).tail.watched);
   EXPECT_TRUE(load_machine_file(machine_path()).lidar.empty());
@@ -67,7 +67,7 @@ TEST(MachineFileTest, TheOneWithLidarsWatchesItsTail) {
   EXPECT_DOUBLE_EQ(m.lidar[1].yaw, -145.0 * kPi / 180.0);
 }
 
-// verifies: IF-CF-5, IF-CF-18
+// verifies: IF-CF-5
 TEST(MachineFileTest, TheOneWithLidarsAllRoundWatchesItsWorkspace) {
   EXPECT_FALSE(load_machine_file(machine_path()).workspace.watched);
   const MachineFile m = load_machine_file(BERM_CONFIG_FILES "/machines/zx200_ring.toml");

@@ -22,7 +22,7 @@ TEST(ContractValues, JointOrder) {
   EXPECT_EQ(BERM_BUCKET, 3);
 }
 
-// verifies: IF-CT-9
+// verifies: IF-CT-9 (its place)
 TEST(ContractValues, TheCrcCoversAllBytesBeforeIt) {
   EXPECT_EQ(offsetof(berm_request, crc32), 60u);
   EXPECT_EQ(offsetof(berm_request_segment, request), 64u) << "a cache line away from the lock";

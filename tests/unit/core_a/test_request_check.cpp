@@ -39,7 +39,7 @@ class RequestCheck : public testing::Test {
   sk_request out{};
 };
 
-// verifies: SK-RQ-10, SK-RQ-11
+// verifies: SK-RQ-10, SK-RQ-11, IF-CT-10
 TEST_F(RequestCheck, AcceptsAndDecodes) {
   const berm_request r = valid_request();
   ASSERT_EQ(check(sealed(r)), BERM_REQUEST_ACCEPTED);
@@ -57,7 +57,7 @@ TEST_F(RequestCheck, AcceptsAndDecodes) {
   EXPECT_EQ(state.last_accept_us, kNow);
 }
 
-// verifies: SK-RQ-1, SK-RQ-9
+// verifies: SK-RQ-1, SK-RQ-9, IF-CT-10 (magic, version)
 TEST_F(RequestCheck, MagicAndVersion) {
   EXPECT_EQ(check_changed([](berm_request& r) { r.magic += 1; }), BERM_REQUEST_MAGIC);
   EXPECT_EQ(check_changed([](berm_request& r) { r.version += 1; }), BERM_REQUEST_VERSION);
@@ -73,7 +73,7 @@ TEST_F(RequestCheck, SameSequenceIsNothingNew) {
   EXPECT_EQ(check(raw, kNow + 10'000'000), BERM_REQUEST_NONE);
 }
 
-// verifies: SK-RQ-3, SK-RQ-4
+// verifies: SK-RQ-3, SK-RQ-4, IF-CT-10 (the sequence)
 TEST_F(RequestCheck, SequenceGap) {
   for (const std::uint32_t last : {0u, 1u, 0x7FFFFFFFu, 0x80000000u, 0xFFFFFC17u, 0xFFFFFFFFu}) {
     for (std::int64_t gap = -5000; gap <= 5000; ++gap) {
@@ -86,7 +86,7 @@ TEST_F(RequestCheck, SequenceGap) {
   }
 }
 
-// verifies: SK-RQ-3
+// verifies: SK-RQ-3, IF-CT-10 (the first sequence)
 TEST_F(RequestCheck, FirstRequestMayHaveAnySequence) {
   for (const std::uint32_t sequence : {0u, 7u, 0x80000000u, 0xFFFFFFFFu}) {
     berm_request r = valid_request();
@@ -97,7 +97,7 @@ TEST_F(RequestCheck, FirstRequestMayHaveAnySequence) {
   }
 }
 
-// verifies: SK-RQ-5
+// verifies: SK-RQ-5, IF-CT-10 (the stamp)
 TEST_F(RequestCheck, Age) {
   const std::int64_t limit = parameters.request_age_us;
   const auto stamp = [&](std::int64_t t, std::int64_t now) { return check_changed([&](berm_request& r) { r.stamp_us = t; }, now); };
@@ -113,7 +113,7 @@ TEST_F(RequestCheck, Age) {
   }
 }
 
-// verifies: SK-RQ-6
+// verifies: SK-RQ-6, IF-CT-10 (velocities)
 TEST_F(RequestCheck, VelocityRange) {
   for (int j = 0; j < BERM_JOINTS; ++j) {
     const std::int32_t limit = parameters.velocity_max_urad_s[j];
@@ -123,7 +123,7 @@ TEST_F(RequestCheck, VelocityRange) {
   }
 }
 
-// verifies: SK-RQ-7
+// verifies: SK-RQ-7, IF-CT-10 (pans)
 TEST_F(RequestCheck, PanRange) {
   for (int i = 0; i < BERM_SCANNERS; ++i) {
     const berm_scanner_mount& mount = parameters.scanner[i];
@@ -138,7 +138,7 @@ TEST_F(RequestCheck, PanRange) {
   }
 }
 
-// verifies: SK-RQ-8
+// verifies: SK-RQ-8, IF-CT-10 (phase, flags, reserved_tail)
 TEST_F(RequestCheck, PhaseFlagsReserved) {
   for (std::uint32_t phase = 0; phase <= 0xFFFF; ++phase) {
     ASSERT_EQ(check_changed([&](berm_request& r) { r.phase = static_cast<std::uint16_t>(phase); }),
@@ -154,7 +154,7 @@ TEST_F(RequestCheck, PhaseFlagsReserved) {
 }
 
 // Breaks every suffix of the list of checks at once: the earliest is named.
-// verifies: SK-RQ-11
+// verifies: SK-RQ-11, IF-CT-11 (the order)
 TEST_F(RequestCheck, TheFirstThatFailsIsReturned) {
   const std::int32_t order[] = {BERM_REQUEST_MAGIC, BERM_REQUEST_VERSION, BERM_REQUEST_CRC, BERM_REQUEST_SEQUENCE, BERM_REQUEST_AGE, BERM_REQUEST_RANGE};
   for (int first = 0; first < 6; ++first) {

@@ -28,7 +28,7 @@ berm_scan_packet packet() {
 
 } // namespace
 
-// verifies: SK-GE-24
+// verifies: SK-GE-24, IF-SC-9
 TEST(ScanProjection, TheLastEchoRanges) {
   berm_scan_packet p = packet();
   p.range[0][0] = 100;
@@ -51,7 +51,7 @@ TEST(ScanProjection, TheLastEchoRanges) {
   EXPECT_EQ(range[2], 0u);
 }
 
-// verifies: SK-GE-25
+// verifies: SK-GE-25, IF-SC-7 (the pan), IF-SC-8
 TEST(ScanProjection, TimeAndPanRunOverThePacket) {
   berm_scan_packet p = packet();
   p.pan_start_urad = -500000;
@@ -65,7 +65,7 @@ TEST(ScanProjection, TimeAndPanRunOverThePacket) {
   EXPECT_NEAR(sample_pan_rad(p, 0), -0.5, 1e-12);
 }
 
-// verifies: SK-GE-22
+// verifies: SK-GE-22, IF-SC-7 (the direction)
 TEST(ScanProjection, DirectionsAreThoseOfThePacketsDefinition) {
   const berm_parameters parameters = machine_profiles().front().parameters;
   const ScanProjection projection(parameters);

@@ -1,5 +1,4 @@
 // From stops to the table: a bound of every stop, monotone, complete, rounded up.
-// verifies: IF-CF-6
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -53,6 +52,7 @@ void expect_monotone_and_complete(const std::vector<std::vector<TableEntry>>& ta
   }
 }
 
+// verifies: IF-CF-6 (the table)
 TEST(Bounds, EveryEntryBoundsTheStopsOfItsSpeedWithErrorsAndAllowance) {
   const Machine m;
   BenchRecord run;
@@ -77,6 +77,7 @@ TEST(Bounds, EveryEntryBoundsTheStopsOfItsSpeedWithErrorsAndAllowance) {
   EXPECT_NEAR(*b.command_latency, 0.08, 1e-9);
 }
 
+// verifies: IF-CF-6 (the table)
 TEST(Bounds, AWorseStopOfALowerRowOrColumnRaisesAllBeyondIt) {
   const Machine m;
   BenchRecord run;
@@ -89,6 +90,7 @@ TEST(Bounds, AWorseStopOfALowerRowOrColumnRaisesAllBeyondIt) {
   EXPECT_GE(b.table[swing][3][5].angle, worst);
 }
 
+// verifies: IF-CF-6 (the table)
 TEST(Bounds, AStopBetweenTheColumnsThatNeedsMoreThanTheChordRaisesTheUpperOne) {
   const Machine m;
   for (const bool worse : {false, true}) {
@@ -112,6 +114,7 @@ TEST(Bounds, AStopBetweenTheColumnsThatNeedsMoreThanTheChordRaisesTheUpperOne) {
   }
 }
 
+// verifies: IF-CF-6 (the table)
 TEST(Bounds, WhatWasNotTestedIsCoveredFromAboveOrMarkedAsExtrapolated) {
   const Machine m;
   BenchRecord run;
@@ -131,6 +134,7 @@ TEST(Bounds, WhatWasNotTestedIsCoveredFromAboveOrMarkedAsExtrapolated) {
   }
 }
 
+// verifies: IF-CF-6 (the table)
 TEST(Bounds, ASpeedThatWasNotReachedIsMarkedAndScaledUp) {
   const Machine m;
   BenchRecord run;

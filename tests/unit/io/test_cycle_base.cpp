@@ -32,7 +32,7 @@ class CycleBase : public ::testing::Test {
   CycleRig rig;
 };
 
-// verifies: SK-BM-10, SK-BM-11, SK-BM-12
+// verifies: SK-BM-10, SK-BM-11, SK-BM-12, IF-CAN-9 (inclination stops, and permits nothing by going back)
 TEST_F(CycleBase, ATiltStopsVoidsTheMapAndTheResetLearnsItAnew) {
   run();
   rig.wanted_urad_s[1] = 50000;
@@ -107,7 +107,7 @@ TEST_F(CycleBase, AHeldMachineShowsWhatHoldsItNow) {
   EXPECT_TRUE(rig.reach_state(BERM_STATE_RUN, kStartLimit));
 }
 
-// verifies: SK-BM-10
+// verifies: SK-BM-10, IF-CAN-9 (the tracks' azimuth stops)
 TEST_F(CycleBase, TurningTracksStopTheMachine) {
   run();
   rig.machine.track_urad = kOneDegree;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 
@@ -216,6 +217,34 @@ TEST(CycleMotion, SameInputsGiveTheSameBytes) {
     for (int f = 0; f < a.out->frames.count; ++f) ASSERT_EQ(std::memcmp(a.out->frames.frame[f].data, b.out->frames.frame[f].data, 8), 0);
   }
   EXPECT_EQ(std::memcmp(&a.cycle->map(), &b.cycle->map(), sizeof(sk_height_map)), 0);
+}
+
+// A phase in which the kernel permitted more than in another would be a way to ask for more.
+// verifies: IF-CT-12
+TEST(CycleMotion, NoPhaseMakesTheKernelPermitMore) {
+  for (std::uint16_t phase = 0; phase < BERM_PHASE_COUNT; ++phase) {
+    CycleRig waits, other;
+    bool moved = false;
+    for (int i = 0; i < 600; ++i) {
+      for (CycleRig* rig : {&waits, &other}) {
+        rig->wanted_urad_s[0] = i > 300 ? -200000 : 0;
+        rig->wanted_urad_s[1] = i > 450 ? -150000 : 0;  // towards the ground
+        rig->gather();
+        berm_request request;
+        std::memcpy(&request, rig->in->request, sizeof request);
+        request.phase = rig == &other ? phase : std::uint16_t{BERM_PHASE_WAIT};
+        request.crc32 = berm_crc32(reinterpret_cast<const std::uint8_t*>(&request), offsetof(berm_request, crc32));
+        std::memcpy(rig->in->request, &request, sizeof request);
+        rig->cycle->step(*rig->in, *rig->out);
+        rig->obey();
+      }
+      for (int j = 0; j < 4; ++j)
+        ASSERT_LE(std::abs(other.state().commanded_urad_s[j]), std::abs(waits.state().commanded_urad_s[j])) << phase << ", cycle " << i;
+      moved = moved || largest(waits.state().commanded_urad_s) > 0;
+    }
+    EXPECT_TRUE(moved);
+    EXPECT_EQ(other.state().request_result, BERM_REQUEST_ACCEPTED) << phase;
+  }
 }
 
 // verifies: SK-CY-41

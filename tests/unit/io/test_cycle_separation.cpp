@@ -65,7 +65,7 @@ bool run(CycleRig& rig) {
 // To and fro.
 void swing(CycleRig& rig, int n) { rig.wanted_urad_s[0] = n / 150 % 2 == 0 ? 400'000 : -400'000; }
 
-// verifies: SK-SD-13, SK-SD-14, SK-SD-15, SK-SD-16
+// verifies: SK-SD-13, SK-SD-14, SK-SD-15, SK-SD-16, IF-CF-19 (enforced, a machine that does not see all round stands)
 TEST(CycleSeparation, WhatIsNotSeenSlowsTheMachineThenDeniesMotionUntilItIsSeen) {
   CycleRig rig(watched(BERM_SEPARATION_ENFORCED));
   ASSERT_TRUE(run(rig)) << why(rig);
@@ -164,7 +164,7 @@ TEST(CycleSeparation, ReportedItChangesNothingThatGoesOut) {
   EXPECT_TRUE(would_deny) << "there must have been something to report: " << why(reported);
 }
 
-// verifies: SK-SD-7
+// verifies: SK-SD-7, IF-CF-19 (it says nothing where nobody watches)
 TEST(CycleSeparation, UnwatchedItIsNotEvaluated) {
   berm_parameters p = watched(BERM_SEPARATION_ENFORCED);
   p.workspace_watched = 0;

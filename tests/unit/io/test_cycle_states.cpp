@@ -38,7 +38,7 @@ TEST_F(CycleStates, DoesNotRunWithoutTheRunSwitch) {
   EXPECT_EQ(rig.state().kernel_state, BERM_STATE_STANDBY);
 }
 
-// verifies: SK-CY-10
+// verifies: SK-CY-10, IF-CT-13
 TEST_F(CycleStates, HoldsWithinFiftyMillisecondsOfSilenceAndLatchesWithinFiveHundred) {
   run();
   rig.wanted_urad_s[1] = 50000;
@@ -84,7 +84,7 @@ TEST_F(CycleStates, ADisconnectedAppIsASilentApp) {
   EXPECT_EQ(rig.state().stop_reason, BERM_STOP_APP_SILENT);
 }
 
-// verifies: SK-CY-11
+// verifies: SK-CY-11, IF-CT-10 (the first sequence), IF-CT-24 (the next app's sequence)
 TEST_F(CycleStates, ANewConnectionMayCountFromAnywhere) {
   run();
   rig.in->app_connections = 2;

@@ -95,7 +95,7 @@ class CycleTail : public testing::Test {
   }
 };
 
-// verifies: SK-TS-1
+// verifies: SK-TS-1, IF-CF-17 (false: the kernel does not check it)
 TEST_F(CycleTail, UnwatchedNothingIsCheckedAndTheStateSaysSo) {
   parameters.tail_watched = 0;
   lidar = false;
@@ -118,7 +118,7 @@ TEST_F(CycleTail, WatchedAndFreeItSwings) {
   EXPECT_GT(swing(), 1.0) << why();
 }
 
-// verifies: SK-TS-3, SK-TS-5
+// verifies: SK-TS-3, SK-TS-5, IF-CF-17 (where no sensor sees it again the machine stands)
 TEST_F(CycleTail, GroundSeenTooLongAgoHoldsTheMachine) {
   run();
   rig->wanted_urad_s[0] = 200000;

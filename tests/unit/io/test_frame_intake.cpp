@@ -33,7 +33,7 @@ TEST_F(FrameIntakeTest, AGuardedFrameIsUsed) {
   EXPECT_EQ(intake.rejected(), 0U);
 }
 
-// verifies: SK-CY-80
+// verifies: SK-CY-80, IF-CAN-13
 TEST_F(FrameIntakeTest, UnguardedWrongLengthAndDamagedFramesAreRefusedAndCounted) {
   guarded(angle_frame(400000), 1);
   const auto refused = [&](std::uint64_t count) {
@@ -76,7 +76,19 @@ TEST_F(FrameIntakeTest, ForeignTrafficPassesUnnoticed) {
   EXPECT_FALSE(intake.state_heard());
 }
 
-// verifies: SK-CY-81
+// verifies: IF-CAN-20 (in what the kernel knows of the machine; that its clock is its own but for --lockstep is in io/receiver)
+TEST_F(FrameIntakeTest, ASimulationsClockIsForeignTraffic) {
+  guarded(angle_frame(400000), 1);
+  for (const std::uint32_t cycle : {0U, 1U, 4000000000U}) {
+    const berm_sim_clock clock{cycle, 7};
+    intake.take(berm_encode_sim_clock(&clock), kNow + 30000);
+  }
+  EXPECT_EQ(intake.rejected(), 0U);
+  EXPECT_EQ(intake.angle_us(), kNow);
+  EXPECT_FALSE(intake.state_heard());
+}
+
+// verifies: SK-CY-81, IF-CAN-9 (pressures and payload), IF-CF-21 (the kernel passes the pressures on)
 TEST_F(FrameIntakeTest, UntrustedFiguresNeedNoGuard) {
   const berm_payload payload{1234, true};
   intake.take(berm_encode_payload(&payload), kNow);

@@ -1,10 +1,13 @@
 // Counts every allocation of the process during cycles: malloc itself is replaced.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <iostream>
+#include <string>
 #include <vector>
 
+#include "can/can_transport.hpp"
 #include "cycle_rig.hpp"
 #include "io/publisher.hpp"
 
@@ -95,6 +98,27 @@ TEST(NoAllocation, InACycle) {
   EXPECT_GT(running, 100);
   EXPECT_EQ(segment->decision_head, static_cast<std::uint32_t>(kCycles));
   std::cout << kCycles << " cycles, " << running << " in RUN, " << counted << " allocations\n";
+}
+
+// verifies: IF-CAN-19 (that neither allocates, and that a wait ends)
+TEST(NoAllocation, InATransport) {
+  if (!BERM_COUNTS_MALLOC) GTEST_SKIP() << "SKIPPED: malloc is the sanitizer's";
+  can::Transport a;
+  const std::string error = a.open("udp:239.255.66.78:" + std::to_string(20000 + getpid() % 20000));
+  ASSERT_EQ(error, "");
+  berm_can_frame many[75], got{};
+  for (int i = 0; i < 75; ++i) many[i] = {BERM_CAN_HEARTBEAT, 8, {static_cast<std::uint8_t>(i)}};
+  int received = 0;
+  const long before = allocations;
+  for (int round = 0; round < 20; ++round) {
+    const bool sent = a.send(many[0]) && a.send(many, 75);
+    for (int i = 0; sent && i < 76; ++i) received += a.receive(got, 1000) ? 1 : 0;
+    received += a.receive(got) ? 1 : 0;
+  }
+  received += a.receive(got, 20) ? 1 : 0;  // nothing is there: it comes back
+  const long counted = allocations - before;
+  EXPECT_EQ(counted, 0);
+  EXPECT_EQ(received, 20 * 76);
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ class Peers : public ::testing::Test {
   PeerServer server;
 };
 
-// verifies: SK-CY-71
+// verifies: SK-CY-71, IF-CT-21 (the roles), IF-CT-23 (accepted)
 TEST_F(Peers, AppGetsBothSegmentsRecorderOne) {
   open(geteuid(), geteuid());
   const int app = connect_to(path), recorder = connect_to(path);
@@ -102,7 +102,7 @@ TEST_F(Peers, AppGetsBothSegmentsRecorderOne) {
   close(recorder);
 }
 
-// verifies: SK-CY-71
+// verifies: SK-CY-71, IF-CT-23 (refused), IF-CT-24
 TEST_F(Peers, OneAppAtATimeAndItsHangUpIsNoticed) {
   open(geteuid(), geteuid());
   const int first = connect_to(path);
@@ -123,7 +123,7 @@ TEST_F(Peers, OneAppAtATimeAndItsHangUpIsNoticed) {
   close(third);
 }
 
-// verifies: SK-CY-71
+// verifies: SK-CY-71, IF-CT-24
 TEST_F(Peers, FourRecordersAndNoFifth) {
   open(geteuid(), geteuid());
   int fd[5];
@@ -134,7 +134,7 @@ TEST_F(Peers, FourRecordersAndNoFifth) {
   for (const int f : fd) close(f);
 }
 
-// verifies: SK-CY-71
+// verifies: SK-CY-71, IF-CT-22
 TEST_F(Peers, AnotherUidIsRefused) {
   open(geteuid() + 1, geteuid());
   const int fd = connect_to(path);
@@ -146,7 +146,7 @@ TEST_F(Peers, AnotherUidIsRefused) {
   close(fd);
 }
 
-// verifies: SK-CY-71
+// verifies: SK-CY-71, IF-CT-22
 TEST_F(Peers, AProcessOfAnotherUidIsRefused) {
   if (geteuid() != 0) GTEST_SKIP() << "SKIPPED: only root can start a process under another uid";
   open(0, 0);
@@ -176,7 +176,7 @@ TEST_F(Peers, WithoutAMachineTheAppIsRefused) {
   close(fd);
 }
 
-// verifies: SK-CY-71
+// verifies: SK-CY-71, IF-CT-21
 TEST_F(Peers, ASilentNewcomerIsDroppedAndAWrongRoleRefused) {
   open(geteuid(), geteuid());
   const int silent = connect_to(path);

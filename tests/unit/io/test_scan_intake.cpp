@@ -173,7 +173,7 @@ TEST_F(ScanIntakeTest, WhatTheOwnReturnsHideKeepsItsHeight) {
   }
 }
 
-// verifies: SK-CY-103
+// verifies: SK-CY-103, IF-SC-11 (a packet of another time than the kernel's clock has is refused)
 TEST_F(ScanIntakeTest, ReplayedLateAndDirtyPacketsAreRefused) {
   ASSERT_TRUE(take(ground(320, 20, 10)));
   EXPECT_FALSE(take(ground(340, 20, 10)));
@@ -190,6 +190,25 @@ TEST_F(ScanIntakeTest, ReplayedLateAndDirtyPacketsAreRefused) {
     EXPECT_FALSE(take(bad));
   }
   EXPECT_TRUE(take(ground(340, 20, 11)));
+}
+
+// verifies: IF-SC-10
+TEST_F(ScanIntakeTest, APacketOfADirtyWindowOrAFaultyHeadIsNoSignOfLife) {
+  for (std::uint8_t scanner = 0; scanner < 2; ++scanner) {
+    berm_scan_packet good = ground(320, 20, 1);
+    good.scanner = scanner;
+    ASSERT_TRUE(take(good));
+  }
+  intake.flush(joints, kNow + ScanIntake::kWaitUs, *map, *blocks);
+  const int seen = observed();
+  for (const int flag : {BERM_SCAN_FLAG_WINDOW_DIRTY, BERM_SCAN_FLAG_HEAD_FAULT}) {
+    berm_scan_packet bad = ground(340, 20, flag == BERM_SCAN_FLAG_WINDOW_DIRTY ? 2 : 3);
+    bad.flags = static_cast<std::uint16_t>(flag);
+    EXPECT_FALSE(intake.take(bad, joints, kNow + 50000, *map, *blocks));
+  }
+  intake.flush(joints, kNow + 50000 + ScanIntake::kWaitUs, *map, *blocks);
+  EXPECT_EQ(observed(), seen) << "nor are its ranges used";
+  EXPECT_TRUE(intake.health().silent(kNow + 200001, 200000)) << "not heard since the good ones";
 }
 
 // verifies: SK-CY-16

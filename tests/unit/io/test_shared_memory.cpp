@@ -28,7 +28,7 @@ class Segments : public ::testing::Test {
   SharedSegment state, request;
 };
 
-// verifies: SK-CY-70
+// verifies: SK-CY-70, IF-CT-6, IF-CT-19 (that no reader can write there)
 TEST_F(Segments, NobodyElseCanWriteTheStateSegment) {
   const int again = reopened(state, O_RDWR);
   for (const int fd : {state.fd(), again}) {
@@ -42,7 +42,7 @@ TEST_F(Segments, NobodyElseCanWriteTheStateSegment) {
   if (again >= 0) close(again);
 }
 
-// verifies: SK-CY-70
+// verifies: SK-CY-70, IF-CT-6
 TEST_F(Segments, AReaderSeesWhatTheKernelWritesAndCannotMakeItWritable) {
   void* view = mmap(nullptr, state.size(), PROT_READ, MAP_SHARED, state.fd(), 0);
   ASSERT_NE(view, MAP_FAILED);
@@ -52,7 +52,7 @@ TEST_F(Segments, AReaderSeesWhatTheKernelWritesAndCannotMakeItWritable) {
   munmap(view, state.size());
 }
 
-// verifies: SK-CY-70
+// verifies: SK-CY-70, IF-CT-5 (the seals)
 TEST_F(Segments, NobodyCanResizeEitherSegment) {
   for (const SharedSegment* segment : {&state, &request}) {
     EXPECT_EQ(ftruncate(segment->fd(), 0), -1);
@@ -63,7 +63,7 @@ TEST_F(Segments, NobodyCanResizeEitherSegment) {
   }
 }
 
-// verifies: SK-CY-70
+// verifies: SK-CY-70, IF-CT-7
 TEST_F(Segments, ThePeerWritesTheRequestSegmentAndTheKernelOnlyReads) {
   void* view = mmap(nullptr, request.size(), PROT_READ | PROT_WRITE, MAP_SHARED, request.fd(), 0);
   ASSERT_NE(view, MAP_FAILED);

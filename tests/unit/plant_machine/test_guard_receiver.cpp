@@ -16,6 +16,7 @@ bool offer(GuardReceiver& r, std::uint8_t counter, const berm_can_frame& frame, 
   return r.accept(frame, t);
 }
 
+// verifies: IF-CAN-12 (the simulated machine: the counter)
 TEST(GuardReceiver, CounterMustBeOneToThreeAhead) {
   for (int first = 0; first < 256; ++first) {
     for (int ahead = 0; ahead < 256; ++ahead) {
@@ -26,6 +27,7 @@ TEST(GuardReceiver, CounterMustBeOneToThreeAhead) {
   }
 }
 
+// verifies: IF-CAN-12 (the simulated machine: single bit flips), IF-CAN-13 (that it counts)
 TEST(GuardReceiver, EveryBitFlipOfMessageOrGuardIsRefused) {
   const berm_can_frame frame = message(250000), guard = berm_can_make_guard(&frame, 7);
   for (std::size_t bit = 0; bit < 64; ++bit) {
@@ -44,6 +46,7 @@ TEST(GuardReceiver, EveryBitFlipOfMessageOrGuardIsRefused) {
   }
 }
 
+// verifies: IF-CAN-12 (the simulated machine: one guard, one message)
 TEST(GuardReceiver, MessageWithoutItsGuardIsRefused) {
   GuardReceiver r(BERM_CAN_VELOCITY_CMD_1);
   EXPECT_FALSE(r.accept(message(1000), 0.0));
@@ -56,6 +59,7 @@ TEST(GuardReceiver, MessageWithoutItsGuardIsRefused) {
   EXPECT_FALSE(r.accept(mine, 0.02));
 }
 
+// verifies: IF-CAN-21 (the simulated machine: not while it hears the kernel)
 TEST(GuardReceiver, ReplayedPairsAreRefusedWhileTheSenderIsHeard) {
   GuardReceiver r(BERM_CAN_VELOCITY_CMD_1);
   for (int k = 0; k < 50; ++k) {
@@ -64,6 +68,7 @@ TEST(GuardReceiver, ReplayedPairsAreRefusedWhileTheSenderIsHeard) {
   }
 }
 
+// verifies: IF-CAN-21 (the simulated machine, after a second of silence)
 TEST(GuardReceiver, SilentSenderIsTakenUpAgainAfterTwoConsecutiveMessages) {
   GuardReceiver r(BERM_CAN_VELOCITY_CMD_1);
   ASSERT_TRUE(offer(r, 100, message(1), 0.0));

@@ -21,6 +21,7 @@ struct Bench {
   }
 };
 
+// verifies: IF-CAN-14 (the simulated machine: without a Heartbeat)
 TEST(MachineController, DoesNotMoveBeforeAHeartbeat) {
   Bench b;
   for (int k = 0; k < 100; ++k) {
@@ -71,6 +72,7 @@ TEST(MachineController, VelocityBeyondALimitIsRefusedWhole) {
   for (std::size_t j = 0; j < 4; ++j) EXPECT_NEAR(b.controller.command()[j], limit[j], 0.0006) << kJoints[j];
 }
 
+// verifies: IF-CAN-14 (the simulated machine: 50 ms, then power is removed)
 TEST(MachineController, HeartbeatSilenceStopsTheMachine) {
   Bench b;
   int k = 0;
@@ -99,6 +101,7 @@ TEST(MachineController, HeartbeatSilenceStopsTheMachine) {
   EXPECT_LT(b.joints.state().angle[0] - angle, radians(30));
 }
 
+// verifies: IF-CAN-14 (the simulated machine: unguarded ones)
 TEST(MachineController, UnguardedHeartbeatsCountAsSilence) {
   Bench b;
   b.kernel.heartbeat(0.0, true);
@@ -110,6 +113,7 @@ TEST(MachineController, UnguardedHeartbeatsCountAsSilence) {
   }
 }
 
+// verifies: IF-CAN-14 (the simulated machine: the categories)
 TEST(MachineController, CategoryOneKeepsPilotPressureUntilStandstillCategoryZeroDoesNot) {
   for (const std::uint8_t category : {std::uint8_t{0}, std::uint8_t{1}}) {
     Bench b;

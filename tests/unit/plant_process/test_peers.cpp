@@ -62,6 +62,7 @@ TEST_F(PeersTest, CycleOfTheHeartbeatWraps) {
   EXPECT_EQ(peers_->kernel(), PeerState::present);
 }
 
+// verifies: IF-CT-26 (flag bit 0)
 TEST_F(PeersTest, FinishedFlagIsKept) {
   tick(1, 1);
   tick(2, 0);

@@ -1,7 +1,10 @@
 // The bounded queue between kernel and writer: order, wrap-around, no room, a hostile tail; and every input through a record and back.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
 #include <iostream>
 #include <memory>
@@ -167,6 +170,66 @@ TEST_F(Ring, EveryInputComesBack) {
   for (int i = 0; i < 2; ++i) EXPECT_EQ(std::memcmp(&back->packet[i], &in->packet[i], sizeof in->packet[i]), 0) << i;
   ASSERT_EQ(back->lidar_count, 3);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(std::memcmp(&back->lidar[i], &in->lidar[i], sizeof in->lidar[i]), 0) << i;
+}
+
+// verifies: IF-JR-3
+TEST_F(Ring, NobodyElseCanWriteTheRingAndNobodyResizesEither) {
+  const int fixed = F_SEAL_GROW | F_SEAL_SHRINK | F_SEAL_SEAL;
+  EXPECT_EQ(fcntl(journal.ring().fd(), F_GET_SEALS), fixed | F_SEAL_FUTURE_WRITE);
+  EXPECT_EQ(fcntl(journal.tail().fd(), F_GET_SEALS), fixed);
+  EXPECT_EQ(mmap(nullptr, journal.ring().size(), PROT_READ | PROT_WRITE, MAP_SHARED, journal.ring().fd(), 0), MAP_FAILED);
+  for (const kernel::SharedSegment* segment : {&journal.ring(), &journal.tail()}) {
+    EXPECT_EQ(ftruncate(segment->fd(), 0), -1);
+    EXPECT_EQ(ftruncate(segment->fd(), static_cast<off_t>(segment->size() + 4096)), -1);
+  }
+  EXPECT_EQ(journal.tail().memory(), nullptr) << "the kernel's own mapping of the tail cannot be written";
+}
+
+// verifies: IF-JR-7
+TEST_F(Ring, TheMapsRowIsHashedAsTheFormatSays) {
+  std::mt19937_64 random(5);
+  for (int iy = 0; iy < SK_MAP_CELLS; ++iy)
+    for (int ix = 0; ix < SK_MAP_CELLS; ++ix) {
+      map->height_mm[iy][ix] = static_cast<std::int32_t>(random() % 40001) - 20000;
+      map->previous_mm[iy][ix] = static_cast<std::int32_t>(random() % 40001) - 20000;
+      map->began_us[iy][ix] = static_cast<std::int64_t>(random() >> 1);
+      map->seen_us[iy][ix] = static_cast<std::int64_t>(random() >> 1);
+    }
+  RingReader reader(*ring, *tail);
+  for (std::uint64_t cycle = 0; cycle < 2 * 104; ++cycle) {
+    const std::size_t row = cycle % 104;
+    std::uint64_t hash = 14695981039346656037ULL;
+    for (int ix = 0; ix < SK_MAP_CELLS; ++ix) {
+      const std::uint64_t low = static_cast<std::uint32_t>(map->height_mm[row][ix]), high = static_cast<std::uint32_t>(map->previous_mm[row][ix]);
+      for (const std::uint64_t word : {high << 32 | low, static_cast<std::uint64_t>(map->began_us[row][ix]), static_cast<std::uint64_t>(map->seen_us[row][ix])})
+        hash = (hash ^ word) * 1099511628211ULL;
+    }
+    offer(cycle, 0);
+    ASSERT_EQ(reader.next(record), RingReader::Result::kRecord);
+    berm_journal_cycle head;
+    std::memcpy(&head, record.data(), sizeof head);
+    ASSERT_EQ(head.map_row_hash, hash) << cycle;
+  }
+}
+
+// verifies: IF-JR-8
+TEST_F(Ring, EachLidarsPacketIsFollowedByItsNumber) {
+  offer(5, 0);
+  std::vector<std::uint8_t> packet(kernel::kVlp16PacketBytes, 0x5A);
+  for (const int lidar : {1, 0, 3}) ASSERT_TRUE(in->take_lidar(lidar, packet.data(), packet.size()));
+  journal.offer(*in, *out, *map, true);
+  RingReader reader(*ring, *tail);
+  ASSERT_EQ(reader.next(record), RingReader::Result::kRecord);
+  ASSERT_EQ(reader.next(record), RingReader::Result::kRecord);
+  const std::size_t room = 1208;  // 1206 bytes, the number, filled up to 8 bytes
+  ASSERT_EQ(record.size(), sizeof(berm_journal_cycle) + 3 * room);
+  const int number[] = {1, 0, 3};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint8_t* at = record.data() + sizeof(berm_journal_cycle) + i * room;
+    EXPECT_TRUE(std::equal(packet.begin(), packet.end(), at)) << i;
+    EXPECT_EQ(at[1206], number[i]);
+    EXPECT_EQ(at[1207], 0);
+  }
 }
 
 // verifies: SK-JO-12

@@ -65,7 +65,7 @@ class Mcap : public ::testing::Test {
   std::uint32_t messages = 0;
 };
 
-// verifies: IF-JR-10
+// verifies: IF-JR-10 (that what is written is read back)
 TEST_F(Mcap, WhatIsWrittenComesBack) {
   EXPECT_EQ(read(whole), Result::kEnd) << error;
   EXPECT_EQ(messages, kMessages);

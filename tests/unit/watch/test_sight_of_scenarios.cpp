@@ -73,7 +73,7 @@ void expect_sight(const std::string& path, double seconds) {
   EXPECT_GT(rays, 1000) << path << ": nothing was judged";
 }
 
-// verifies: SK-SI-15
+// verifies: SK-SI-15, IF-CF-20 (of the shipped files: dustless ground stays below dust_slow)
 TEST(SightOfScenarios, NoNoiseOfTheShippedScenariosBlocksASensorOrIsDust) {
   int seen = 0;
   std::set<std::string> plants;
