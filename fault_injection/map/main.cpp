@@ -108,6 +108,7 @@ int run(const Options& options) {
 
   const RunFolder folder;
   const auto uids = choose_uids();
+  expect_reachable(folder, uids);
   const std::string parameters = folder.file("kernel.params");
   compile_parameter_file(find_machine(options.machine), find_site(options.site), parameters);
   const std::uint16_t port = free_udp_port();

@@ -81,6 +81,31 @@ Uids choose_uids() {
   return {false, own, own, own, own};
 }
 
+void expect_reachable(const RunFolder& folder, const Uids& uids) {
+  namespace fs = std::filesystem;
+  if (!uids.separate) return;
+  for (fs::path up = fs::canonical(folder.path()).parent_path(); up.has_relative_path(); up = up.parent_path()) {
+    struct stat about{};
+    if (stat(up.c_str(), &about) != 0) throw std::system_error(errno, std::generic_category(), up.string());
+    if ((about.st_mode & S_IXOTH) == 0)
+      throw std::runtime_error(fmt::format("TMPDIR: {}: mode {:04o} keeps the users of kernel and app ({} and {}) out: others must be able to enter it", up.string(),
+                                           about.st_mode & 07777, uids.kernel, uids.app));
+  }
+}
+
+void open_to_children(const std::string& path) {
+  constexpr mode_t kFolderMode = 0755, kFileMode = 0644;
+  const bool folder = std::filesystem::is_directory(path);
+  if (chmod(path.c_str(), folder ? kFolderMode : kFileMode) != 0) throw std::system_error(errno, std::generic_category(), path);
+  if (!folder) return;
+  for (const auto& entry : std::filesystem::directory_iterator(path)) open_to_children(entry.path());
+}
+
+void copy_for_children(const std::string& source, const std::string& target) {
+  std::filesystem::copy_file(source, target);
+  open_to_children(target);
+}
+
 std::uint16_t free_udp_port() {
   const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};

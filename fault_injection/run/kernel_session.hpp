@@ -32,6 +32,13 @@ struct Uids {
 };
 Uids choose_uids();
 
+// The run's folder under the user's TMPDIR must be one that kernel and app can get to as well. Throws std::runtime_error naming TMPDIR.
+void expect_reachable(const RunFolder& folder, const Uids& uids);
+
+// What the children read or enter, whatever the umask, and whatever mode it was copied with. Throw std::system_error naming the path.
+void open_to_children(const std::string& path);  // a file, or a folder with what is in it then
+void copy_for_children(const std::string& source, const std::string& target);
+
 // A UDP port on loopback that is free now.
 std::uint16_t free_udp_port();
 // A multicast address on loopback for one run: "udp:239.255.66.N:PORT".

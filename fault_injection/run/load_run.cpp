@@ -52,6 +52,7 @@ class LoadRun {
   }
 
   RunResult run() {
+    expect_reachable(folder_, uids_);
     const std::string scenario = find_scenario(options_.scenario);
     const auto names = scenario_names(scenario);
     machine_ = find_machine(names.machine);
@@ -142,12 +143,13 @@ class LoadRun {
     if (options_.journal) start_journal(pace.second());
 
     // The app runs as a stranger to this folder: it reads copies.
-    std::filesystem::copy_file(machine_, folder_.file("machine.toml"));
-    std::filesystem::copy_file(site_, folder_.file("site.toml"));
-    std::filesystem::copy_file(truck_classes_file(), folder_.file("truck_classes.toml"));
+    copy_for_children(machine_, folder_.file("machine.toml"));
+    copy_for_children(site_, folder_.file("site.toml"));
+    copy_for_children(truck_classes_file(), folder_.file("truck_classes.toml"));
     std::filesystem::create_directory(folder_.file("scripts"));
     for (const char* name : {"pass.script", "approach.script"})
       std::filesystem::copy_file((options_.scripts.empty() ? scripts_folder() : options_.scripts) + "/" + name, folder_.file("scripts") + "/" + name);
+    open_to_children(folder_.file("scripts"));
     ChildOptions app;
     app.program = program_folder() + "/berm_app";
     app.arguments = {"--machine", folder_.file("machine.toml"), "--site", folder_.file("site.toml"), "--truck-classes", folder_.file("truck_classes.toml"),

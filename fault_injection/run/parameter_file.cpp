@@ -52,6 +52,7 @@ void compile_parameter_file(const std::string& machine, const std::string& site,
   constexpr double kPatience_s = 20.0;
   if (!compiler.wait_ended(kPatience_s)) throw std::runtime_error("berm_params does not end");
   expect_content(compiler);
+  open_to_children(path);
 }
 
 }  // namespace berm::run

@@ -28,7 +28,7 @@ class ToldAlready : public std::exception {
 // tell, and std::runtime_error does.
 void expect_content(const ChildProcess& child);
 
-// Compiles machine and site into a block at path with berm_params, which tells what is wrong; then throws ToldAlready.
+// Compiles machine and site into a block at path, which the children can read, with berm_params, which tells what is wrong; then throws ToldAlready.
 void compile_parameter_file(const std::string& machine, const std::string& site, const std::string& path);
 
 }  // namespace berm::run
