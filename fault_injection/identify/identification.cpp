@@ -6,18 +6,27 @@
 #include "identify/bounds.hpp"
 #include "identify/braking_picture.hpp"
 #include "identify/measurement.hpp"
+#include "identify/output_files.hpp"
 #include "identify/result_text.hpp"
 
 namespace berm::identify {
 
 namespace {
 
-// Every value that will be replaced stands where it can be: known before hours of tests, not after.
+// Every value that will be replaced stands where it can be, and the file can be read with others in their places: known before hours of tests, not after.
 void check_editable(Result result, const config::MachineFile& machine) {
-  for (auto& rows : result.bounds.table) rows.assign(machine.braking.reach.size(), std::vector<TableEntry>(8));
-  result.bounds.acceleration.fill(1.0);
-  result.bounds.command_latency = 0.1;
-  machine_text(result, machine);
+  for (const std::size_t j : result.joints) {
+    result.bounds.acceleration[j] = machine.joint[j].acceleration_max;
+    for (std::size_t row = 0; row < machine.braking.reach.size(); ++row) {
+      auto& entries = result.bounds.table[j].emplace_back(machine.braking.angle[j][row].size());
+      for (std::size_t k = 0; k < entries.size(); ++k) {
+        entries[k].angle = machine.braking.angle[j][row][k];
+        entries[k].time = machine.braking.time[j][row][k];
+      }
+    }
+  }
+  result.bounds.command_latency = machine.command_latency;
+  check_readable(machine_text(result, machine));
 }
 
 std::vector<std::size_t> all_or(const std::vector<std::size_t>& chosen, std::size_t first, std::size_t last) {

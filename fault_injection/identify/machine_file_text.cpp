@@ -92,6 +92,17 @@ std::string header_of(std::string_view line) {
 
 }  // namespace
 
+std::string toml_string(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (code < 0x20 || code == 0x7F) quoted += fmt::format("\\u{:04X}", code);
+    else quoted += c;
+  }
+  return quoted + '"';
+}
+
 MachineFileText::MachineFileText(const std::string& path) : path_(path) {
   std::ifstream file(path, std::ios::binary);
   std::stringstream all;

@@ -5,6 +5,9 @@
 
 namespace berm::identify {
 
+// A text as TOML writes it, quotes included, whatever is in it.
+std::string toml_string(const std::string& text);
+
 class MachineFileText {
  public:
   // Throws std::runtime_error when the file cannot be read.

@@ -4,6 +4,7 @@
 
 #include "config/machine_file.hpp"
 #include "config/output_file.hpp"
+#include "config/strict_table.hpp"
 #include "config/whole_file.hpp"
 #include "run/kernel_session.hpp"
 
@@ -18,7 +19,12 @@ void check_readable(const std::string& machine_text) {
   const run::RunFolder folder;
   const std::string path = folder.file("measured.toml");
   config::write_whole_file(path, machine_text);
-  config::load_machine_file(path);
+  try {
+    config::load_machine_file(path);
+  } catch (const config::ConfigError& error) {
+    const std::string why = error.what();  // names a file that is gone with its folder
+    throw std::runtime_error("the new machine file" + (why.starts_with(path) ? why.substr(path.size()) : ": " + why));
+  }
 }
 
 }  // namespace berm::identify

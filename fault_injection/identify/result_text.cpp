@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "identify/machine_file_text.hpp"
+#include "identify/provenance_text.hpp"
 
 namespace berm::identify {
 
@@ -63,10 +64,9 @@ bool any_extrapolated(const Result& r) {
 }  // namespace
 
 std::string provenance(const Result& r) {
-  return fmt::format("measured in simulation: berm identify --machine {} --seed {} --repetitions {} --allowance {}{}{}; {} stops, {} kg weighed{}",
-                     r.machine_name, r.seed, r.repetitions,
-                     decimal(r.allowance, 3), joint_names(r), column_names(r), r.stops, decimal(std::round(r.weighed_kg / 10.0) * 10.0, 0),
-                     any_extrapolated(r) ? "; in part extrapolated" : "");
+  return provenance_text(fmt::format("berm identify --machine {} --seed {} --repetitions {} --allowance {}{}{}", r.machine_name, r.seed, r.repetitions, decimal(r.allowance, 3),
+                                     joint_names(r), column_names(r)),
+                         fmt::format("{} stops, {} kg weighed{}", r.stops, decimal(std::round(r.weighed_kg / 10.0) * 10.0, 0), any_extrapolated(r) ? "; in part extrapolated" : ""));
 }
 
 std::string machine_text(const Result& r, const config::MachineFile&) {
@@ -79,7 +79,7 @@ std::string machine_text(const Result& r, const config::MachineFile&) {
   }
   // A latency holds for every joint: where not all were tested, the file's may be the longer one.
   if (r.bounds.command_latency && r.joints.size() == 4) file.replace("latency", "command", fmt::format("{:.2f}", *r.bounds.command_latency));
-  file.replace("braking", "provenance", "\"" + provenance(r) + "\"");
+  file.replace("braking", "provenance", toml_string(provenance(r)));
   return file.text();
 }
 

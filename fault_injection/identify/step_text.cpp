@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "identify/machine_file_text.hpp"
+#include "identify/provenance_text.hpp"
 
 namespace berm::identify {
 
@@ -38,8 +39,8 @@ std::string response_text(const StepResult& r) {
   std::string reaches;
   for (const double reach : r.reach_m) reaches += fmt::format("{}{:.2f}", reaches.empty() ? "" : ", ", reach);
   std::string text = fmt::format("[response]                   # joint models for the app, fitted to step responses; rates empty, then with the heaviest payload\n"
-                                 "provenance = \"{}\"\npayload_kg = {:.1f}\nreach_m = [{}]\n",
-                                 step_provenance(r), r.weighed_kg, reaches);
+                                 "provenance = {}\npayload_kg = {:.1f}\nreach_m = [{}]\n",
+                                 toml_string(step_provenance(r)), r.weighed_kg, reaches);
   for (std::size_t j = 0; j < r.fit.size(); ++j)
     for (std::size_t d = 0; d < 2; ++d) text += direction_text(config::kJointNames[j], config::kDirectionNames[d], r.fit[j][d]);
   return text;
@@ -82,8 +83,8 @@ std::size_t StepResult::records() const {
 }
 
 std::string step_provenance(const StepResult& r) {
-  return fmt::format("measured in simulation: berm identify --steps --machine {} --seed {} --repetitions {}; {} step responses, {:.0f} kg weighed", r.machine_name, r.seed,
-                     r.repetitions, r.records(), std::round(r.weighed_kg / 10.0) * 10.0);
+  return provenance_text(fmt::format("berm identify --steps --machine {} --seed {} --repetitions {}", r.machine_name, r.seed, r.repetitions),
+                         fmt::format("{} step responses, {:.0f} kg weighed", r.records(), std::round(r.weighed_kg / 10.0) * 10.0));
 }
 
 std::string step_machine_text(const StepResult& r) {

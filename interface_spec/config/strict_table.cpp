@@ -76,7 +76,7 @@ std::string StrictTable::text(const std::string& key) {
   const toml::value& value = Node::at(*this, key);
   if (!value.is_string()) fail(key, "must be a text");
   const std::string s = value.as_string().str;
-  if (s.empty() || s.size() > 200) fail(key, "must have 1 to 200 characters");
+  if (s.empty() || s.size() > kLongestText) fail(key, fmt::format("must have 1 to {} characters", kLongestText));
   return s;
 }
 

@@ -17,6 +17,8 @@ class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+inline constexpr std::size_t kLongestText = 200;  // bytes
+
 class StrictTable {
  public:
   static StrictTable parse_file(const std::string& file);

@@ -243,6 +243,29 @@ def bad_input():
         assert not out.exists(), f"a machine file after --steps {arguments}"
 
 
+def models_that_stand_apart_are_refused_before_the_measurement():
+    apart = scratch / "stands_apart.toml"
+    lines = MACHINE.read_text().splitlines(keepends=True)
+    first = lines.index("[response.boom.up]\n")
+    last = next(i for i in range(first + 1, len(lines)) if lines[i].startswith("["))
+    at = next(i for i, line in enumerate(lines) if line.startswith("[latency]"))
+    apart.write_text("".join(lines[:at] + lines[first:last] + lines[at:first] + lines[last:]))
+    assert params(apart, scratch / "apart.params").returncode == 0, "no good machine file"
+    done = run("berm_identify", "--steps", "--machine", apart, "--out", scratch / "none.toml", "--picture", "", timeout=60)
+    one_clear_line(done, "stands_apart.toml: [response]: its tables must stand together")
+    assert done.stdout == "", f"measured before it was refused: {done.stdout}"
+
+
+def a_machine_of_any_name():
+    """Its name goes into the new file: with quotes and backslashes, and as long as a name may be."""
+    name = 'the "long" one \\o/ ' + "x" * 180
+    named = scratch / "named.toml"
+    named.write_text(MACHINE.read_text().replace('name = "zx200"', f"name = '{name}'", 1))
+    files = identify("of_any_name", "--machine", named)
+    table = tomllib.loads(files["toml"].read_text())
+    assert table["name"] == name and len(table["braking"]["provenance"]) <= 200 and table["braking"]["provenance"].startswith("measured in simulation: berm identify"), table["braking"]
+
+
 def a_terminals_interrupt_ends_it_at_once():
     """It goes to the simulated machine as well, which ends and says nothing any more: that must not be waited out."""
     out = scratch / "interrupted.toml"
@@ -259,6 +282,6 @@ def help_is_no_error():
 try:
     main([bounds_hold_the_true_stops, entries_say_what_was_measured, only_what_was_measured_changes, same_seed_same_bytes, from_its_own_result_the_same_table,
           the_result_is_a_good_machine_file, step_responses_find_the_true_joints, step_fits_say_how_surely, steps_again_are_the_same_bytes,
-          a_table_that_falls_or_has_holes_is_refused, the_kernel_refuses_such_a_block, bad_input, a_terminals_interrupt_ends_it_at_once, help_is_no_error])
+          a_table_that_falls_or_has_holes_is_refused, the_kernel_refuses_such_a_block, bad_input, models_that_stand_apart_are_refused_before_the_measurement, a_machine_of_any_name, a_terminals_interrupt_ends_it_at_once, help_is_no_error])
 finally:
     shutil.rmtree(scratch)
