@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/command_line.hpp"
+#include "config/standard_error.hpp"
 #include "config/whole_file.hpp"
 #include "echoes/clear_air.hpp"
 #include "echoes/echo_picture.hpp"
@@ -68,7 +69,7 @@ int main(int argc, char** argv) {
   try {
     return berm::echoes::run(argc, argv);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "berm echoes: {}\n", error.what());
+    berm::config::print_error("berm echoes: {}\n", error.what());
     return 2;
   }
 }

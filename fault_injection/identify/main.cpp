@@ -6,6 +6,7 @@
 #include <map>
 
 #include "config/command_line.hpp"
+#include "config/standard_error.hpp"
 #include "identify/step_identification.hpp"
 #include "run/parameter_file.hpp"
 
@@ -55,7 +56,7 @@ int main(int argc, char** argv) {
   } catch (const berm::run::ToldAlready&) {
     return 2;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "berm identify: {}\n", error.what());
+    berm::config::print_error("berm identify: {}\n", error.what());
     return 2;
   }
 }

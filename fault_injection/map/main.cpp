@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "config/command_line.hpp"
+#include "config/standard_error.hpp"
 #include "config/whole_file.hpp"
 #include "contract/berm_contract.h"
 #include "map/pcap_capture.hpp"
@@ -63,9 +64,9 @@ std::size_t play(const std::vector<CapturedDatagram>& datagrams, std::uint16_t k
     const double due = std::max(0.0, datagram.time_s - datagrams.front().time_s) / speed;
     std::this_thread::sleep_until(begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(due)));
     if (send(fd, datagram.payload.data(), datagram.payload.size(), 0) == static_cast<ssize_t>(datagram.payload.size())) ++sent;
-    if (isatty(2) && sent % 100 == 0) fmt::print(stderr, "\r{} of {} packets", sent, datagrams.size());
+    if (isatty(2) && sent % 100 == 0) config::print_error("\r{} of {} packets", sent, datagrams.size());
   }
-  if (isatty(2)) fmt::print(stderr, "\r{} packets played        \n", sent);
+  if (isatty(2)) config::print_error("\r{} packets played        \n", sent);
   close(fd);
   return sent;
 }
@@ -161,7 +162,7 @@ int main(int argc, char** argv) {
   } catch (const berm::run::ToldAlready&) {
     return 2;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "berm map: {}\n", error.what());
+    berm::config::print_error("berm map: {}\n", error.what());
     return 2;
   }
 }

@@ -3,6 +3,7 @@
 
 #include <exception>
 
+#include "config/standard_error.hpp"
 #include "config/whole_file.hpp"
 #include "run/load_run.hpp"
 #include "run/parameter_file.hpp"
@@ -15,12 +16,12 @@ int main(int argc, char** argv) {
     fmt::print("{}", berm::run::summary_text(result));
     if (!options.json.empty()) berm::config::write_whole_file(options.json, berm::run::flat_json(result).dump(2) + "\n");
     const auto reasons = berm::run::shortcomings(result);
-    for (const auto& reason : reasons) fmt::print(stderr, "berm load: {}\n", reason);
+    for (const auto& reason : reasons) berm::config::print_error("berm load: {}\n", reason);
     return reasons.empty() ? 0 : 1;
   } catch (const berm::run::ToldAlready&) {
     return 2;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "berm load: {}\n", error.what());
+    berm::config::print_error("berm load: {}\n", error.what());
     return 2;
   }
 }

@@ -1,6 +1,7 @@
 #include "run/run_options.hpp"
 
 #include "config/command_line.hpp"
+#include "config/standard_error.hpp"
 
 namespace berm::run {
 
@@ -46,7 +47,7 @@ std::optional<int> read_options(int argc, char** argv, RunOptions& options) {
     try {
       options.fault = parse_fault(fault);
     } catch (const CLI::Error& error) {
-      fmt::print(stderr, "berm load: {}\n", error.what());
+      config::print_error("berm load: {}\n", error.what());
       return 2;
     }
   }

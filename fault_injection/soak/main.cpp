@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "config/command_line.hpp"
+#include "config/standard_error.hpp"
 #include "config/whole_file.hpp"
 #include "run/kernel_session.hpp"
 #include "run/load_run.hpp"
@@ -38,7 +39,7 @@ int run(int argc, char** argv) {
   app.add_flag("--journal", journal, "the kernel's journal as well; it grows by some 14 gigabytes an hour");
   if (const auto status = berm::config::parse_options(app, argc, argv)) return *status;
   if (picture && out.empty()) {
-    fmt::print(stderr, "berm soak: --picture: needs --out\n");
+    berm::config::print_error("berm soak: --picture: needs --out\n");
     return 2;
   }
   berm::run::RunFolder own;
@@ -68,7 +69,7 @@ int run(int argc, char** argv) {
   fmt::print("{}", berm::soak::shift_text(report));
   if (!json.empty()) berm::config::write_whole_file(json, report.dump(2) + "\n");
   const auto reasons = berm::soak::shortcomings(report);
-  for (const auto& reason : reasons) fmt::print(stderr, "berm soak: {}\n", reason);
+  for (const auto& reason : reasons) berm::config::print_error("berm soak: {}\n", reason);
   return reasons.empty() ? 0 : 1;
 }
 
@@ -80,7 +81,7 @@ int main(int argc, char** argv) {
   } catch (const berm::run::ToldAlready&) {
     return 2;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "berm soak: {}\n", error.what());
+    berm::config::print_error("berm soak: {}\n", error.what());
     return 2;
   }
 }

@@ -7,6 +7,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "config/standard_error.hpp"
 #include "run/interruption.hpp"
 #include "truck_world/options.hpp"
 #include "truck_world/scene_files.hpp"
@@ -33,13 +34,13 @@ int run(int argc, char** argv) {
     trucks += scene.truth.truck ? 1 : 0;
     look_alikes += scene.truth.look_alike.empty() ? 0 : 1;
     done = number - first + 1;
-    if (terminal) fmt::print(stderr, "\r{} of {} scenes", done, asked);
-    else if (done % 100 == 0) fmt::print(stderr, "{} of {} scenes\n", done, asked);
+    if (terminal) config::print_error("\r{} of {} scenes", done, asked);
+    else if (done % 100 == 0) config::print_error("{} of {} scenes\n", done, asked);
   }
-  if (terminal) fmt::print(stderr, "\n");
+  if (terminal) config::print_error("\n");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const int signal = done < asked ? interruption.take() : 0;
-  if (signal != 0) fmt::print(stderr, "berm truck_world: interrupted ({}) after {} of {} scenes\n", strsignal(signal), done, asked);
+  if (signal != 0) config::print_error("berm truck_world: interrupted ({}) after {} of {} scenes\n", strsignal(signal), done, asked);
   if (done == 0) return 1;
   const std::string of = done < asked ? fmt::format(" of {}", asked) : "";
   fmt::print("{}{} scenes in {}{}: {} with a truck, {} with something like one, {} with neither; {:.1f} scenes/s\n", done, of, o.out,
@@ -54,7 +55,7 @@ int main(int argc, char** argv) {
   try {
     return berm::truck_world::run(argc, argv);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "berm truck_world: {}\n", error.what());
+    berm::config::print_error("berm truck_world: {}\n", error.what());
     return 2;
   }
 }

@@ -1,6 +1,7 @@
 #include "truck_world/options.hpp"
 
 #include "config/command_line.hpp"
+#include "config/standard_error.hpp"
 
 namespace berm::truck_world {
 
@@ -38,7 +39,7 @@ std::optional<int> read_options(int argc, char** argv, const std::string& classe
   o.scene.content = all ? Content::truck : none ? Content::no_truck : Content::either;
   const std::string wrong = config::not_below("--only", o.only, "--scenes", o.scenes);
   if (wrong.empty()) return std::nullopt;
-  fmt::print(stderr, "berm truck_world: {} (see --help)\n", wrong);
+  config::print_error("berm truck_world: {} (see --help)\n", wrong);
   return 2;
 }
 

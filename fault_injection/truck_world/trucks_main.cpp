@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/command_line.hpp"
+#include "config/standard_error.hpp"
 #include "config/whole_file.hpp"
 #include "in_process/workers.hpp"
 #include "run/interruption.hpp"
@@ -122,7 +123,7 @@ int run(int argc, char** argv) {
   app.add_option("--ranges", o.ranges, "file of truck classes that are recognised")->capture_default_str();
   if (const auto status = config::parse_options(app, argc, argv)) return *status;
   if (const std::string wrong = config::not_below("--only", o.only, "--scenes", o.scenes); !wrong.empty()) {
-    fmt::print(stderr, "berm trucks: {} (see --help)\n", wrong);
+    config::print_error("berm trucks: {} (see --help)\n", wrong);
     return 2;
   }
 
@@ -143,12 +144,12 @@ int run(int argc, char** argv) {
           report(judged[told], o);
           add(all, judged[told]);
         }
-        if (terminal && finished % 10 == 0) fmt::print(stderr, "\r{} of {} scenes", finished, count);
+        if (terminal && finished % 10 == 0) config::print_error("\r{} of {} scenes", finished, count);
       },
       [&] { return interruption.asked(); });
-  if (terminal) fmt::print(stderr, "\n");
+  if (terminal) config::print_error("\n");
   const int signal = done < count ? interruption.take() : 0;
-  if (signal != 0) fmt::print(stderr, "berm trucks: interrupted ({}) after {} of {} scenes\n", strsignal(signal), done, count);
+  if (signal != 0) config::print_error("berm trucks: interrupted ({}) after {} of {} scenes\n", strsignal(signal), done, count);
   if (done == 0) return 1;
   nlohmann::ordered_json json{{"asked", count}, {"scenes", done}};
   json.update(summary(all.whole));
@@ -167,7 +168,7 @@ int main(int argc, char** argv) {
   try {
     return berm::truck_world::run(argc, argv);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "berm trucks: {}\n", error.what());
+    berm::config::print_error("berm trucks: {}\n", error.what());
     return 2;
   }
 }

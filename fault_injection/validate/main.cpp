@@ -10,6 +10,7 @@
 
 #include "config/command_line.hpp"
 #include "config/compile_parameters.hpp"
+#include "config/standard_error.hpp"
 #include "config/strict_table.hpp"
 #include "config/whole_file.hpp"
 #include "in_process/workers.hpp"
@@ -52,11 +53,11 @@ int run_all(const Bench& bench, const Options& options, const SwingLimits& limit
   };
   const int done = in_process::run_trials(options.runs, options.jobs, do_one, [&](int finished, int run) {
     const TrialResult& r = sweep.results[static_cast<std::size_t>(run)];
-    if (r.outcome == Outcome::miss) fmt::print(stderr, "MISS in run {}: {}\n", run, r.why);
-    if (progress) fmt::print(stderr, "\r{} of {} runs", finished, options.runs);
-    else if (finished % 500 == 0) fmt::print(stderr, "{} of {} runs\n", finished, options.runs);
+    if (r.outcome == Outcome::miss) config::print_error("MISS in run {}: {}\n", run, r.why);
+    if (progress) config::print_error("\r{} of {} runs", finished, options.runs);
+    else if (finished % 500 == 0) config::print_error("{} of {} runs\n", finished, options.runs);
   }, [&] { return interruption.asked(); });
-  if (progress) fmt::print(stderr, "\n");
+  if (progress) config::print_error("\n");
   sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   sweep.results.resize(static_cast<std::size_t>(done));
   return done < options.runs ? interruption.take() : 0;
@@ -87,12 +88,12 @@ int run(int argc, char** argv) {
   berm::config::output(app.add_option("--picture", options.picture, "SVG of the obstacles by outcome"));
   if (const auto status = config::parse_options(app, argc, argv)) return *status;
   if (!options.trace.empty() && options.only < 0) {
-    fmt::print(stderr, "berm validate: --trace needs --only\n");
+    config::print_error("berm validate: --trace needs --only\n");
     return 2;
   }
   // Of runs that nobody counted any one may be repeated, as a failure's command does.
   if (const std::string wrong = config::not_below("--only", options.only, "--runs", options.runs); app.count("--runs") > 0 && !wrong.empty()) {
-    fmt::print(stderr, "berm validate: {} (see --help)\n", wrong);
+    config::print_error("berm validate: {} (see --help)\n", wrong);
     return 2;
   }
   const Bench bench = make_bench(options.machine);
@@ -109,7 +110,7 @@ int run(int argc, char** argv) {
   sweep.machine = options.machine;
   sweep.asked = options.runs;
   const int signal = run_all(bench, options, limits, sweep);
-  if (signal != 0) fmt::print(stderr, "berm validate: interrupted ({}) after {} of {} runs\n", strsignal(signal), sweep.results.size(), options.runs);
+  if (signal != 0) config::print_error("berm validate: interrupted ({}) after {} of {} runs\n", strsignal(signal), sweep.results.size(), options.runs);
   if (sweep.results.empty()) return 1;
   const auto result = flat_json(sweep);
   fmt::print("{}", summary_text(sweep));
@@ -126,7 +127,7 @@ int main(int argc, char** argv) {
   try {
     return berm::validate::run(argc, argv);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "berm validate: {}\n", error.what());
+    berm::config::print_error("berm validate: {}\n", error.what());
     return 2;
   }
 }

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "config/machine_file.hpp"
+#include "config/standard_error.hpp"
 #include "config/whole_file.hpp"
 #include "run/interruption.hpp"
 #include "run/parameter_file.hpp"
@@ -45,18 +46,18 @@ int watch_intrusions(const Options& options) {
     const auto seconds = [begin] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
     run_campaign(bench, options.intrusions, options.jobs, campaign, [&](const IntrusionResult& r) {
       const std::size_t finished = campaign.results.size();
-      if (r.failed()) fmt::print(stderr, "{}FAILED: {}\n", progress ? "\r" : "", command_of(campaign, r));
-      if (progress) fmt::print(stderr, "\r{} of {} intrusions", finished, options.intrusions);
+      if (r.failed()) config::print_error("{}FAILED: {}\n", progress ? "\r" : "", command_of(campaign, r));
+      if (progress) config::print_error("\r{} of {} intrusions", finished, options.intrusions);
       if (finished % told_every != 0) return;
-      if (!progress) fmt::print(stderr, "{} of {} intrusions\n", finished, options.intrusions);
+      if (!progress) config::print_error("{} of {} intrusions\n", finished, options.intrusions);
       campaign.wall_seconds = seconds();
       if (can_be_written_again(options.json)) config::write_whole_file(options.json, flat_json(campaign).dump(1) + "\n");
     }, [&] { return interruption.asked(); });
-    if (progress) fmt::print(stderr, "\n");
+    if (progress) config::print_error("\n");
     campaign.wall_seconds = seconds();
     const bool whole = campaign.results.size() == static_cast<std::size_t>(campaign.asked);
     if (!whole) signal = interruption.take();
-    if (signal != 0) fmt::print(stderr, "berm watch: interrupted ({}) after {} of {} intrusions\n", strsignal(signal), campaign.results.size(), campaign.asked);
+    if (signal != 0) config::print_error("berm watch: interrupted ({}) after {} of {} intrusions\n", strsignal(signal), campaign.results.size(), campaign.asked);
     if (campaign.results.empty()) return 1;
     fmt::print("{}", summary_text(campaign));
   }
@@ -100,7 +101,7 @@ int main(int argc, char** argv) {
   } catch (const berm::run::ToldAlready&) {
     return 2;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "berm watch: {}\n", error.what());
+    berm::config::print_error("berm watch: {}\n", error.what());
     return 2;
   }
 }

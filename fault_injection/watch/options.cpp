@@ -1,6 +1,7 @@
 #include "watch/options.hpp"
 
 #include "config/command_line.hpp"
+#include "config/standard_error.hpp"
 
 namespace berm::watch {
 
@@ -49,7 +50,7 @@ std::optional<int> read_options(int argc, char** argv, Options& o) {
   if (const auto status = config::parse_options(app, argc, argv)) return status;
   const std::string wrong = refusal(o);
   if (wrong.empty()) return std::nullopt;
-  fmt::print(stderr, "berm watch: {} (see --help)\n", wrong);
+  config::print_error("berm watch: {} (see --help)\n", wrong);
   return 2;
 }
 

@@ -5,6 +5,7 @@
 
 #include "config/command_line.hpp"
 #include "config/compile_parameters.hpp"
+#include "config/standard_error.hpp"
 
 int main(int argc, char** argv) {
   std::string machine, site, out, show;
@@ -20,14 +21,14 @@ int main(int argc, char** argv) {
       return 0;
     }
     if (machine.empty() || site.empty() || out.empty()) {
-      fmt::print(stderr, "berm_params: MACHINE, SITE and --out are needed, or --show FILE (see --help)\n");
+      berm::config::print_error("berm_params: MACHINE, SITE and --out are needed, or --show FILE (see --help)\n");
       return 2;
     }
     const auto block = berm::config::compile_parameters(berm::config::load_machine_file(machine), berm::config::load_site_file(site));
     berm::config::save_parameters(block, out);
     return 0;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "berm_params: {}\n", error.what());
+    berm::config::print_error("berm_params: {}\n", error.what());
     return 2;
   }
 }

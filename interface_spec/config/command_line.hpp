@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "config/output_file.hpp"
+#include "config/standard_error.hpp"
 #include "config/standard_output.hpp"
 
 namespace berm::config {
@@ -77,7 +78,7 @@ inline std::string not_below(const char* option, int number, const char* of, int
 inline std::optional<int> parse_options(CLI::App& app, int argc, char** argv) {
   const auto refused = [&app](std::string what) {
     std::replace(what.begin(), what.end(), '\n', ' ');
-    fmt::print(stderr, "{}: {} (see --help)\n", app.get_name(), what);
+    print_error("{}: {} (see --help)\n", app.get_name(), what);
     return 2;
   };
   watch_standard_output(app.get_name());

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/command_line.hpp"
+#include "config/standard_error.hpp"
 #include "gathering/gather_picture.hpp"
 #include "gathering/gather_recording.hpp"
 #include "points/file_bytes.hpp"
@@ -50,7 +51,7 @@ int run(const Options& options) {
   const bool show = isatty(2) != 0;
   for (std::size_t i = 0; i < options.files.size(); ++i) {
     const std::string& file = options.files[i];
-    if (show) fmt::print(stderr, "reading {}\n", file);
+    if (show) config::print_error("reading {}\n", file);
     const PointCloud recording = read_recording(file);
     Eigen::Isometry3d mount = Eigen::Isometry3d::Identity();
     if (!options.mounts.empty()) mount = mount_of(options.mounts[options.mounts.size() == 1 ? 0 : i]);
@@ -60,10 +61,10 @@ int run(const Options& options) {
     unplanned += gather_recording(recording, scanner, mount, gatherer, [&](std::size_t done) {
       if (!show || std::chrono::steady_clock::now() - shown < std::chrono::milliseconds(500)) return;
       shown = std::chrono::steady_clock::now();
-      fmt::print(stderr, "\r{}: {} of {} points", file, done, recording.points.size());
+      config::print_error("\r{}: {} of {} points", file, done, recording.points.size());
     });
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    if (show) fmt::print(stderr, "\r{}: {} points gathered   \n", file, recording.points.size());
+    if (show) config::print_error("\r{}: {} points gathered   \n", file, recording.points.size());
   }
   const GatheringCounts counts = gatherer.counts();
   const double rate = static_cast<double>(counts.points_in) / std::max(seconds, 1e-9);
@@ -126,7 +127,7 @@ int main(int argc, char** argv) {
   try {
     return berm::app::run(options);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "berm gather: {}\n", error.what());
+    berm::config::print_error("berm gather: {}\n", error.what());
     return 2;
   }
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "config/command_line.hpp"
+#include "config/standard_error.hpp"
 #include "planning/script_set.hpp"
 
 namespace {
@@ -38,7 +39,7 @@ int main(int argc, char** argv) {
     show(scripts.approach, approach_vocabulary());
     return 0;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "berm scripts: {}\n", e.what());
+    berm::config::print_error("berm scripts: {}\n", e.what());
     return 1;
   }
 }

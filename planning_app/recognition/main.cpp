@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "config/command_line.hpp"
+#include "config/standard_error.hpp"
 #include "points/file_bytes.hpp"
 #include "points/pcd.hpp"
 #include "recognition/recognition_picture.hpp"
@@ -88,7 +89,7 @@ int main(int argc, char** argv) {
   try {
     return berm::app::run(options);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "berm recognize: {}\n", error.what());
+    berm::config::print_error("berm recognize: {}\n", error.what());
     return 2;
   }
 }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "config/standard_error.hpp"
 #include "gathering/gatherer.hpp"
 #include "timing.hpp"
 
@@ -184,7 +185,7 @@ int main(int argc, char** argv) {
   try {
     return run(name, json);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "berm_bench_gathering: {}\n", error.what());
+    berm::config::print_error("berm_bench_gathering: {}\n", error.what());
     return 2;
   }
 }

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "config/standard_error.hpp"
 #include "planes_parties.hpp"
 #include "planes_tally.hpp"
 #include "timing.hpp"
@@ -137,7 +138,7 @@ int main(int argc, char** argv) {
   try {
     return measure_all(o);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "berm_bench_planes: {}\n", error.what());
+    berm::config::print_error("berm_bench_planes: {}\n", error.what());
     return 2;
   }
 }

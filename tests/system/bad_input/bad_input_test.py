@@ -44,6 +44,17 @@ def a_full_standard_output_is_no_success():
         assert done.returncode == 2 and done.stderr == f"{name}: standard output: cannot be written: No space left on device\n", (program, done.returncode, done.stderr)
 
 
+def a_standard_error_that_takes_nothing_changes_no_status():
+    for program, options in {"berm_params": (scratch / "none.toml", SITE, "-o", scratch / "x"), "berm_gather": (scratch / "none.pcd",), "berm_recognize": (scratch / "none.pcd",),
+                             "berm_scripts": (scratch / "none",), "berm_load": ("--scenario", "none"), "berm_map": (scratch / "none.pcap",), "berm_identify": ("--machine", "none"),
+                             "berm_validate": ("--machine", "none"), "berm_watch": ("--scenario", "none"), "berm_soak": ("--machine", "none"),
+                             "berm_truck_world": ("--scenes", 1, "--out", scratch / "scenes", "--classes", scratch / "none"), "berm_trucks": ("--scenes", 1, "--classes", scratch / "none")}.items():
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run([str(BIN / program), *map(str, options)], stdout=subprocess.PIPE, stderr=full, timeout=60, check=False)
+        expected = 1 if program == "berm_scripts" else 2
+        assert done.returncode == expected, f"{program}: {done.returncode}, not {expected}"
+
+
 def scenarios():
     one_clear_line(run("berm_load", "--scenario", "no-such-scenario"), "no-such-scenario")
     one_clear_line(run("berm_load", "--scenario", scratch / "missing.toml"), "missing.toml")
@@ -173,6 +184,6 @@ def no_room_for_its_files():
 
 
 try:
-    main([unknown_options, help_is_no_error, a_full_standard_output_is_no_success, scenarios, files_nested_too_deep, scenario_fields, ground_without_its_recording, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures, no_room_for_its_files])
+    main([unknown_options, help_is_no_error, a_full_standard_output_is_no_success, a_standard_error_that_takes_nothing_changes_no_status, scenarios, files_nested_too_deep, scenario_fields, ground_without_its_recording, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures, no_room_for_its_files])
 finally:
     shutil.rmtree(scratch)

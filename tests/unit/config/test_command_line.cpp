@@ -85,6 +85,18 @@ TEST_F(CommandLine, AResultThatCannotBeWrittenIsToldOfBeforeTheWork) {
 
 using CommandLineDeathTest = CommandLine;
 
+TEST_F(CommandLineDeathTest, AStandardErrorThatTakesNothingChangesNoStatus) {
+  const auto refused = [this](bool closed) {
+    if (closed) close(STDERR_FILENO);
+    else if (std::freopen("/dev/full", "w", stderr) == nullptr) std::exit(9);
+    char name[] = "berm try", option[] = "--none";
+    char* argv[] = {name, option, nullptr};
+    std::exit(parse_options(app, 2, argv).value_or(8));
+  };
+  EXPECT_EXIT(refused(false), testing::ExitedWithCode(2), "");
+  EXPECT_EXIT(refused(true), testing::ExitedWithCode(2), "");
+}
+
 TEST_F(CommandLineDeathTest, WhatDoesNotReachStandardOutputIsNoSuccess) {
   const auto prints = [this](const char* to) {
     char name[] = "berm try";
