@@ -10,10 +10,10 @@
 int main(int argc, char** argv) {
   std::string machine, site, out, show;
   CLI::App app{"Compiles a machine file and a site file (TOML) into the kernel's parameter block, or shows a block.", "berm_params"};
-  app.add_option("MACHINE", machine, "machine profile, TOML");
-  app.add_option("SITE", site, "site, TOML");
-  berm::config::output(app.add_option("-o,--out", out, "where the block goes"));
-  app.add_option("--show", show, "print what a block says");
+  auto* machine_option = app.add_option("MACHINE", machine, "machine profile, TOML");
+  auto* site_option = app.add_option("SITE", site, "site, TOML");
+  auto* out_option = berm::config::output(app.add_option("-o,--out", out, "where the block goes"));
+  app.add_option("--show", show, "print what a block says")->excludes(machine_option)->excludes(site_option)->excludes(out_option);
   if (const auto status = berm::config::parse_options(app, argc, argv)) return *status;
   try {
     if (!show.empty()) {

@@ -75,6 +75,17 @@ TEST(BermParams, BadCommandLines) {
   EXPECT_TRUE(scratch.names().empty());
 }
 
+TEST(BermParams, ShowingABlockTakesNothingToCompile) {
+  const Scratch scratch;
+  ASSERT_EQ(run(scratch, machine_path() + " " + site_path() + " -o " + scratch.path("block")).status, 0);
+  for (const std::string& more : {machine_path(), machine_path() + " " + site_path(), "-o " + scratch.path("other"), machine_path() + " " + site_path() + " -o " + scratch.path("other")}) {
+    const Outcome done = run(scratch, more + " --show " + scratch.path("block"));
+    expect_one_line(done, more);
+    EXPECT_NE(done.error.find("excludes --show"), std::string::npos) << done.error;
+  }
+  EXPECT_EQ(scratch.names(), std::vector<std::string>{"block"});
+}
+
 TEST(BermParams, Help) {
   const Scratch scratch;
   const Outcome done = run(scratch, "--help");
