@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "config/output_file.hpp"
 #include "config/whole_file.hpp"
 #include "identify/output_files.hpp"
 #include "run/parameter_file.hpp"
@@ -28,6 +29,16 @@ config::MachineFile begin_measurement(const Options& options, Measurement& m) {
   m.scenario = std::filesystem::path(m.scenario_file[1]).stem().string();
   m.seed = options.seed;
   m.repetitions = options.repetitions;
+  std::vector<config::NamedFile> read{{"--machine", m.machine_path}};
+  for (const auto& scenario : m.scenario_file) {
+    const auto files = run::files_of_scenario(scenario);
+    read.insert(read.end(), files.begin(), files.end());
+  }
+  const std::vector<config::NamedFile> results{{"--json", options.json}, {"--picture", options.picture}};
+  std::vector<config::NamedFile> written{{"--out", out_of(options, m.machine_name)}};
+  written.insert(written.end(), results.begin(), results.end());
+  config::expect_apart(results, read);
+  config::expect_apart(written, {});  // --out may be the file to start from
   for (const auto& file : {out_of(options, m.machine_name), options.json, options.picture}) check_writable(file);
   return machine;
 }

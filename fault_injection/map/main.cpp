@@ -98,6 +98,8 @@ void draw(const std::string& path, const std::string& file, const MapSnapshot& m
 }
 
 int run(const Options& options) {
+  const std::string machine = find_machine(options.machine), site = find_site(options.site);
+  config::expect_apart({{"--json", options.json}, {"--picture", options.picture}}, {{"--machine", machine}, {"--site", site}});
   const auto capture = read_capture(options.file);
   std::vector<CapturedDatagram> datagrams;
   for (const auto& datagram : capture)
@@ -111,7 +113,7 @@ int run(const Options& options) {
   const auto uids = choose_uids();
   expect_reachable(folder, uids);
   const std::string parameters = folder.file("kernel.params");
-  compile_parameter_file(find_machine(options.machine), find_site(options.site), parameters);
+  compile_parameter_file(machine, site, parameters);
   const std::uint16_t port = free_udp_port();
   ChildProcess kernel;
   start_kernel(kernel, folder, uids, parameters, {"--map-only", "--vlp16-port", std::to_string(port), "--vlp16-mount", options.mount});

@@ -58,6 +58,7 @@ class LoadRun {
     machine_ = find_machine(names.machine);
     site_ = find_site(names.site);
     if (!options_.soil.empty()) soil_ = find_soil(options_.soil);
+    keep_apart(scenario);
     check_scenario(scenario);
     check_scripts();
     prepare_out();
@@ -73,6 +74,15 @@ class LoadRun {
   }
 
  private:
+  // No result goes over a file that the run reads, or over another.
+  void keep_apart(const std::string& scenario) const {
+    auto read = files_of_scenario(scenario), written = run_files(options_.out);
+    read.push_back({"--soil", soil_});
+    std::erase_if(written, [](const auto& file) { return file.name.ends_with("result.json"); });  // --json has the same in it
+    written.push_back({"--json", options_.json});
+    config::expect_apart(written, read);
+  }
+
   // What is wrong with a scenario the plant says, in one line: before anything starts or is written.
   void check_scenario(const std::string& scenario) {
     ChildProcess plant;

@@ -26,4 +26,11 @@ OutFolder::OutFolder(const std::string& path) {
 
 OutFolder::~OutFolder() { close(fd_); }
 
+std::vector<config::NamedFile> run_files(const std::string& out) {
+  std::vector<config::NamedFile> files;
+  if (out.empty()) return files;
+  for (const std::string name : kRunFiles) files.push_back({"--out's " + name, out + "/" + name});
+  return files;
+}
+
 }  // namespace berm::run

@@ -1,7 +1,11 @@
 // The folder that a run writes to, for it alone: two runs in one would mix their files.
 #pragma once
 
+#include <array>
 #include <string>
+#include <vector>
+
+#include "config/output_file.hpp"
 
 namespace berm::run {
 
@@ -16,5 +20,11 @@ class OutFolder {
  private:
   int fd_ = -1;
 };
+
+// What a run leaves there when it is done.
+inline constexpr std::array kRunFiles{"trace.csv", "truth.json", "terrain_start.csv", "terrain_end.csv", "terrain_start.csv.truck", "terrain_end.csv.truck",
+                                      "journal.mcap", "app.jsonl", "site.svg", "result.json"};
+// Those, for a look at what else is written there.
+std::vector<config::NamedFile> run_files(const std::string& out);
 
 }  // namespace berm::run

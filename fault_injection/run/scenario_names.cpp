@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "config/toml_file.hpp"
+#include "run/parameter_file.hpp"
 #include "run/trace_reader.hpp"
 
 namespace berm::run {
@@ -30,6 +31,23 @@ ScenarioNames scenario_names(const std::string& path) {
     return toml::find<std::string>(file, key);
   };
   return {name("machine"), name("site")};
+}
+
+std::vector<config::NamedFile> files_of_scenario(const std::string& path) {
+  const ScenarioNames names = scenario_names(path);
+  std::vector<config::NamedFile> files{{"the scenario", path}};
+  const auto add = [&files](const char* what, const auto& find, const std::string& name) {
+    try {
+      files.push_back({what, find(name)});
+    } catch (const std::runtime_error&) {  // no file of that name: told by who needs it
+    }
+  };
+  add("the scenario's machine", find_machine, names.machine);
+  add("the scenario's site", find_site, names.site);
+  const auto scenario = config::parse_toml_file(path);
+  if (scenario.contains("plant") && toml::find(scenario, "plant").is_string())
+    files.push_back({"the scenario's plant", (std::filesystem::path(path).parent_path() / toml::find<std::string>(scenario, "plant")).string()});
+  return files;
 }
 
 std::size_t lidar_count(const std::string& machine) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "config/output_file.hpp"
 #include "run/site_picture.hpp"
 
 namespace berm::run {
@@ -14,6 +15,8 @@ struct ScenarioNames { std::string machine, site; };
 
 // Throws std::runtime_error with one line when the file is missing, is no TOML, or names no machine or site.
 ScenarioNames scenario_names(const std::string& path);
+// The scenario and the files that it names, the recording of a measured ground excepted, for a look at what must not be overwritten.
+std::vector<config::NamedFile> files_of_scenario(const std::string& path);
 // How many lidars on the upper body a machine file has: [[lidar]].
 std::size_t lidar_count(const std::string& machine);
 // Fills the arm, dig zones and bearings.

@@ -42,6 +42,10 @@ int run(int argc, char** argv) {
     berm::config::print_error("berm soak: --picture: needs --out\n");
     return 2;
   }
+  auto written = berm::run::run_files(out);
+  if (!out.empty()) written.push_back({"--out's scenario.toml", out + "/scenario.toml"});
+  written.push_back({"--json", json});
+  berm::config::expect_apart(written, {});
   berm::run::RunFolder own;
   const bool kept = !out.empty();
   if (!kept) out = own.file("shift");

@@ -103,6 +103,7 @@ int run(int argc, char** argv) {
     config::print_error("berm validate: {} (see --help)\n", wrong);
     return 2;
   }
+  config::expect_apart({{"--trace", options.trace}, {"--json", options.json}, {"--picture", options.picture}}, {{"--machine", run::find_machine(options.machine)}});
   const Bench bench = make_bench(options.machine);
   // Where nobody watches the ground round the tail it must be fenced, as the kernel says when it starts: the sweep keeps to that.
   const double fence = bench.machine.tail.watched ? 0.0 : bench.machine.own_body_radius + bench.machine.tail.clearance;

@@ -8,10 +8,13 @@
 #include <filesystem>
 
 #include "config/machine_file.hpp"
+#include "config/output_file.hpp"
 #include "config/standard_error.hpp"
 #include "config/whole_file.hpp"
 #include "run/interruption.hpp"
+#include "run/out_folder.hpp"
 #include "run/parameter_file.hpp"
+#include "run/scenario_names.hpp"
 #include "watch/intrusion_campaign.hpp"
 #include "watch/options.hpp"
 #include "watch/quiet_hours.hpp"
@@ -66,6 +69,15 @@ int watch_intrusions(const Options& options) {
   return signal == 0 && result["unsafe"] == 0 && result["undetected"] == 0 ? 0 : 1;
 }
 
+// No result goes over a file that makes it, or over another.
+void keep_apart(const Options& o) {
+  std::vector<config::NamedFile> read, written = run::run_files(o.out);
+  if (!o.scenario.empty()) read = run::files_of_scenario(run::find_scenario(o.scenario));
+  if (!o.machine.empty()) read.push_back({"--machine", run::find_machine(o.machine)});
+  written.insert(written.end(), {{"--json", o.json}, {"--picture", o.picture}, {"--trace", o.trace}});
+  config::expect_apart(written, read);
+}
+
 int watch_one_scenario(const Options& o) {
   const ScenarioResult result = watch_scenario({o.scenario, o.machine, o.out, o.picture, BERM_PLANT_PROFILES, o.histogram, o.seed, o.trucks, o.max_time_s});
   fmt::print("{}", summary_text(result));
@@ -88,6 +100,7 @@ int watch_quietly(const Options& o) {
 int run(int argc, char** argv) {
   Options options;
   if (const auto status = read_options(argc, argv, options)) return *status;
+  keep_apart(options);
   if (options.intrusions > 0) return watch_intrusions(options);
   return options.scenario.empty() ? watch_quietly(options) : watch_one_scenario(options);
 }

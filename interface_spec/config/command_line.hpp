@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,28 +39,19 @@ inline std::string wrong_number(const CLI::Option& option, const std::string& te
 }
 
 inline std::string wrong_values(const CLI::App& app) {
-  struct Named {
-    std::string option, file;
-  };
-  std::vector<Named> read, written;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& text : option->results()) {
+  std::vector<NamedFile> read, written;
+  for (const CLI::Option* option : app.get_options()) {
+    const bool is_output = of_type(*option, kOutput);
+    std::vector<std::string> texts = option->results();
+    if (texts.empty() && is_output) texts.push_back(option->get_default_str());
+    for (const std::string& text : texts) {
       if (std::string wrong = wrong_number(*option, text); !wrong.empty()) return wrong;
-      if (text.empty() || !(of_type(*option, kOutput) || of_type(*option, "TEXT"))) continue;
-      (of_type(*option, kOutput) ? written : read).push_back({option->get_name(), text});
+      if (!text.empty() && (is_output || of_type(*option, "TEXT"))) (is_output ? written : read).push_back({option->get_name(), text});
     }
-  for (std::size_t i = 0; i < written.size(); ++i) {
-    const auto& [option, file] = written[i];
-    if (const std::string why = why_not_written(file); !why.empty()) return fmt::format("{}: {}: {}", option, file, why);
-    std::error_code error;
-    if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error)) continue;  // /dev/null may be named twice
-    for (const Named& other : read)
-      if (std::filesystem::is_regular_file(other.file, error) && same_file(file, other.file))
-        return fmt::format("{}: {} is {} too, and would be overwritten", option, file, other.option);
-    for (std::size_t k = 0; k < i; ++k)
-      if (same_file(file, written[k].file)) return fmt::format("{}: {} is {} too", option, file, written[k].option);
   }
-  return "";
+  for (const auto& [option, file] : written)
+    if (const std::string why = why_not_written(file); !why.empty()) return fmt::format("{}: {}: {}", option, file, why);
+  return overwritten(written, read);
 }
 
 }  // namespace command_line

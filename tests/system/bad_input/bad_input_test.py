@@ -90,6 +90,36 @@ def ground_without_its_recording():
     assert not out.exists() and not (scratch / "result.json").exists(), "left behind by a run that never was"
 
 
+def no_result_goes_over_what_is_read_or_another():
+    folder = scratch / "apart"
+    folder.mkdir()
+    machine, site, scenario, soil = (folder / name for name in ("machine.toml", "site.toml", "scenario.toml", "soil.toml"))
+    machine.write_text(MACHINE.read_text())
+    site.write_text(SITE.read_text())
+    scenario.write_text((ROOT / "fault_injection/scenarios/bench.toml").read_text().replace('machine = "zx200"', f'machine = "{machine}"').replace('site = "bench"', f'site = "{site}"'))
+    soil.write_text((ROOT / "fault_injection/soils/dry_sand.toml").read_text())
+    capture = folder / "capture.pcap"
+    capture.write_bytes(b"none")
+    ring = ROOT / "interface_spec/config/machines/zx200_ring.toml"
+    before = {path: path.read_bytes() for path in (*folder.iterdir(), MACHINE, ring)}
+    out = folder / "out"
+    out.mkdir()
+    for command, words in ((("berm_load", "--scenario", scenario, "--json", machine), "the scenario's machine"), (("berm_load", "--scenario", scenario, "--json", site), "the scenario's site"),
+                           (("berm_load", "--scenario", scenario, "--soil", soil, "--json", soil), "--soil"), (("berm_load", "--scenario", scenario, "--out", out, "--json", out / "trace.csv"), "trace.csv"),
+                           (("berm_watch", "--scenario", scenario, "--json", machine), "the scenario's machine"), (("berm_watch", "--scenario", scenario, "--picture", site), "the scenario's site"),
+                           (("berm_watch", "--intrusions", 1, "--machine", "zx200_ring", "--json", ring), "--machine"),
+                           (("berm_validate", "--runs", 1, "--json", MACHINE), "--machine"), (("berm_map", capture, "--picture", MACHINE), "--machine"), (("berm_map", capture, "--json", capture), "FILE"),
+                           (("berm_identify", "--scenario", scenario, "--json", site, "--out", out), "the scenario's site"), (("berm_identify", "--scenario", scenario, "--json", "braking_table.svg", "--out", out), "--json"),
+                           (("berm_identify", "--out", "zx200.svg", "--picture", "./zx200.svg"), "--out"), (("berm_identify", "--json", "zx200_measured.toml"), "--out"),
+                           (("berm_soak", "--hours", 0.01, "--out", out, "--json", out / "scenario.toml"), "scenario.toml")):
+        done = run(*command, cwd=folder, timeout=60)
+        lost = [path for path, content in before.items() if path.read_bytes() != content]
+        for path in lost:
+            path.write_bytes(before[path])
+        one_clear_line(done, words, "too")
+        assert not lost, lost
+
+
 def load_numbers():
     one_clear_line(run("berm_load", "--trucks", "0"), "trucks")
     one_clear_line(run("berm_load", "--soil", "chocolate"), "soil 'chocolate'", "dry_sand", "frozen_crust", "sticky_clay")
@@ -184,6 +214,6 @@ def no_room_for_its_files():
 
 
 try:
-    main([unknown_options, help_is_no_error, a_full_standard_output_is_no_success, a_standard_error_that_takes_nothing_changes_no_status, scenarios, files_nested_too_deep, scenario_fields, ground_without_its_recording, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures, no_room_for_its_files])
+    main([unknown_options, help_is_no_error, a_full_standard_output_is_no_success, a_standard_error_that_takes_nothing_changes_no_status, scenarios, files_nested_too_deep, scenario_fields, ground_without_its_recording, no_result_goes_over_what_is_read_or_another, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures, no_room_for_its_files])
 finally:
     shutil.rmtree(scratch)

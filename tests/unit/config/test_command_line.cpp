@@ -40,7 +40,7 @@ class CommandLine : public testing::Test {
   test::Scratch scratch;
   const std::string sweep = scratch.path("sweep.pcd");
   CLI::App app{"", "berm try"};
-  std::string file, other, json, picture;
+  std::string file, other, json, picture, map = "map.svg";
   double hours = 1.0;
   std::vector<double> many;
   std::uint64_t seed = 1;
@@ -76,6 +76,31 @@ TEST_F(CommandLine, WhatIsReadIsNotOverwritten) {
 TEST_F(CommandLine, TwoResultsDoNotGoIntoOneFile) {
   EXPECT_NE(refusal({"--json", scratch.path("x"), "--picture", scratch.path("x")}), "") << "neither exists yet";
   EXPECT_EQ(refusal({"--json", "/dev/null", "--picture", "/dev/null"}), "");
+}
+
+class InScratch {  // the folder that a user would be in
+ public:
+  explicit InScratch(const test::Scratch& scratch) { std::filesystem::current_path(scratch.path("")); }
+  ~InScratch() { std::filesystem::current_path(before_); }
+
+ private:
+  const std::filesystem::path before_ = std::filesystem::current_path();
+};
+
+TEST_F(CommandLine, TwoNamesOfAFileThatIsNotThereYetAreOne) {
+  const InScratch there(scratch);
+  EXPECT_EQ(refusal({"--json", "x", "--picture", "./x"}), "berm try: --picture: ./x is --json too (see --help)\n");
+  EXPECT_NE(refusal({"--json", "x", "--picture", scratch.path("x")}), "");
+  EXPECT_EQ(refusal({"--json", "x", "--picture", "y"}), "");
+}
+
+TEST_F(CommandLine, AFileThatIsWrittenUnaskedIsNoOtherEither) {
+  const InScratch there(scratch);
+  output(app.add_option("--map", map, "written"))->capture_default_str();
+  EXPECT_EQ(refusal({"--json", "map.svg"}), "berm try: --map: map.svg is --json too (see --help)\n");
+  std::ofstream("map.svg") << "points";
+  EXPECT_EQ(refusal({"map.svg"}), "berm try: --map: map.svg is FILE too, and would be overwritten (see --help)\n");
+  EXPECT_EQ(refusal({"map.svg", "--map", "other.svg"}), "");
 }
 
 TEST_F(CommandLine, AResultThatCannotBeWrittenIsToldOfBeforeTheWork) {
