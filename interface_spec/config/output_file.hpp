@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "config/link_target.hpp"
+
 namespace berm::config {
 
 // Why nothing can be written there; empty when it can. A folder gets a new file, a device is written into.
@@ -17,7 +19,7 @@ inline std::string why_not_written(const std::string& file) {
   namespace fs = std::filesystem;
   std::error_code error;
   if (fs::is_directory(file, error)) return "is a folder";
-  const fs::path folder = fs::path(file).has_parent_path() ? fs::path(file).parent_path() : ".";
+  const fs::path meant = link_target(file), folder = meant.has_parent_path() ? meant.parent_path() : ".";
   if (!fs::is_directory(folder, error)) return "its folder does not exist";
   const bool written_into = fs::exists(file, error) && !fs::is_regular_file(file, error);
   return access(written_into ? file.c_str() : folder.c_str(), W_OK) == 0 ? "" : std::string("cannot be written: ") + std::strerror(errno);

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "config/link_target.hpp"
+
 namespace berm::config {
 namespace {
 
@@ -19,14 +21,15 @@ bool replaceable(const std::string& path) {
 }  // namespace
 
 void write_whole_file(const std::string& path, std::string_view bytes, bool durable) {
-  const bool replace = replaceable(path);
-  const std::string written = replace ? path + ".part" + std::to_string(getpid()) : path;
+  const std::string meant = link_target(path);
+  const bool replace = replaceable(meant);
+  const std::string written = replace ? meant + ".part" + std::to_string(getpid()) : meant;
   std::FILE* file = std::fopen(written.c_str(), "wbe");
   bool good = file != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() && std::fflush(file) == 0;
   good = good && (!durable || fsync(fileno(file)) == 0);
   int error = good ? 0 : errno;
   if (file != nullptr && std::fclose(file) != 0 && error == 0) error = errno;
-  if (replace && error == 0 && std::rename(written.c_str(), path.c_str()) != 0) error = errno;
+  if (replace && error == 0 && std::rename(written.c_str(), meant.c_str()) != 0) error = errno;
   if (error == 0) return;
   if (replace) std::remove(written.c_str());
   throw std::runtime_error(path + ": cannot be written: " + std::strerror(error));

@@ -54,6 +54,38 @@ TEST(WholeFile, APipeIsWrittenToAndStaysAPipe) {
   EXPECT_TRUE(fs::is_fifo(path));
 }
 
+TEST(WholeFile, ThroughALinkTheFileIsReplacedThatItPointsTo) {
+  const Scratch scratch;
+  fs::create_directory(scratch.path("far"));
+  const std::string file = scratch.write("far/result.json", "old, and longer"), link = scratch.path("link"), second = scratch.path("second");
+  fs::create_hard_link(file, scratch.path("former"));
+  fs::create_symlink("far/result.json", link);
+  fs::create_symlink("link", second);
+  write_whole_file(second, "new");
+  EXPECT_TRUE(fs::is_symlink(link) && fs::is_symlink(second));
+  EXPECT_EQ(read_text(file), "new");
+  EXPECT_EQ(read_text(scratch.path("former")), "old, and longer") << "written in place: a reader would have found half of it";
+  fs::remove(file);
+  write_whole_file(link, "first");
+  EXPECT_EQ(read_text(file), "first") << "the file at a link's end need not be there yet";
+  EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path("far")), {}), 1) << "left beside it";
+}
+
+TEST(WholeFile, AnOpenFileUnderItsNumberIsWrittenInto) {
+  const Scratch scratch;
+  const std::string file = scratch.write("out", "");
+  const int fd = open(file.c_str(), O_WRONLY | O_CLOEXEC);
+  ASSERT_GE(fd, 0);
+  fs::create_symlink("/proc/self/fd/" + std::to_string(fd), scratch.path("stdout"));
+  write_whole_file(scratch.path("stdout"), "through");
+  struct stat opened {}, named {};
+  ASSERT_EQ(fstat(fd, &opened), 0);
+  ASSERT_EQ(stat(file.c_str(), &named), 0);
+  close(fd);
+  EXPECT_EQ(opened.st_ino, named.st_ino) << "replaced under who has it open";
+  EXPECT_EQ(read_text(file), "through");
+}
+
 TEST(WholeFile, ALinkToADeviceStaysALink) {
   const Scratch scratch;
   const std::string path = scratch.path("link");
