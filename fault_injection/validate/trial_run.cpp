@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <iterator>
 #include <memory>
-#include <stdexcept>
 
+#include "config/whole_file.hpp"
 #include "in_process/machine_loop.hpp"
 #include "plant/machine/kinematics.hpp"
 #include "plant/oracle/oracle.hpp"
@@ -30,6 +30,11 @@ constexpr double far_away_m = 60.0;
 constexpr std::uint64_t note_every = 10;  // cycles
 constexpr double seen_before_s = 0.5;     // what is seen later than this before the implements come is no help: they could not stand by then
 
+constexpr const char* trace_header =
+    "time_s,swing_rad,boom_rad,stick_rad,bucket_rad,swing_rad_s,asked_urad_s,commanded_urad_s,kernel_state,stop_reason,blocked_x_mm,blocked_y_mm,blocked_height_mm,"
+    "reach_low_swing_urad,reach_high_swing_urad,reach_low_boom_urad,reach_high_boom_urad,reach_low_stick_urad,reach_high_stick_urad,"
+    "reach_low_bucket_urad,reach_high_bucket_urad\n";
+
 struct PathPoint {
   double t;
   std::array<double, 4> joints;
@@ -51,7 +56,7 @@ class Loop {
                  std::move(supervisor)),
         commander_(bench.machine, trial, std::max(plant::reach(bench.profile.shape, {trial.from, {}}), plant::reach(bench.profile.shape, {trial.to, {}})), looks_) {}
 
-  Motion run(std::FILE* trace) {
+  Motion run(std::string* trace) {
     Motion motion;
     motion.closest_m = motion.ground_gap_m = 1e9;
     double began_s = 0.0, still_s = 0.0;
@@ -60,7 +65,7 @@ class Loop {
       advance();
       const berm_state& state = machine_.state();
       judge(t, motion);
-      if (trace != nullptr) write_row(trace, t);
+      if (trace != nullptr) write_row(*trace, t);
       if (motion.contact) break;
       if (!motion.began) {
         motion.began = commander_.swinging();
@@ -106,13 +111,14 @@ class Loop {
     motion.contact = motion.contact || verdict.contact;
   }
 
-  void write_row(std::FILE* trace, double t) {
+  void write_row(std::string& trace, double t) {
+    const auto out = std::back_inserter(trace);
     const berm_state& s = machine_.state();
     const plant::JointState& q = machine_.joints();
-    fmt::print(trace, "{:.2f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{},{},{},{},{},{},{}", t, q.angle[0], q.angle[1], q.angle[2], q.angle[3], q.velocity[0], machine_.asked().joint_velocity_urad_s[0],
+    fmt::format_to(out, "{:.2f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{},{},{},{},{},{},{}", t, q.angle[0], q.angle[1], q.angle[2], q.angle[3], q.velocity[0], machine_.asked().joint_velocity_urad_s[0],
                s.commanded_urad_s[0], s.kernel_state, s.stop_reason, s.blocked_x_mm, s.blocked_y_mm, s.blocked_height_mm);
-    for (int j = 0; j < 4; ++j) fmt::print(trace, ",{},{}", s.reach_low_urad[j], s.reach_high_urad[j]);
-    fmt::print(trace, "\n");
+    for (int j = 0; j < 4; ++j) fmt::format_to(out, ",{},{}", s.reach_low_urad[j], s.reach_high_urad[j]);
+    fmt::format_to(out, "\n");
   }
 
   SeenSpace* seen_;
@@ -179,16 +185,9 @@ void judge(const Bench& bench, TrialResult& result) {
 TrialResult run_trial(const Bench& bench, const Trial& trial, const std::string& trace) {
   TrialResult result;
   result.trial = trial;
-  std::FILE* file = nullptr;
-  if (!trace.empty()) {
-    file = std::fopen(trace.c_str(), "we");
-    if (file == nullptr) throw std::runtime_error("cannot write " + trace);
-    fmt::print(file, "time_s,swing_rad,boom_rad,stick_rad,bucket_rad,swing_rad_s,asked_urad_s,commanded_urad_s,kernel_state,stop_reason,blocked_x_mm,blocked_y_mm,blocked_height_mm,"
-                     "reach_low_swing_urad,reach_high_swing_urad,reach_low_boom_urad,reach_high_boom_urad,reach_low_stick_urad,reach_high_stick_urad,"
-                     "reach_low_bucket_urad,reach_high_bucket_urad\n");
-  }
-  result.kernel = Loop(bench, trial, make_kernel(bench.parameters)).run(file);
-  if (file != nullptr && std::fclose(file) != 0) throw std::runtime_error("cannot write " + trace);
+  std::string rows{trace_header};
+  result.kernel = Loop(bench, trial, make_kernel(bench.parameters)).run(trace.empty() ? nullptr : &rows);
+  if (!trace.empty()) config::write_whole_file(trace, rows);
   result.nominal = Loop(bench, trial, make_obedient()).run(nullptr);
   judge(bench, result);
   return result;

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <iterator>
 #include <memory>
-#include <stdexcept>
 
 #include "config/compile_parameters.hpp"
+#include "config/whole_file.hpp"
 #include "in_process/machine_loop.hpp"
 #include "io/cycle.hpp"
 #include "watch/swept_reach.hpp"
@@ -68,7 +68,7 @@ std::uint64_t noise_of(std::uint64_t seed, int number, bool follows) {
 
 class Preparation::Work {
  public:
-  Work(const Bench& bench, std::uint64_t seed, int number, bool follows, std::FILE* trace)
+  Work(const Bench& bench, std::uint64_t seed, int number, bool follows, std::string* trace)
       : bench_(bench), trace_(trace), motion_(bench.machine, bench.place), reach_(bench.profile.shape), watch_({""}),
         machine_(bench.profile, with_nobody(bench.world), noise_of(seed, number, follows), {first_pose(bench.place), 0.0, 1, true},
                  in_process::make_kernel(parameters_of(bench, follows))) {}
@@ -166,7 +166,7 @@ class Preparation::Work {
     const berm_state& s = machine_.state();
     const auto& q = machine_.joints();
     const IntruderRecord& r = watch_.records().front();
-    fmt::print(trace_, "{:.2f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{},{},{},{},{},{:.4f},{:.4f},{},{:.4f},{},{},{},{}\n", machine_.time_s(),
+    fmt::format_to(std::back_inserter(*trace_), "{:.2f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{},{},{},{},{},{:.4f},{:.4f},{},{:.4f},{},{},{},{}\n", machine_.time_s(),
                q.angle[0], q.angle[1], q.angle[2], q.angle[3], q.velocity[0], s.kernel_state, s.stop_reason, s.blocked_x_mm, s.blocked_y_mm,
                present ? 1 : 0, pose.x, pose.y, r.inside ? 1 : 0, implements_m, machine_.world().mover_returns().size(), s.pan_angle_urad[0],
                s.pan_angle_urad[1], motion_.cycles());
@@ -174,7 +174,7 @@ class Preparation::Work {
 
   const Bench& bench_;
   plant::MoverConfig shape_;
-  std::FILE* trace_;
+  std::string* trace_;
   double learned_s_ = -1.0;
   LoadingMotion motion_;
   SweptReach reach_;
@@ -194,7 +194,7 @@ const char* name_of(Outcome outcome) {
   }
 }
 
-Preparation::Preparation(const Bench& bench, std::uint64_t seed, int number, bool follows, std::FILE* trace)
+Preparation::Preparation(const Bench& bench, std::uint64_t seed, int number, bool follows, std::string* trace)
     : work_(std::make_unique<Work>(bench, seed, number, follows, trace)) {}
 
 Preparation::~Preparation() = default;
@@ -202,14 +202,9 @@ bool Preparation::wait(double phase_s) { return work_->wait(phase_s); }
 IntrusionResult Preparation::play(const Intrusion& intrusion) { return work_->play(intrusion); }
 
 IntrusionResult run_intrusion(const Bench& bench, const Intrusion& intrusion, const std::string& trace) {
-  std::FILE* file = nullptr;
-  if (!trace.empty()) {
-    file = std::fopen(trace.c_str(), "we");
-    if (file == nullptr) throw std::runtime_error("cannot write " + trace);
-    fmt::print(file, "{}", trace_header);
-  }
-  IntrusionResult result = Preparation(bench, intrusion.seed, preparation_of(intrusion.run), intrusion.follows, file).play(intrusion);
-  if (file != nullptr && std::fclose(file) != 0) throw std::runtime_error("cannot write " + trace);
+  std::string rows{trace_header};
+  IntrusionResult result = Preparation(bench, intrusion.seed, preparation_of(intrusion.run), intrusion.follows, trace.empty() ? nullptr : &rows).play(intrusion);
+  if (!trace.empty()) config::write_whole_file(trace, rows);
   return result;
 }
 

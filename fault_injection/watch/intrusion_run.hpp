@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,8 +46,8 @@ constexpr int preparation_of(int run) { return run / trials_of_a_preparation; }
 // The machine at work with nobody there, until the kernel has learned the ground, and some time after it.
 class Preparation {
  public:
-  // trace: takes a row a cycle, or null.
-  Preparation(const Bench& bench, std::uint64_t seed, int number, bool follows, std::FILE* trace);
+  // trace: takes a line of CSV a cycle, or null.
+  Preparation(const Bench& bench, std::uint64_t seed, int number, bool follows, std::string* trace);
   ~Preparation();
 
   // Goes on until that long after the ground was learned. False: the ground is not learned, or there was an alarm; nothing is to be had of this.

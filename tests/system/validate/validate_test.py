@@ -3,6 +3,7 @@
 verifies: SK-CY-20, SK-TS-1
 """
 import json
+import os
 import pathlib
 import re
 import tempfile
@@ -49,10 +50,13 @@ def a_failure_names_the_run_that_repeats_it():
         assert done.returncode == 1 and failure["scenario"] in done.stdout, done.stdout
     right = next(i for i in range(RUNS) if i not in {f["run"] for f in result["failures"]})
     trace, one, picture = scratch / "one.csv", scratch / "one.json", scratch / "one.svg"
+    trace.write_text("former\n")
+    os.link(trace, scratch / "former.csv")
     done = run("berm_validate", "--seed", SEED, "--only", right, "--trace", trace, "--json", one, "--picture", picture, timeout=60)
     assert done.returncode == 0, done.stdout
     told = json.loads(one.read_text())
     assert (told["asked"], told["runs"], told["misses"], told["seed"]) == (1, 1, 0, SEED) and "<svg" in picture.read_text(), told
+    assert (scratch / "former.csv").read_text() == "former\n", "written in place: a run that fails would leave half of it"
     lines = trace.read_text().splitlines()
     assert len(lines) > 300 and all(line.count(",") == lines[0].count(",") for line in lines)
 

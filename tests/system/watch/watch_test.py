@@ -6,6 +6,7 @@ verifies: SK-WM-51
 import csv
 import json
 import math
+import os
 import pathlib
 import re
 import tempfile
@@ -53,9 +54,12 @@ def trials_are_judged_the_same_again():
 
 def one_trial_is_repeated_alone():
     out, trace = scratch / "one.json", scratch / "one.csv"
+    trace.write_text("former\n")
+    os.link(trace, scratch / "former.csv")
     done = run("berm_watch", "--intrusions", TRIALS, "--seed", SEED, "--only", 1, "--json", out, "--trace", trace, timeout=100)
     one = json.loads(out.read_text())
     assert one["runs"] == 1 and one["detected"] == 1, done.stdout
+    assert (scratch / "former.csv").read_text() == "former\n", "written in place: a trial that fails would leave half of it"
     rows = list(csv.DictReader(open(trace, newline="")))
     entered = next(float(row["time_s"]) for row in rows if row["in_region"] == "1")
     stopped = next(float(row["time_s"]) for row in rows if row["present"] == "1" and row["kernel_state"] != "2")
