@@ -21,6 +21,7 @@ struct TrialOptions {
   int only = -1;
   int jobs = 1;
   bool trucks = false, no_trucks = false, list = false, arriving = false;
+  std::string again;  // what else was given that a scene depends on, as a command has it
   std::string json, table, drawn = BERM_TRUCK_CLASSES, ranges = BERM_TRUCK_RANGES;
   SceneOptions scene;
 };
@@ -33,8 +34,8 @@ std::string unseen(const Trial& t) {
 void report(const Trial& t, const TrialOptions& o) {
   const bool failed = t.truck ? !t.recognised : t.found;
   if (!failed && !o.list) return;
-  const std::string again = fmt::format("berm trucks --scenes {} --seed {} --only {} {} --list", o.scenes, o.seed, t.scene,
-                                        t.truck ? "--trucks" : "--no-trucks");
+  const std::string again = fmt::format("./berm trucks --scenes {} --seed {} --only {} {} --list{}", o.scenes, o.seed, t.scene,
+                                        t.truck ? "--trucks" : "--no-trucks", o.again);
   if (!t.truck) {
     fmt::print("{} {}: {} [{}]\n", t.found ? "ACCEPTED" : "none", t.look_alike.empty() ? "clutter" : t.look_alike,
                t.found ? fmt::format("{:.2f} x {:.2f}", t.pose.length, t.pose.width) : t.reason, again);
@@ -127,6 +128,7 @@ int run(int argc, char** argv) {
     return 2;
   }
 
+  o.again = config::options_again(app, {"--scenes", "--seed", "--only", "--trucks", "--no-trucks", "--list", "--json", "--table", "--jobs"});
   const std::vector<TruckClass> classes = read_truck_classes(o.drawn);
   const app::TruckRangeSet ranges = app::read_truck_ranges(o.ranges);
   const int first = o.only >= 0 ? o.only : 0, count = o.only >= 0 ? 1 : o.scenes;

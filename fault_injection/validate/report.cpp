@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/shell_word.hpp"
 #include "run/contract_text.hpp"
 #include "run/svg.hpp"
 
@@ -49,7 +50,7 @@ Totals totals_of(const std::vector<TrialResult>& results) {
 }
 
 std::string command(const Sweep& sweep, const Trial& trial) {
-  return fmt::format("./berm validate --machine {} --seed {} --only {}", sweep.machine, trial.seed, trial.run);
+  return fmt::format("./berm validate --machine {} --seed {} --only {}", config::shell_word(sweep.machine), trial.seed, trial.run);
 }
 
 std::vector<TrialResult> of_place(const Sweep& sweep, Place place) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "config/shell_word.hpp"
 #include "run/contract_text.hpp"
 
 namespace berm::watch {
@@ -157,7 +158,7 @@ ordered_json slowest_of(const Campaign& campaign, Some some) {
 }  // namespace
 
 std::string command_of(const Campaign& campaign, const IntrusionResult& r) {
-  return fmt::format("./berm watch --intrusions {} --seed {} --only {} --machine {}{}", r.intrusion.run + 1, r.intrusion.seed, r.intrusion.run, campaign.machine,
+  return fmt::format("./berm watch --intrusions {} --seed {} --only {} --machine {}{}", r.intrusion.run + 1, r.intrusion.seed, r.intrusion.run, config::shell_word(campaign.machine),
                      campaign.histogram ? " --histogram" : "");
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "config/output_file.hpp"
+#include "config/shell_word.hpp"
 #include "config/standard_error.hpp"
 #include "config/standard_output.hpp"
 
@@ -62,6 +63,18 @@ inline CLI::Option* output(CLI::Option* option) { return option->type_name(comma
 // Of a number that counts from 0: why it is none of so many; empty when it is one.
 inline std::string not_below(const char* option, int number, const char* of, int count) {
   return number < count ? "" : fmt::format("{}: {} is not below {} {}", option, number, of, count);
+}
+
+// What was given on the command line, but for the options without, each with a space before it: the end of a command that does the same again.
+inline std::string options_again(const CLI::App& app, const std::vector<std::string>& without) {
+  std::string again;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() == 0 || std::find(without.begin(), without.end(), option->get_name()) != without.end()) continue;
+    if (!option->get_positional()) again += " " + option->get_name();
+    if (option->get_items_expected_max() == 0) continue;  // a flag
+    for (const std::string& value : option->results()) again += " " + shell_word(value);
+  }
+  return again;
 }
 
 // The exit status when the program should end now.

@@ -107,6 +107,17 @@ def several_jobs_judge_the_same():
     assert judged(1) == judged(3)
 
 
+def what_is_listed_can_be_repeated_with_all_that_it_depends_on():
+    def listed(*options):
+        lines = [line for line in run("berm_trucks", *options, "--list").stdout.splitlines() if " --only " in line]
+        return [(line.split(", nees")[0].split(" [")[0], line.split(" [")[1].rstrip("]")) for line in lines]
+
+    first = listed("--scenes", 2, "--only", 1, "--seed", SEED, "--trucks", "--points", 36000, "--noise", 0.2, "--jobs", 1)
+    assert len(first) == 1 and first[0][1].endswith(" --points 36000 --noise 0.2"), first
+    assert first[0][1].startswith("./berm trucks "), first
+    assert listed(*first[0][1].split()[2:]) == first
+
+
 def an_interrupt_ends_trucks_with_what_was_judged():
     out, rows = scratch / "interrupted.json", scratch / "interrupted.csv"
     process, words, errors, _ = interrupted("berm_trucks", "--scenes", 100000, "--seed", SEED, "--list", "--jobs", 2, "--json", out, "--table", rows, after="found ", of="stdout")
@@ -174,5 +185,5 @@ def what_is_malformed_is_refused():
     assert done.returncode == 1 and "no truck: " in done.stdout, (done.returncode, done.stdout, done.stderr)
 
 
-main([a_drawn_truck_is_found_and_bare_ground_is_none, the_height_is_known_as_well_as_it_says, what_tells_a_bed_from_a_pit, as_scanlines_arrive, several_jobs_judge_the_same,
+main([a_drawn_truck_is_found_and_bare_ground_is_none, the_height_is_known_as_well_as_it_says, what_tells_a_bed_from_a_pit, as_scanlines_arrive, several_jobs_judge_the_same, what_is_listed_can_be_repeated_with_all_that_it_depends_on,
       an_interrupt_ends_trucks_with_what_was_judged, an_interrupt_ends_truck_world_with_whole_scenes, what_is_malformed_is_refused])

@@ -108,6 +108,14 @@ TEST_F(CommandLine, AResultThatCannotBeWrittenIsToldOfBeforeTheWork) {
   EXPECT_EQ(refusal({"--json", scratch.path("")}), "berm try: --json: " + scratch.path("") + ": is a folder (see --help)\n");
 }
 
+TEST_F(CommandLine, WhatWasGivenIsGivenAgain) {
+  bool flag = false, other_flag = false;
+  app.add_flag("--flag", flag);
+  app.add_flag("--off", other_flag);
+  ASSERT_EQ(refusal({sweep, "--many", "1", "2.50", "--seed", "7", "--flag", "--other", "it's a name"}), "");
+  EXPECT_EQ(options_again(app, {"FILE", "--seed"}), " --other 'it'\\''s a name' --many 1 2.50 --flag");
+}
+
 using CommandLineDeathTest = CommandLine;
 
 TEST_F(CommandLineDeathTest, AStandardErrorThatTakesNothingChangesNoStatus) {
