@@ -57,7 +57,7 @@ class Panel {
     text_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.2\" fill=\"{}\" fill-opacity=\"0.7\"/>\n", x(speed), y(angle), colour);
   }
   void words(double px, double py, const std::string& font, const std::string& anchor, const std::string& what, const std::string& more = {}) {
-    text_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" style=\"font:{} sans-serif;text-anchor:{}\"{}>{}</text>\n", px, py, font, anchor, more, what);
+    text_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" style=\"font:{} sans-serif;text-anchor:{}\"{}>{}</text>\n", px, py, font, anchor, more, run::svg_escaped(what));
   }
   const std::string& text() const { return text_; }
 
@@ -109,7 +109,7 @@ void write_braking_picture(const std::string& path, const Result& r, const confi
   const double width = kLeft + static_cast<double>(across) * (kWidth + kGapX), height = kTop + static_cast<double>(down) * (kHeight + kGapY);
   std::string body = fmt::format("<text x=\"{:.0f}\" y=\"26\" style=\"font:bold 16px sans-serif\">Braking table of {} (simulation): points measured, "
                                  "lines the bounds, dashed before</text>\n",
-                                 kLeft, r.machine_name);
+                                 kLeft, run::svg_escaped(r.machine_name));
   for (std::size_t i = 0; i < count; ++i)
     body += joint_panel(r, m, r.joints[i], kLeft + static_cast<double>(i % across) * (kWidth + kGapX), kTop + static_cast<double>(i / 2) * (kHeight + kGapY), runs);
   run::write_svg(path, width, height, {}, body);

@@ -16,7 +16,7 @@ constexpr double kWidth = 520.0, kHeight = 210.0, kLeft = 56.0, kTop = 78.0, kGa
 constexpr std::array<const char*, 2> kColour{"#1b6ca8", "#b3271e"};  // empty, loaded
 
 std::string words(double x, double y, const std::string& font, const std::string& anchor, const std::string& what, const char* colour = "#000") {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"{}\" style=\"font:{} sans-serif;text-anchor:{}\">{}</text>\n", x, y, colour, font, anchor, what);
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"{}\" style=\"font:{} sans-serif;text-anchor:{}\">{}</text>\n", x, y, colour, font, anchor, run::svg_escaped(what));
 }
 
 struct Panel {

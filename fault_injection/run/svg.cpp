@@ -10,6 +10,17 @@
 
 namespace berm::run {
 
+std::string svg_escaped(const std::string& words) {
+  std::string escaped;
+  for (const char c : words) {
+    if (c == '<') escaped += "&lt;";
+    else if (c == '>') escaped += "&gt;";
+    else if (c == '&') escaped += "&amp;";
+    else escaped += c;
+  }
+  return escaped;
+}
+
 SvgPanel::SvgPanel(double x0, double y0, double x1, double y1, double left, double top, double scale)
     : x0_(x0), y0_(y0), x1_(x1), y1_(y1), left_(left), top_(top), scale_(scale) {}
 
@@ -45,13 +56,7 @@ void SvgPanel::circle(double x, double y, double radius_m, const std::string& st
 }
 
 void SvgPanel::text(double x, double y, const std::string& words, const std::string& style) {
-  std::string escaped;
-  for (const char c : words) {
-    if (c == '<') escaped += "&lt;";
-    else if (c == '&') escaped += "&amp;";
-    else escaped += c;
-  }
-  body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" style=\"font-family:sans-serif;{}\">{}</text>\n", px(x), py(y), style, escaped);
+  body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" style=\"font-family:sans-serif;{}\">{}</text>\n", px(x), py(y), style, svg_escaped(words));
 }
 
 void SvgPanel::axes(double step_m, const std::string& x_name, const std::string& y_name) {
@@ -61,13 +66,13 @@ void SvgPanel::axes(double step_m, const std::string& x_name, const std::string&
     frame_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" style=\"font:11px sans-serif;text-anchor:middle\">{:g}</text>\n", px(x), py(y0_) + 14, x);
   for (double y = std::ceil(y0_ / step_m) * step_m + 0.0; y <= y1_ + 1e-9; y += step_m)
     frame_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" style=\"font:11px sans-serif;text-anchor:end\">{:g}</text>\n", px(x0_) - 5, py(y) + 4, y);
-  frame_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" style=\"font:12px sans-serif;text-anchor:middle\">{}</text>\n", px((x0_ + x1_) / 2), py(y0_) + 30, x_name);
+  frame_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" style=\"font:12px sans-serif;text-anchor:middle\">{}</text>\n", px((x0_ + x1_) / 2), py(y0_) + 30, svg_escaped(x_name));
   frame_ += fmt::format("<text x=\"{0:.1f}\" y=\"{1:.1f}\" transform=\"rotate(-90 {0:.1f} {1:.1f})\" style=\"font:12px sans-serif;text-anchor:middle\">{2}</text>\n",
-                       px(x0_) - 28, py((y0_ + y1_) / 2), y_name);
+                       px(x0_) - 28, py((y0_ + y1_) / 2), svg_escaped(y_name));
 }
 
 void SvgPanel::title(const std::string& words) {
-  frame_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" style=\"font:bold 14px sans-serif\">{}</text>\n", left_, top_ - 8, words);
+  frame_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" style=\"font:bold 14px sans-serif\">{}</text>\n", left_, top_ - 8, svg_escaped(words));
 }
 
 std::string SvgPanel::body() const {

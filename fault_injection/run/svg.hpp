@@ -9,6 +9,9 @@ namespace berm::run {
 
 using Point2 = std::pair<double, double>;
 
+// Words as the text of an element: names of files and machines may have any character.
+std::string svg_escaped(const std::string& words);
+
 class SvgPanel {
  public:
   // The world rectangle (x0, y0)..(x1, y1) is drawn at the pixel place (left, top), scale pixels per metre.
