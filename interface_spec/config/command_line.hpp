@@ -27,13 +27,18 @@ inline constexpr const char* kOutput = "OUTPUT";
 
 inline bool of_type(const CLI::Option& option, const char* type) { return option.get_type_name().find(type) == 0; }
 
-// What CLI11 lets through: a number that is none is within any range, and a negative or too large one wraps round.
+// What CLI11 lets through: a number that is none is within any range, a negative or too large one wraps round or is cut off, and 010 is eight.
 inline std::string wrong_number(const CLI::Option& option, const std::string& text) {
   const std::string name = option.get_name();
   char* end = nullptr;
   if (of_type(option, "FLOAT")) return std::isfinite(std::strtod(text.c_str(), &end)) ? "" : fmt::format("{}: {} is no number", name, text);
-  if (!of_type(option, "UINT")) return "";
-  if (text.find('-') != std::string::npos) return fmt::format("{}: {} is negative", name, text);
+  const bool counts = of_type(option, "UINT");
+  if (!counts && !of_type(option, "INT")) return "";
+  if (counts && text.find('-') != std::string::npos) return fmt::format("{}: {} is negative", name, text);
+  const std::string digits = text.substr(text.find_first_of("+-") == 0 ? 1 : 0);
+  if (digits.empty() || digits.find_first_not_of("0123456789") != std::string::npos || (digits.size() > 1 && digits[0] == '0'))
+    return fmt::format("{}: {} is no whole number in decimal digits without leading zeros", name, text);
+  if (!counts) return "";
   errno = 0;
   const unsigned long long value = std::strtoull(text.c_str(), &end, 10);
   return errno == ERANGE ? fmt::format("{}: {} is beyond {}", name, text, value) : "";

@@ -21,6 +21,7 @@ class CommandLine : public testing::Test {
     app.add_option("--hours", hours, "")->check(CLI::Range(0.01, 10.0));
     app.add_option("--many", many, "")->check(CLI::Range(0.01, 10.0));
     app.add_option("--seed", seed, "");
+    app.add_option("--runs", runs, "");
     std::ofstream(sweep) << "points";
   }
   // The line on standard error; empty when the options were taken.
@@ -44,6 +45,7 @@ class CommandLine : public testing::Test {
   double hours = 1.0;
   std::vector<double> many;
   std::uint64_t seed = 1;
+  int runs = 1;
 };
 
 TEST_F(CommandLine, WhatIsRightIsTaken) {
@@ -63,6 +65,18 @@ TEST_F(CommandLine, ANumberThatIsNoneIsWithinNoRange) {
 TEST_F(CommandLine, ASeedIsTheOneThatWasTyped) {
   EXPECT_EQ(refusal({"--seed", "-1"}), "berm try: --seed: -1 is negative (see --help)\n");
   EXPECT_EQ(refusal({"--seed", "99999999999999999999999"}), "berm try: --seed: 99999999999999999999999 is beyond 18446744073709551615 (see --help)\n");
+}
+
+TEST_F(CommandLine, ANumberIsTheDecimalThatItLooksLike) {
+  for (const char* octal : {"010", "-010", "0x10", "0777777777777777777777777", "0xFFFFFFFFFFFFFFFFFFFF"}) {
+    if (octal[0] != '-') {
+      EXPECT_EQ(refusal({"--seed", octal}), "berm try: --seed: " + std::string(octal) + " is no whole number in decimal digits without leading zeros (see --help)\n");
+    }
+    EXPECT_NE(refusal({"--runs", octal}), "") << octal;
+  }
+  EXPECT_NE(refusal({"--runs", "4294967297"}), "");
+  EXPECT_EQ(refusal({"--seed", "0", "--runs", "-10", "--hours", "00.5"}), "");
+  EXPECT_EQ(runs, -10);
 }
 
 TEST_F(CommandLine, WhatIsReadIsNotOverwritten) {
