@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <grp.h>
+#include <linux/close_range.h>
 #include <poll.h>
 #include <signal.h>
 #include <string.h>
@@ -11,8 +12,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
+#include <stdexcept>
 #include <system_error>
 #include <thread>
 
@@ -20,7 +23,8 @@ namespace berm::run {
 
 namespace {
 
-constexpr int kHighDescriptor = 200;  // child descriptors are moved above this first, so that they cannot overwrite one another
+constexpr int kHighDescriptor = 200;  // above every number that a child is given
+constexpr std::size_t kMostDescriptors = 16;
 
 [[noreturn]] void child_fail(const char* what) {
   const int error = errno;
@@ -35,19 +39,18 @@ constexpr int kHighDescriptor = 200;  // child descriptors are moved above this 
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);  // what the launcher keeps back for itself is not kept from the child
   if (dup2(output_fd, 1) < 0) child_fail("stdout");
-  int next = kHighDescriptor;
-  for (const auto& [ours, theirs] : options.descriptors) {
-    if (dup2(ours, next++) < 0) child_fail("descriptor");
+  // To free numbers above what the child gets: neither do they overwrite one another nor what the launcher has there.
+  std::array<int, kMostDescriptors> moved{};
+  for (std::size_t i = 0; i < options.descriptors.size(); ++i) {
+    moved[i] = fcntl(options.descriptors[i].first, F_DUPFD, kHighDescriptor);
+    if (moved[i] < 0) child_fail("descriptor");
   }
-  const int program = next;
-  if (dup2(program_fd, program) < 0) child_fail("program");
-  next = kHighDescriptor;
+  const int program = fcntl(program_fd, F_DUPFD, kHighDescriptor);
+  if (program < 0) child_fail("program");
   for (int fd = 3; fd < kHighDescriptor; ++fd) close(fd);
-  for (const auto& [ours, theirs] : options.descriptors) {
-    if (dup2(next, theirs) < 0) child_fail("descriptor");
-    close(next++);
-  }
-  fcntl(program, F_SETFD, FD_CLOEXEC);
+  for (std::size_t i = 0; i < options.descriptors.size(); ++i)
+    if (dup2(moved[i], options.descriptors[i].second) < 0) child_fail("descriptor");
+  if (close_range(kHighDescriptor, ~0U, CLOSE_RANGE_CLOEXEC) != 0) child_fail("descriptors");
   if (options.uid) {
     if (setgroups(0, nullptr) != 0 || setgid(*options.uid) != 0 || setuid(*options.uid) != 0) child_fail("uid");
     prctl(PR_SET_PDEATHSIG, SIGKILL);  // switching the uid clears it
@@ -68,6 +71,7 @@ ChildProcess::~ChildProcess() {
 }
 
 void ChildProcess::start(const ChildOptions& options) {
+  if (options.descriptors.size() > kMostDescriptors) throw std::invalid_argument(fmt::format("{}: more than {} descriptors", options.program, kMostDescriptors));
   name_ = options.program.substr(options.program.rfind('/') + 1);
   const int program = open(options.program.c_str(), O_RDONLY | O_CLOEXEC);
   if (program < 0) throw std::system_error(errno, std::generic_category(), options.program);
