@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/command_line.hpp"
+#include "config/json_text.hpp"
 #include "config/standard_error.hpp"
 #include "config/whole_file.hpp"
 #include "echoes/clear_air.hpp"
@@ -56,7 +57,7 @@ int run(int argc, char** argv) {
   if (!o.json.empty()) {
     nlohmann::json out = json_of(rows, o.stage, o.scanlines);
     out["clear_air"] = json_of(clear);
-    config::write_whole_file(o.json, out.dump(2) + "\n");
+    config::write_whole_file(o.json, config::json_text(out, 2));
   }
   if (!o.picture.empty()) write_echo_picture(o.picture, stage, o.stage, o.shown);
   return 0;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "config/json_text.hpp"
 #include "identify/machine_file_text.hpp"
 #include "identify/provenance_text.hpp"
 
@@ -133,7 +134,7 @@ std::string json_text(const Result& r, const config::MachineFile& machine) {
       }
     }
   }
-  return out.dump(1) + "\n";
+  return config::json_text(out, 1);
 }
 
 std::string summary_text(const Result& r, const config::MachineFile& machine) {

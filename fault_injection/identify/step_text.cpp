@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "config/json_text.hpp"
 #include "identify/machine_file_text.hpp"
 #include "identify/provenance_text.hpp"
 
@@ -107,7 +108,7 @@ std::string step_json_text(const StepResult& r, const config::MachineFile& machi
                              {"promised_rad_s2", rounded(machine.joint[j].acceleration_max)}, {"step_responses", f.records}, {"readings", f.samples}});
     }
   }
-  return out.dump(1) + "\n";
+  return config::json_text(out, 1);
 }
 
 std::string step_summary_text(const StepResult& r, const config::MachineFile& machine) {

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "config/command_line.hpp"
+#include "config/json_text.hpp"
 #include "config/standard_error.hpp"
 #include "config/whole_file.hpp"
 #include "contract/berm_contract.h"
@@ -135,7 +136,7 @@ int run(const Options& options) {
   const auto cells = cells_of(map);
   if (!options.json.empty()) {
     const nlohmann::json result{{"file", options.file}, {"packets", packets}, {"rejected", rejected}, {"points", points}, {"cell_m", map.cell_m}, {"cells", cells}};
-    config::write_whole_file(options.json, result.dump(1) + "\n");
+    config::write_whole_file(options.json, config::json_text(result, 1));
   }
   draw(options.picture, options.file, map);
   fmt::print("{} packets into the kernel, {} rejected, {} points, {} cells of {:.1f} m observed\npicture: {}\n", packets, rejected, points, cells.size(), map.cell_m,

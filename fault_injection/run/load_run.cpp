@@ -16,6 +16,7 @@
 #include <system_error>
 #include <thread>
 
+#include "config/json_text.hpp"
 #include "config/whole_file.hpp"
 #include "run/child_process.hpp"
 #include "run/contract_text.hpp"
@@ -374,7 +375,7 @@ class LoadRun {
 
   void write_out() {
     if (options_.picture) write_picture();
-    config::write_whole_file(out_ + "/result.json", flat_json(result_).dump(2) + "\n");
+    config::write_whole_file(out_ + "/result.json", config::json_text(flat_json(result_), 2));
     events_file_.close();
     if (!events_file_) throw std::runtime_error(fmt::format("{}.part: not all could be written: {}", events_path(), events_error_));
     std::filesystem::rename(events_path() + ".part", events_path());

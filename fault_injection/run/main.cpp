@@ -3,6 +3,7 @@
 
 #include <exception>
 
+#include "config/json_text.hpp"
 #include "config/standard_error.hpp"
 #include "config/whole_file.hpp"
 #include "run/load_run.hpp"
@@ -14,7 +15,7 @@ int main(int argc, char** argv) {
   try {
     const auto result = berm::run::load_trucks(options);
     fmt::print("{}", berm::run::summary_text(result));
-    if (!options.json.empty()) berm::config::write_whole_file(options.json, berm::run::flat_json(result).dump(2) + "\n");
+    if (!options.json.empty()) berm::config::write_whole_file(options.json, berm::config::json_text(berm::run::flat_json(result), 2));
     const auto reasons = berm::run::shortcomings(result);
     for (const auto& reason : reasons) berm::config::print_error("berm load: {}\n", reason);
     return reasons.empty() ? 0 : 1;

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "config/command_line.hpp"
+#include "config/json_text.hpp"
 #include "config/standard_error.hpp"
 #include "config/whole_file.hpp"
 #include "run/kernel_session.hpp"
@@ -71,7 +72,7 @@ int run(int argc, char** argv) {
   std::fflush(stdout);
   const auto report = berm::soak::shift_json(berm::run::load_trucks(options), hours);
   fmt::print("{}", berm::soak::shift_text(report));
-  if (!json.empty()) berm::config::write_whole_file(json, report.dump(2) + "\n");
+  if (!json.empty()) berm::config::write_whole_file(json, berm::config::json_text(report, 2));
   const auto reasons = berm::soak::shortcomings(report);
   for (const auto& reason : reasons) berm::config::print_error("berm soak: {}\n", reason);
   return reasons.empty() ? 0 : 1;

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "config/json_text.hpp"
 #include "config/whole_file.hpp"
 #include "points/pcd.hpp"
 #include "run/svg.hpp"
@@ -42,7 +43,7 @@ void write_scene(const std::string& folder, const Scene& scene, bool picture) {
     ++begun;
     if (picture) write_picture(files[2], scene);
     ++begun;
-    config::write_whole_file(files[3], json_of(scene.truth).dump(1) + "\n");
+    config::write_whole_file(files[3], config::json_text(json_of(scene.truth), 1));
   } catch (...) {
     // The last one begun never came to be; a file of an earlier run under its name stays.
     for (std::size_t i = 0; i + 1 < begun; ++i) std::remove(files[i].c_str());

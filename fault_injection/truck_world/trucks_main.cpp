@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/command_line.hpp"
+#include "config/json_text.hpp"
 #include "config/standard_error.hpp"
 #include "config/whole_file.hpp"
 #include "in_process/workers.hpp"
@@ -157,9 +158,9 @@ int run(int argc, char** argv) {
   json.update(summary(all.whole));
   if (o.arriving) json["arriving"] = summary(all.arrived);
   if (done < count) fmt::print("{} of {} scenes: interrupted\n", done, count);
-  fmt::print("{}\n", json.dump(1));
+  fmt::print("{}", config::json_text(json, 1));
   if (!o.table.empty()) config::write_whole_file(o.table, table(all.whole));
-  if (!o.json.empty()) config::write_whole_file(o.json, json.dump(1) + "\n");
+  if (!o.json.empty()) config::write_whole_file(o.json, config::json_text(json, 1));
   return signal == 0 && json["trucks"] == json["recognised"] && json["false_accepts"] == 0 ? 0 : 1;
 }
 

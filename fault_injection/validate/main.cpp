@@ -10,6 +10,7 @@
 
 #include "config/command_line.hpp"
 #include "config/compile_parameters.hpp"
+#include "config/json_text.hpp"
 #include "config/standard_error.hpp"
 #include "config/strict_table.hpp"
 #include "config/whole_file.hpp"
@@ -122,7 +123,7 @@ int run(int argc, char** argv) {
     fmt::print("{}", summary_text(sweep));
   }
   const auto result = flat_json(sweep);
-  if (!options.json.empty()) config::write_whole_file(options.json, result.dump(1) + "\n");
+  if (!options.json.empty()) config::write_whole_file(options.json, config::json_text(result, 1));
   if (!options.picture.empty()) write_picture(options.picture, sweep);
   const bool held = signal == 0 && result["misses"] == 0 && result["needless_stops"].get<double>() <= 0.005 * sweep.asked;
   return held ? 0 : 1;

@@ -7,6 +7,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "config/json_text.hpp"
 #include "config/machine_file.hpp"
 #include "config/output_file.hpp"
 #include "config/standard_error.hpp"
@@ -54,7 +55,7 @@ int watch_intrusions(const Options& options) {
       if (finished % told_every != 0) return;
       if (!progress) config::print_error("{} of {} intrusions\n", finished, options.intrusions);
       campaign.wall_seconds = seconds();
-      if (can_be_written_again(options.json)) config::write_whole_file(options.json, flat_json(campaign).dump(1) + "\n");
+      if (can_be_written_again(options.json)) config::write_whole_file(options.json, config::json_text(flat_json(campaign), 1));
     }, [&] { return interruption.asked(); });
     if (progress) config::print_error("\n");
     campaign.wall_seconds = seconds();
@@ -65,7 +66,7 @@ int watch_intrusions(const Options& options) {
     fmt::print("{}", summary_text(campaign));
   }
   const auto result = flat_json(campaign);
-  if (!options.json.empty()) config::write_whole_file(options.json, result.dump(1) + "\n");
+  if (!options.json.empty()) config::write_whole_file(options.json, config::json_text(result, 1));
   return signal == 0 && result["unsafe"] == 0 && result["undetected"] == 0 ? 0 : 1;
 }
 
@@ -81,19 +82,19 @@ void keep_apart(const Options& o) {
 int watch_one_scenario(const Options& o) {
   const ScenarioResult result = watch_scenario({o.scenario, o.machine, o.out, o.picture, BERM_PLANT_PROFILES, o.histogram, o.seed, o.trucks, o.max_time_s});
   fmt::print("{}", summary_text(result));
-  if (!o.json.empty()) config::write_whole_file(o.json, flat_json(result).dump(1) + "\n");
+  if (!o.json.empty()) config::write_whole_file(o.json, config::json_text(flat_json(result), 1));
   return result.held() ? 0 : 1;
 }
 
 int watch_quietly(const Options& o) {
   const auto so_far = [&](const QuietResult& result) {
-    if (can_be_written_again(o.json)) config::write_whole_file(o.json, flat_json(result).dump(1) + "\n");
+    if (can_be_written_again(o.json)) config::write_whole_file(o.json, config::json_text(flat_json(result), 1));
   };
   const std::string machine = o.machine.empty() ? drawn_machine : o.machine;
   const bool histogram = o.histogram || config::load_machine_file(run::find_machine(machine)).workspace.histogram;
   const QuietResult result = watch_quiet_hours({o.quiet_hours, o.seed, machine, histogram, BERM_PLANT_PROFILES, o.jobs}, so_far);
   fmt::print("{}", summary_text(result));
-  if (!o.json.empty()) config::write_whole_file(o.json, flat_json(result).dump(1) + "\n");
+  if (!o.json.empty()) config::write_whole_file(o.json, config::json_text(flat_json(result), 1));
   return result.false_alarms() == 0 && result.contacts() == 0 ? 0 : 1;
 }
 

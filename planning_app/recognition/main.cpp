@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "config/command_line.hpp"
+#include "config/json_text.hpp"
 #include "config/standard_error.hpp"
 #include "points/file_bytes.hpp"
 #include "points/pcd.hpp"
@@ -58,7 +59,7 @@ int run(const Options& options) {
   for (const auto& [there, field] : {std::pair(cloud.scanlines, "scanline"), std::pair(cloud.times, "time")})
     if (!there) throw PointFileError(fmt::format("{}: {}: is missing", options.file, field));
   const RecognisedTruck truck = recognise_truck(cloud.points, cloud.viewpoint, ranges);
-  if (!options.json.empty()) write_file_bytes(options.json, json_of(truck).dump(1) + "\n");
+  if (!options.json.empty()) write_file_bytes(options.json, config::json_text(json_of(truck), 1));
   if (truck.found) {
     fmt::print("{}: opening {:.2f} by {:.2f} m, yaw {:.1f} degrees, walls {:.2f} m high (standard deviation {:.2f}); {:.1f} ms\n", truck.truck_class, truck.length, truck.width,
                json_of(truck)["yaw_deg"].get<double>(), truck.height, truck.height_deviation, truck.milliseconds);

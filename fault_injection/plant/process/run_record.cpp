@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "config/json_text.hpp"
 #include "plant/process/output_file.hpp"
 
 namespace berm::plant {
@@ -111,7 +112,7 @@ void RunRecord::write(const std::string& path, const End& end) const {
   truth["refused_frames"] = end.refused_frames;
   truth["scan_packets"] = end.scan_packets;
   OutputFile file(path);
-  file.write(truth.dump(2) + "\n");
+  file.write(config::json_text(truth, 2));
   file.finish();
 }
 

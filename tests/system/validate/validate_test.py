@@ -6,9 +6,10 @@ import json
 import os
 import pathlib
 import re
+import subprocess
 import tempfile
 
-from berm_command import interrupted, main, one_clear_line, run
+from berm_command import BIN, ROOT, interrupted, main, one_clear_line, run
 
 RUNS, SEED = 40, 11
 STOP_TAIL = 19  # BERM_STOP_TAIL
@@ -61,6 +62,14 @@ def a_failure_names_the_run_that_repeats_it():
     assert len(lines) > 300 and all(line.count(",") == lines[0].count(",") for line in lines)
 
 
+def a_name_that_is_no_utf8_loses_no_result():
+    machine, out = os.fsencode(scratch) + b"/caf\xe9.toml", scratch / "name.json"
+    pathlib.Path(os.fsdecode(machine)).write_text((ROOT / "interface_spec/config/machines/zx200.toml").read_text())
+    done = subprocess.run([str(BIN / "berm_validate"), "--runs", "1", "--machine", machine, "--json", str(out)], capture_output=True, timeout=60, check=False)
+    assert done.returncode in (0, 1), done.stderr
+    assert json.loads(out.read_text())["machine"].endswith("/caf\ufffd.toml")
+
+
 def what_the_bucket_hides_is_not_forgotten():
     # The bucket stands beside the box and hides its top from both scanners; the ground round the box's foot is seen for fifteen seconds.
     done = run("berm_validate", "--seed", 2, "--only", 25, timeout=60)
@@ -109,6 +118,6 @@ def bad_input_is_one_line():
     one_clear_line(run("berm_validate", "--surprise"), "--surprise")
 
 
-main([no_obstacle_is_touched_that_the_nominal_motion_touches, a_failure_names_the_run_that_repeats_it, what_the_bucket_hides_is_not_forgotten,
+main([no_obstacle_is_touched_that_the_nominal_motion_touches, a_failure_names_the_run_that_repeats_it, a_name_that_is_no_utf8_loses_no_result, what_the_bucket_hides_is_not_forgotten,
       a_stop_past_hidden_space_is_told_from_others, the_tail_stops_short_of_what_it_would_touch_where_it_is_watched,
       an_interrupt_ends_it_with_what_was_done, bad_input_is_one_line])
