@@ -120,6 +120,7 @@ class LoadRun {
     }
     if (!options_.out_held) result_.options.out_held = std::make_shared<const OutFolder>(out_);  // until whoever reads its files is done with the result
     if (options_.out.empty()) return;
+    if (const std::string former = remove_former_run(out_); !former.empty()) fmt::print("{}: removed, of an earlier run: {}\n", out_, former);
     events_file_.open(events_path() + ".part");
     if (!events_file_) throw std::runtime_error(events_path() + ".part: cannot write");
   }
@@ -201,7 +202,6 @@ class LoadRun {
 
   // The writer runs under a uid that can write nothing here: it is given the open file, and renaming it is ours.
   void start_journal(int pace) {
-    std::filesystem::remove(journal_file());
     const std::string part = journal_file() + ".part";
     const int file = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (file < 0) throw std::system_error(errno, std::generic_category(), part);

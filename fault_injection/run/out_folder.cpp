@@ -33,4 +33,12 @@ std::vector<config::NamedFile> run_files(const std::string& out) {
   return files;
 }
 
+std::string remove_former_run(const std::string& out) {
+  std::string removed;
+  for (const std::string name : kRunFiles)
+    for (const std::string& file : {name, name + ".part"})
+      if (std::filesystem::remove(out + "/" + file)) removed += (removed.empty() ? "" : ", ") + file;
+  return removed;
+}
+
 }  // namespace berm::run

@@ -27,4 +27,7 @@ inline constexpr std::array kRunFiles{"trace.csv", "truth.json", "terrain_start.
 // Those, for a look at what else is written there.
 std::vector<config::NamedFile> run_files(const std::string& out);
 
+// Removes what a former run left there, whole or begun, so that no folder mixes two runs: the names; empty for none.
+std::string remove_former_run(const std::string& out);
+
 }  // namespace berm::run

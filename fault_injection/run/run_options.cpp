@@ -38,7 +38,7 @@ std::optional<int> read_options(int argc, char** argv, RunOptions& options) {
   app.add_option("--seed", options.seed, "seed of every random draw")->capture_default_str();
   app.add_flag("--realtime", options.realtime, "run on the wall clock instead of as fast as the computer allows");
   berm::config::output(app.add_option("--json", options.json, "write the result as one flat JSON object"));
-  app.add_option("--out", options.out, "folder for trace.csv, truth.json, journal.mcap, app.jsonl, site.svg and result.json");
+  app.add_option("--out", options.out, "folder for trace.csv, truth.json, journal.mcap, app.jsonl, site.svg and result.json; those of an earlier run there are removed first");
   app.add_option("--fault", fault, "a process fault in the run: kill-app@S, stop-app@S, kill-kernel@S or kill-journal@S, S in simulated seconds; then status 0 means that the machine stood still in time, untouched (kill-journal: that nothing came of it)");
   app.add_flag("--quiet", options.quiet, "no progress, only the summary");
   if (const auto status = config::parse_options(app, argc, argv)) return status;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "in_process/draw.hpp"
 
@@ -99,12 +100,14 @@ DrawnShift draw_shift(double hours, std::uint64_t seed) {
 
 int trucks_enough(double hours) { return std::min(1000, 2 + static_cast<int>(3600.0 * hours / kShortestTruck_s)); }
 
+constexpr const char* kDrawn = "# A shift of ";  // how the text of one begins
+
 std::string scenario_text(const DrawnShift& shift) {
   constexpr double kFar = 19.0;  // m behind and to the right: where people wait
   // The bench is as long as the machine may move back in the time: 68 moves of 84 m were made in 7.8 h.
   constexpr double kLeastBack_m = 84.0, kBack_m_h = 12.0, kBehind_m = 12.0;
   const double back = std::max(kLeastBack_m, kBack_m_h * shift.seconds / 3600.0);
-  std::string out = fmt::format("# A shift of {:.2f} h, drawn from seed {}. Format: FORMAT.md.\n", shift.seconds / 3600, shift.seed);
+  std::string out = fmt::format("{}{:.2f} h, drawn from seed {}. Format: FORMAT.md.\n", kDrawn, shift.seconds / 3600, shift.seed);
   const auto add = [&out]<typename... Values>(fmt::format_string<Values...> format, Values&&... values) { out += fmt::format(format, std::forward<Values>(values)...); };
   add("schema = 1\nname = \"soak\"\nmachine = \"zx200_ring\"\nsite = \"shift\"\nplant = \"zx200_ring_plant\"\n\n[run]\nmax_time_s = {:.1f}\noperator_run_from_s = 0.5\n\n", shift.seconds);
   add("[operator]\nreaction_s = [4.0, 12.0]\ntram_speed = 0.6\nfarthest_back_m = {:.1f}\nresets_after_s = [15.0, 60.0]\n\n", back);
@@ -135,6 +138,12 @@ std::string scenario_text(const DrawnShift& shift) {
   add("[scanner]\nsample_rate_hz = 12000.0\nsamples_per_revolution = 400\nrange = [0.3, 60.0]\nrange_stddev = 0.03\noutlier_probability = 0.001\ndropout_probability = 0.002\n"
       "dust_probability = 0.0005\nwindow_percent = 98.0\n");
   return out;
+}
+
+bool may_be_overwritten(const std::string& scenario) {
+  std::ifstream file(scenario);
+  std::string line;
+  return !file || (std::getline(file, line) && line.starts_with(kDrawn));
 }
 
 }  // namespace berm::soak

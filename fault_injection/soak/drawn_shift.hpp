@@ -31,4 +31,7 @@ int trucks_enough(double hours);
 
 std::string scenario_text(const DrawnShift& shift);
 
+// Whether a file is such a text, or not there: one that somebody wrote himself is his.
+bool may_be_overwritten(const std::string& scenario);
+
 }  // namespace berm::soak

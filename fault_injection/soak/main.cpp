@@ -35,7 +35,7 @@ int run(int argc, char** argv) {
   app.add_option("--hours", hours, "of simulated time")->capture_default_str()->check(CLI::Range(0.01, 10.0));
   app.add_option("--seed", seed, "seed of every random draw")->capture_default_str();
   berm::config::output(app.add_option("--json", json, "write the report as one flat JSON object"));
-  app.add_option("--out", out, "folder for scenario.toml (what was drawn), trace.csv (a row each 0.1 s), truth.json, app.jsonl and result.json");
+  app.add_option("--out", out, "folder for scenario.toml (what was drawn), trace.csv (a row each 0.1 s), truth.json, app.jsonl and result.json; those of an earlier run there are removed first");
   app.add_flag("--picture", picture, "site.svg as well; needs --out");
   app.add_flag("--journal", journal, "the kernel's journal as well; it grows by some 14 gigabytes an hour");
   if (const auto status = berm::config::parse_options(app, argc, argv)) return *status;
@@ -52,6 +52,8 @@ int run(int argc, char** argv) {
   if (!kept) out = own.file("shift");
   const auto held = std::make_shared<const berm::run::OutFolder>(out);
   const std::string scenario = out + "/scenario.toml";
+  if (kept && !berm::soak::may_be_overwritten(scenario))
+    throw std::runtime_error(fmt::format("--out: {}: was not drawn by berm soak, and would be overwritten", scenario));
   berm::config::write_whole_file(scenario, berm::soak::scenario_text(berm::soak::draw_shift(hours, seed)));
   berm::run::RunOptions options;
   options.scenario = scenario;

@@ -9,6 +9,7 @@
 
 #include "config/standard_error.hpp"
 #include "run/interruption.hpp"
+#include "run/out_folder.hpp"
 #include "truck_world/options.hpp"
 #include "truck_world/scene_files.hpp"
 
@@ -22,6 +23,8 @@ int run(int argc, char** argv) {
   std::error_code error;
   std::filesystem::create_directories(o.out, error);
   if (!std::filesystem::is_directory(o.out)) throw std::runtime_error(fmt::format("--out: {}: cannot be made a folder", o.out));
+  const run::OutFolder held(o.out);
+  if (const std::string wrong = of_another_run(o.out, o.seed, o.only >= 0); !wrong.empty()) throw std::runtime_error("--out: " + wrong);
 
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const auto begin = std::chrono::steady_clock::now();

@@ -14,7 +14,7 @@ std::optional<int> read_options(int argc, char** argv, const std::string& classe
       "berm truck_world"};
   app.add_option("--scenes", o.scenes, "this many scenes, numbered from 0")->required()->check(CLI::Range(1, 1000000));
   app.add_option("--seed", o.seed, "seed of every draw")->capture_default_str();
-  app.add_option("--out", o.out, "folder to write to; made when it is not there")->required();
+  app.add_option("--out", o.out, "folder to write to; made when it is not there. One that holds scenes is refused; with --only, one that holds scenes of another seed")->required();
   app.add_option("--only", o.only, "writes this one scene alone")->check(CLI::Range(0, 999999));
   bool all = false, none = false;
   auto* trucks = app.add_flag("--trucks", all, "a truck in every scene instead of in half of them");

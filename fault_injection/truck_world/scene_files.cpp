@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <vector>
 
 #include "config/json_text.hpp"
 #include "config/whole_file.hpp"
@@ -31,24 +33,41 @@ std::string label_lines(const std::vector<PointTruth>& points) {
 std::string scene_name(int number) { return fmt::format("scene_{:06d}", number); }
 
 void write_scene(const std::string& folder, const Scene& scene, bool picture) {
-  const std::string base = folder + "/" + scene_name(scene.truth.scene);
-  const std::array<std::string, 4> files{base + ".pcd", base + ".labels.csv", base + ".svg", base + ".json"};
-  std::size_t begun = 0;
+  namespace fs = std::filesystem;
+  const std::string name = scene_name(scene.truth.scene), part = folder + "/" + name + ".part", base = part + "/" + name;
+  std::vector<std::string> endings{".pcd", ".labels.csv"};
+  if (picture) endings.push_back(".svg");
+  endings.push_back(".json");
+  for (const std::string& ending : endings)
+    if (const std::string file = folder + "/" + name + ending; fs::is_directory(file)) throw std::runtime_error(file + ": cannot be written: is a folder");
   try {
+    fs::create_directory(part);
     const Vector3d& eye = scene.truth.viewpoint;
-    ++begun;
-    app::write_pcd(files[0], scene.cloud, {eye.x(), eye.y(), eye.z()});
-    ++begun;
-    config::write_whole_file(files[1], label_lines(scene.point_truth));
-    ++begun;
-    if (picture) write_picture(files[2], scene);
-    ++begun;
-    config::write_whole_file(files[3], config::json_text(json_of(scene.truth), 1));
+    app::write_pcd(base + ".pcd", scene.cloud, {eye.x(), eye.y(), eye.z()});
+    config::write_whole_file(base + ".labels.csv", label_lines(scene.point_truth));
+    if (picture) write_picture(base + ".svg", scene);
+    config::write_whole_file(base + ".json", config::json_text(json_of(scene.truth), 1));
+    for (const std::string& ending : endings) fs::rename(base + ending, folder + "/" + name + ending);
+    fs::remove(part);
   } catch (...) {
-    // The last one begun never came to be; a file of an earlier run under its name stays.
-    for (std::size_t i = 0; i + 1 < begun; ++i) std::remove(files[i].c_str());
+    std::error_code ignored;
+    fs::remove_all(part, ignored);
     throw;
   }
+}
+
+std::string of_another_run(const std::string& folder, std::uint64_t seed, bool adds) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("scene_")) continue;
+    if (!adds) return fmt::format("{}: holds scenes of an earlier run ({}): name another folder, or remove them", folder, name);
+    if (entry.path().extension() != ".json") continue;
+    std::ifstream file(entry.path());
+    const auto truth = nlohmann::json::parse(file, nullptr, false);
+    if (!truth.is_object() || !truth.contains("seed") || truth["seed"] != seed)
+      return fmt::format("{}: holds scenes that are not of seed {} ({}): name another folder, or remove them", folder, seed, name);
+  }
+  return "";
 }
 
 }  // namespace berm::truck_world

@@ -45,7 +45,7 @@ std::optional<int> read_options(int argc, char** argv, Options& o) {
   app.add_option("--jobs", o.jobs, "trials or runs at a time (0: one a core)")->check(CLI::Range(0, 256))->capture_default_str();
   berm::config::output(app.add_option("--json", o.json, "result for scripts"));
   berm::config::output(app.add_option("--picture", o.picture, "with --scenario: SVG of the monitor's maps at the first alarm, or at the end"));
-  app.add_option("--out", o.out, "with --scenario: folder for trace.csv, truth.json, journal.mcap, site.svg and result.json");
+  app.add_option("--out", o.out, "with --scenario: folder for trace.csv, truth.json, journal.mcap, site.svg and result.json; those of an earlier run there are removed first");
   berm::config::output(app.add_option("--trace", o.trace, "with --only: CSV of the trial"));
   if (const auto status = config::parse_options(app, argc, argv)) return status;
   const std::string wrong = refusal(o);

@@ -55,4 +55,24 @@ def a_killed_one_leaves_no_lock():
     shutil.rmtree(folder)
 
 
-main([the_second_is_refused, a_killed_one_leaves_no_lock])
+def a_killed_one_leaves_no_file_of_a_former_one():
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
+    for name in ("truth.json", "result.json", "journal.mcap", "notes.txt"):
+        (folder / name).write_text("former")
+    first = first_run(folder, "berm_load", "--scenario", "bench")
+    os.kill(first.pid, signal.SIGKILL)
+    first.wait(timeout=PATIENCE_S)
+    left = {path.name for path in folder.iterdir()}
+    assert "notes.txt" in left and not {"truth.json", "result.json", "journal.mcap"} & left, left
+    shutil.rmtree(folder)
+
+
+def a_soak_draws_over_no_scenario_of_somebodys_own():
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
+    (folder / "scenario.toml").write_text("schema = 1\n")
+    one_clear_line(run("berm_soak", "--hours", 0.01, "--out", folder, timeout=60), "scenario.toml: was not drawn by berm soak")
+    assert (folder / "scenario.toml").read_text() == "schema = 1\n"
+    shutil.rmtree(folder)
+
+
+main([the_second_is_refused, a_killed_one_leaves_no_lock, a_killed_one_leaves_no_file_of_a_former_one, a_soak_draws_over_no_scenario_of_somebodys_own])

@@ -140,6 +140,18 @@ def an_interrupt_ends_truck_world_with_whole_scenes():
     assert {path.name for path in folder.iterdir()} == expected, "not the first scenes, each whole"
 
 
+def a_folder_holds_scenes_of_one_run():
+    folder = scratch / "one_run"
+    done = run("berm_truck_world", "--scenes", 2, "--seed", SEED, "--points", 9200, "--out", folder)
+    assert done.returncode == 0, done.stderr
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+    one_clear_line(run("berm_truck_world", "--scenes", 1, "--seed", SEED, "--points", 9200, "--out", folder), folder, "earlier run")
+    one_clear_line(run("berm_truck_world", "--scenes", 5, "--only", 4, "--seed", SEED + 1, "--points", 9200, "--out", folder), folder, f"not of seed {SEED + 1}")
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+    assert run("berm_truck_world", "--scenes", 2, "--only", 1, "--seed", SEED, "--points", 9200, "--out", folder, "--picture").returncode == 0
+    assert {path.name for path in folder.iterdir()} == {*before, "scene_000001.svg"}
+
+
 def offline(content, number):
     """The same scene through files: what berm_recognize answers, and the truth."""
     folder = scratch / content
@@ -186,4 +198,4 @@ def what_is_malformed_is_refused():
 
 
 main([a_drawn_truck_is_found_and_bare_ground_is_none, the_height_is_known_as_well_as_it_says, what_tells_a_bed_from_a_pit, as_scanlines_arrive, several_jobs_judge_the_same, what_is_listed_can_be_repeated_with_all_that_it_depends_on,
-      an_interrupt_ends_trucks_with_what_was_judged, an_interrupt_ends_truck_world_with_whole_scenes, what_is_malformed_is_refused])
+      an_interrupt_ends_trucks_with_what_was_judged, an_interrupt_ends_truck_world_with_whole_scenes, a_folder_holds_scenes_of_one_run, what_is_malformed_is_refused])

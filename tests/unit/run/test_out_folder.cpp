@@ -72,4 +72,12 @@ TEST(OutFolders, ThatCannotBeAreNamed) {
   EXPECT_THAT(refusal(file + "/under"), testing::StartsWith(file + "/under: "));
 }
 
+TEST(OutFolders, LoseAFormerRunAndNothingElse) {
+  const berm::test::Scratch base;
+  for (const char* name : {"trace.csv", "truth.json", "app.jsonl", "journal.mcap.part", "terrain_end.csv.truck", "scenario.toml", "notes.txt"}) base.write(name, "former");
+  EXPECT_EQ(berm::run::remove_former_run(base.folder()), "trace.csv, truth.json, terrain_end.csv.truck, journal.mcap.part, app.jsonl");
+  EXPECT_EQ(base.names(), (std::vector<std::string>{"notes.txt", "scenario.toml"}));
+  EXPECT_EQ(berm::run::remove_former_run(base.folder()), "");
+}
+
 }  // namespace

@@ -58,5 +58,25 @@ TEST(TruckWorldFiles, AFileThatCannotBeWrittenLeavesNothingOfItsScene) {
   EXPECT_EQ(left, 0);
 }
 
+TEST(TruckWorldFiles, ASceneThatCannotBeWrittenLeavesAnEarlierOneAsItWas) {
+  const test::Scratch scratch;
+  scratch.write("scene_000003.pcd", "former");
+  scratch.write("scene_000003.labels.csv", "former");
+  std::filesystem::create_directories(scratch.path("scene_000003.json/in_the_way"));
+  EXPECT_THROW(write_scene(scratch.folder(), draw_scene(shipped_classes(), coarse(Content::no_truck), 13, 3), false), std::runtime_error);
+  EXPECT_EQ(scratch.names(), (std::vector<std::string>{"scene_000003.json", "scene_000003.labels.csv", "scene_000003.pcd"}));
+  EXPECT_EQ(std::filesystem::file_size(scratch.path("scene_000003.pcd")), 6U);
+}
+
+TEST(TruckWorldFiles, AFolderHoldsOneRun) {
+  const test::Scratch scratch;
+  scratch.write("notes.txt", "");
+  EXPECT_EQ(of_another_run(scratch.folder(), 13, false), "");
+  write_scene(scratch.folder(), draw_scene(shipped_classes(), coarse(Content::no_truck), 13, 3), false);
+  EXPECT_NE(of_another_run(scratch.folder(), 13, false), "");
+  EXPECT_EQ(of_another_run(scratch.folder(), 13, true), "") << "one scene more of the same";
+  EXPECT_NE(of_another_run(scratch.folder(), 14, true), "");
+}
+
 }  // namespace
 }  // namespace berm::truck_world
