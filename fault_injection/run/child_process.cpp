@@ -5,6 +5,7 @@
 #include <grp.h>
 #include <linux/close_range.h>
 #include <poll.h>
+#include <sched.h>
 #include <signal.h>
 #include <string.h>
 #include <sys/prctl.h>
@@ -51,6 +52,8 @@ constexpr std::size_t kMostDescriptors = 16;
   for (std::size_t i = 0; i < options.descriptors.size(); ++i)
     if (dup2(moved[i], options.descriptors[i].second) < 0) child_fail("descriptor");
   if (close_range(kHighDescriptor, ~0U, CLOSE_RANGE_CLOEXEC) != 0) child_fail("descriptors");
+  if (options.no_network && unshare(CLONE_NEWNET) != 0)
+    dprintf(2, "berm: note: %s keeps the computer's network: %s\n", argv[0], strerror(errno));
   if (options.uid) {
     if (setgroups(0, nullptr) != 0 || setgid(*options.uid) != 0 || setuid(*options.uid) != 0) child_fail("uid");
     prctl(PR_SET_PDEATHSIG, SIGKILL);  // switching the uid clears it

@@ -15,6 +15,7 @@ struct ChildOptions {
   std::vector<std::string> arguments;                // without the program's name
   std::vector<std::pair<int, int>> descriptors;      // (ours, number in the child); everything else is closed
   std::optional<uid_t> uid;                          // switch to this uid and gid (root only)
+  bool no_network = false;                           // a network namespace with nothing in it; one line on stderr where the launcher may not (root only)
 };
 
 class ChildProcess {

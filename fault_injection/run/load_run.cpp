@@ -170,6 +170,7 @@ class LoadRun {
     if (!options_.realtime) app.arguments.push_back("--lockstep");
     app.descriptors = {{ticks.second(), kTickDescriptor}};
     if (uids_.separate) app.uid = uids_.app;
+    app.no_network = uids_.separate;  // the bus and the scanners are the kernel's
     app_.start(app);
     wait_for_app();
     recorder_.connect(folder_.file("kernel.sock"));

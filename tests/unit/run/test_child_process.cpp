@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,24 @@ TEST(ChildProcesses, GetTheirDescriptorsFromALauncherThatHasHundredsOpen) {
   EXPECT_EQ(child.exit_status(), 0);
   EXPECT_EQ(child.take_lines(), (std::vector<std::string>{"line 0", "line 1", "line 2", "line 3", "0", "1", "2", "3", "4", "5", "6", "7"})) << "3 is what ls itself opens";
   for (const int line : lines) close(line);
+}
+
+// Neither the bus nor the scanners' ports are to be reached from there.
+TEST(ChildProcesses, WithoutNetworkHaveANamespaceOfTheirOwnWithNothingUp) {
+  if (geteuid() != 0) GTEST_SKIP() << "SKIPPED: needs root";
+  ChildOptions options;
+  options.program = "/bin/sh";
+  options.arguments = {"-c", "readlink /proc/self/ns/net; grep -c : /proc/self/net/dev; grep -c . /proc/self/net/route"};
+  options.no_network = true;
+  options.uid = 64999;
+  ChildProcess child;
+  child.start(options);
+  EXPECT_TRUE(child.wait_ended(20.0));
+  const std::vector<std::string> said = child.take_lines();
+  ASSERT_EQ(said.size(), 3U);
+  EXPECT_NE(said[0], std::filesystem::read_symlink("/proc/self/ns/net").string());
+  EXPECT_EQ(said[1], "1") << "the loopback interface, which is down";
+  EXPECT_LE(said[2].size(), 1U) << "no route";
 }
 
 }  // namespace
