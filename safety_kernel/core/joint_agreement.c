@@ -99,18 +99,18 @@ static void sk_agreement_extend(sk_agreement *s, const berm_parameters *p, int32
   s->last_us += time_us;
 }
 
-/*@ requires \valid_read(s) && \valid_read(p) && 0 <= joint < SK_JOINTS && sk_limits_fit(p, joint) &&
+/*@ requires \valid_read(s) && 0 <= angle_error <= SK_REACH_ERROR_MAX && 0 <= velocity_error <= SK_REACH_ERROR_MAX &&
   @   sk_span_fits(s, SK_AGREE_SPAN_US + SK_AGREE_GAP_MOST_US) && -SK_REACH_ANGLE_MAX_URAD <= angle_urad <= SK_REACH_ANGLE_MAX_URAD;
   @ assigns \nothing;
   @ ensures \result == true <==> sk_size(2000000 * (angle_urad - s->first_angle_urad) - s->way) >
-  @   sk_may_differ(p, joint, s->allowance, s->latency_us, s->first_velocity_urad_s, s->velocity_urad_s, s->change_urad_s);
+  @   sk_may_differ(angle_error, velocity_error, s->allowance, s->latency_us, s->first_velocity_urad_s, s->velocity_urad_s, s->change_urad_s);
   @*/
-static bool sk_agreement_differs(const sk_agreement *s, const berm_parameters *p, int32_t joint, int32_t angle_urad)
+static bool sk_agreement_differs(const sk_agreement *s, int64_t angle_error, int64_t velocity_error, int32_t angle_urad)
 {
-  int64_t speed = sk_size_of(s->first_velocity_urad_s) + sk_size_of(s->velocity_urad_s) + s->change_urad_s + 2 * (int64_t)p->velocity_error_urad_s[joint];
+  int64_t speed = sk_size_of(s->first_velocity_urad_s) + sk_size_of(s->velocity_urad_s) + s->change_urad_s + 2 * velocity_error;
   int64_t shifted = sk_way_of(speed, s->latency_us, 2 * SK_AGREE_CHANGE_MOST);
   int64_t differs = 2000000 * ((int64_t)angle_urad - s->first_angle_urad) - s->way;
-  return sk_size_of(differs) > 4000000 * (int64_t)p->angle_error_urad[joint] + s->allowance + 4 * shifted;
+  return sk_size_of(differs) > 4000000 * angle_error + s->allowance + 4 * shifted;
 }
 
 void sk_agreement_begin(sk_agreement *s)
@@ -129,7 +129,7 @@ void sk_agreement_begin(sk_agreement *s)
 int32_t sk_agreement_step(sk_agreement *s, const berm_parameters *p, sk_agreement_reading r)
 {
   bool differs;
-  int64_t time_us;
+  int64_t time_us, angle_error, velocity_error;
   if (!sk_agreement_ok(p, r)) { return BERM_STOP_INTERNAL; }
   if (s->since_us < 0 || r.now_us <= s->last_us || r.now_us > s->last_us + SK_AGREE_GAP_MOST_US) {
     sk_agreement_begin_with(s, r);
@@ -137,12 +137,11 @@ int32_t sk_agreement_step(sk_agreement *s, const berm_parameters *p, sk_agreemen
     return BERM_STOP_NONE;
   }
   time_us = r.now_us - s->last_us;
+  angle_error = p->angle_error_urad[r.joint];
+  velocity_error = p->velocity_error_urad_s[r.joint];
   sk_agreement_extend(s, p, r.joint, r.velocity_urad_s, r.latency_us, time_us);
-  differs = sk_agreement_differs(s, p, r.joint, r.angle_urad);
-  /*@ assert judged: differs == true <==>
-    @   sk_size(2000000 * (r.angle_urad - \at(s->first_angle_urad, Pre)) - sk_way_with{Pre}(s, r.velocity_urad_s, time_us)) >
-    @   sk_may_differ(p, r.joint, sk_allowance_with{Pre}(s, p, r.joint, r.velocity_urad_s, r.latency_us, time_us),
-    @     sk_latency_with{Pre}(s, r.latency_us), \at(s->first_velocity_urad_s, Pre), r.velocity_urad_s, sk_change_with{Pre}(s, r.velocity_urad_s)); */
+  differs = sk_agreement_differs(s, angle_error, velocity_error, r.angle_urad);
+  /*@ assert judged: differs == true <==> sk_differs_with{Pre}(s, p, r, time_us); */
   /*@ assert disagrees: differs == true <==> sk_disagrees{Pre}(s, p, r); */
   if (differs || s->last_us - s->since_us >= SK_AGREE_SPAN_US) { sk_agreement_begin_with(s, r); }
   return differs ? BERM_STOP_STATE_FRAME : BERM_STOP_NONE;

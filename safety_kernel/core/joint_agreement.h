@@ -68,13 +68,16 @@ typedef struct sk_agreement_reading {
   @ logic integer sk_change_with{L}(sk_agreement *s, integer velocity) =
   @   sk_least(SK_AGREE_CHANGE_MOST, \at(s->change_urad_s, L) + sk_size(velocity - \at(s->velocity_urad_s, L)));
   @ // twice by how much the change of the angle may differ from the way
-  @ logic integer sk_may_differ{L}(berm_parameters *p, integer joint, integer allowance, integer latency, integer first, integer velocity, integer change) =
-  @   4000000 * \at(p->angle_error_urad[joint], L) + allowance +
-  @   4 * (latency * (sk_size(first) + sk_size(velocity) + change + 2 * \at(p->velocity_error_urad_s[joint], L)));
+  @ logic integer sk_may_differ(integer angle_error, integer velocity_error, integer allowance, integer latency, integer first, integer velocity,
+  @     integer change) =
+  @   4000000 * angle_error + allowance + 4 * (latency * (sk_size(first) + sk_size(velocity) + change + 2 * velocity_error));
+  @ predicate sk_differs_with{L}(sk_agreement *s, berm_parameters *p, sk_agreement_reading r, integer time) =
+  @   sk_size(2000000 * (r.angle_urad - \at(s->first_angle_urad, L)) - sk_way_with{L}(s, r.velocity_urad_s, time)) >
+  @   sk_may_differ(\at(p->angle_error_urad[r.joint], L), \at(p->velocity_error_urad_s[r.joint], L),
+  @     sk_allowance_with{L}(s, p, r.joint, r.velocity_urad_s, r.latency_us, time), sk_latency_with{L}(s, r.latency_us),
+  @     \at(s->first_velocity_urad_s, L), r.velocity_urad_s, sk_change_with{L}(s, r.velocity_urad_s));
   @ predicate sk_disagrees{L}(sk_agreement *s, berm_parameters *p, sk_agreement_reading r) = sk_agreement_goes_on{L}(s, r.now_us) &&
-  @   sk_size(2000000 * (r.angle_urad - \at(s->first_angle_urad, L)) - sk_way_with{L}(s, r.velocity_urad_s, r.now_us - \at(s->last_us, L))) >
-  @   sk_may_differ{L}(p, r.joint, sk_allowance_with{L}(s, p, r.joint, r.velocity_urad_s, r.latency_us, r.now_us - \at(s->last_us, L)),
-  @     sk_latency_with{L}(s, r.latency_us), \at(s->first_velocity_urad_s, L), r.velocity_urad_s, sk_change_with{L}(s, r.velocity_urad_s));
+  @   \exists integer time; time == r.now_us - \at(s->last_us, L) && sk_differs_with{L}(s, p, r, time);
   @ predicate sk_span_with{A, B}(sk_agreement *s, berm_parameters *p, integer joint, integer velocity, integer latency, integer time) =
   @   \at(s->since_us, B) == \at(s->since_us, A) && \at(s->last_us, B) == \at(s->last_us, A) + time &&
   @   \at(s->way, B) == sk_way_with{A}(s, velocity, time) && \at(s->allowance, B) == sk_allowance_with{A}(s, p, joint, velocity, latency, time) &&
