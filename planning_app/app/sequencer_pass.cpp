@@ -114,7 +114,9 @@ void Sequencer::book_pass(const Observation& o) {
   const bool weighed = carried > 0.0 && after_.known();
   // A bucket that nothing has weighed is taken for no less than the dig's force says: else the truck would be overloaded.
   const double unweighed_kg = filled_.known() ? std::max(goal_kg_, std::min(heaped_kg_, filled_.kg())) : goal_kg_;
-  const double before = carried > 0.0 ? carried : unweighed_kg, after = after_.known() ? after_.kg() : sticking_.stays_kg(carried);
+  // Stops may have kept a bucket whose swing had turned round from opening on: what is in it then is not in the truck.
+  const double unpoured_kg = !emptied_ && o.payload_kg >= 0.0 ? recent_.kg() : 0.0;
+  const double before = carried > 0.0 ? carried : unweighed_kg, after = after_.known() ? after_.kg() : std::max(unpoured_kg, sticking_.stays_kg(carried));
   // Before a bucket came back empty from over a bed, what the implements weigh out there is extrapolated.
   const double beside_kg = filled_.known() ? pour_.beside_kg() : 0.0;
   const double had = fill_.loaded_kg();

@@ -21,6 +21,8 @@ Result boom_stick_bucket() {
   r.weighed_kg = 1801.0;
   for (const std::size_t j : r.joints) {
     r.bounds.table[j].assign(4, std::vector<TableEntry>(8));
+    for (auto& row : r.bounds.table[j])
+      for (std::size_t k = 1; k < row.size(); ++k) row[k].angle = row[k].time = 0.5 * static_cast<double>(k);  // as stops that a machine could make
     r.bounds.table[j][0][7].extrapolated = true;
   }
   return r;
