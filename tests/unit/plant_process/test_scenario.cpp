@@ -212,8 +212,11 @@ TEST(Scenario, MachineFaultsAreReadAndChecked) {
   const std::string good = text_of("bench.toml"), table = "\n[[machine_fault]]\n";
   EXPECT_TRUE(loaded(good).machine_fault.empty());
   const Scenario s = loaded(good + table + "kind = \"weak_brake\"\njoint = \"swing\"\nat_s = 2.5\nfactor = 0.5\n" + table +
-                            "kind = \"stuck_valve\"\njoint = \"boom\"\nat_s = 3\n" + table + "kind = \"runaway\"\njoint = \"bucket\"\nat_s = 4\nfactor = -0.25\n");
-  ASSERT_EQ(s.machine_fault.size(), 3u);
+                            "kind = \"stuck_valve\"\njoint = \"boom\"\nat_s = 3\n" + table + "kind = \"runaway\"\njoint = \"bucket\"\nat_s = 4\nfactor = -0.25\n" + table +
+                            "kind = \"stuck_angle\"\njoint = \"stick\"\nat_s = 5\n");
+  ASSERT_EQ(s.machine_fault.size(), 4u);
+  EXPECT_EQ(s.machine_fault[3].kind, MachineFaultKind::stuck_angle);
+  EXPECT_EQ(s.machine_fault[3].joint, 2u);
   EXPECT_EQ(s.machine_fault[0].kind, MachineFaultKind::weak_brake);
   EXPECT_EQ(s.machine_fault[0].joint, 0u);
   EXPECT_EQ(s.machine_fault[0].at_s, 2.5);
@@ -223,7 +226,7 @@ TEST(Scenario, MachineFaultsAreReadAndChecked) {
   EXPECT_EQ(s.machine_fault[2].kind, MachineFaultKind::runaway);
   EXPECT_EQ(s.machine_fault[2].joint, 3u);
   EXPECT_EQ(s.machine_fault[2].factor, -0.25);
-  EXPECT_EQ(refusal(good + table + "kind = \"rust\"\njoint = \"boom\"\nat_s = 1\n"), "machine_fault[0].kind: 'rust' is not one of weak_brake, stuck_valve, runaway");
+  EXPECT_EQ(refusal(good + table + "kind = \"rust\"\njoint = \"boom\"\nat_s = 1\n"), "machine_fault[0].kind: 'rust' is not one of weak_brake, stuck_valve, runaway, stuck_angle");
   EXPECT_EQ(refusal(good + table + "kind = \"stuck_valve\"\njoint = \"track\"\nat_s = 1\n"), "machine_fault[0].joint: 'track' is not one of swing, boom, stick, bucket");
   EXPECT_EQ(refusal(good + table + "kind = \"weak_brake\"\njoint = \"boom\"\nat_s = 1\nfactor = 0\n"), "machine_fault[0].factor: 0 is outside 0.05 .. 1");
   EXPECT_EQ(refusal(good + table + "kind = \"runaway\"\njoint = \"boom\"\nat_s = 1\n"), "machine_fault[0].factor: is missing");
