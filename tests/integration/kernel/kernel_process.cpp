@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 
@@ -81,6 +82,23 @@ bool Peer::receive_welcome() {
   return state_ != nullptr && (request_fd_ < 0 || request_ != nullptr);
 }
 
+bool Peer::hand_over(int fd) {
+  char byte = 0;
+  iovec part{&byte, 1};
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof fd)] = {};
+  msghdr message{};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
+  cmsghdr* header = CMSG_FIRSTHDR(&message);
+  header->cmsg_level = SOL_SOCKET;
+  header->cmsg_type = SCM_RIGHTS;
+  header->cmsg_len = CMSG_LEN(sizeof fd);
+  std::memcpy(CMSG_DATA(header), &fd, sizeof fd);
+  return sendmsg(socket_, &message, MSG_NOSIGNAL) == 1;
+}
+
 void Peer::write_request(const berm_request& request) {
   __atomic_fetch_add(&request_->guard, 1U, __ATOMIC_ACQ_REL);
   std::memcpy(&request_->request, &request, sizeof request);
@@ -100,6 +118,16 @@ KernelProcess::KernelProcess(const std::vector<std::string>& extra, bool with_ma
   udp_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (with_machine && !can_.open(can_address_).empty()) return;
   start(extra, with_machine);
+}
+
+std::vector<std::uint16_t> KernelProcess::hear(int ms) {
+  std::vector<std::uint16_t> cycles;
+  const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(ms);
+  berm_can_frame frame;
+  berm_heartbeat heartbeat{};
+  for (auto left = until - std::chrono::steady_clock::now(); left.count() > 0; left = until - std::chrono::steady_clock::now())
+    if (can_.receive(frame, static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(left).count())) && berm_decode_heartbeat(&frame, &heartbeat)) cycles.push_back(heartbeat.cycle);
+  return cycles;
 }
 
 KernelProcess::~KernelProcess() {

@@ -29,6 +29,8 @@ class Peer {
   int request_fd() const { return request_fd_; }
   const berm_state_segment* state() const { return state_; }
   void write_request(const berm_request& request);
+  // Sends a byte with an open file, which the kernel does not want.
+  bool hand_over(int fd);
 
  private:
   int socket_ = -1, state_fd_ = -1, request_fd_ = -1;
@@ -58,6 +60,9 @@ class KernelProcess {
   std::vector<berm_can_frame> extra_frames;
   // Sends raw bytes to a UDP port of the kernel; counts them as an announced scan packet when that is the scan port.
   void send_datagram(std::uint16_t port, const std::vector<std::uint8_t>& bytes);
+
+  // Of the heartbeats on the bus in the next so many ms, and of those that waited there: the cycles that they are of.
+  std::vector<std::uint16_t> hear(int ms);
 
   // Ends it with SIGTERM; the line it printed, empty when it did not end well.
   std::string end();

@@ -1,11 +1,12 @@
-"""As root, kernel and app run as users of their own: they start whatever the umask and the modes of the files that they are given copies of."""
+"""As root, kernel and app run as users of their own: they start whatever the umask and the modes of the files that they are given copies of. The app has no network."""
 import os
 import pathlib
 import shutil
 import stat
+import subprocess
 import tempfile
 
-from berm_command import ROOT, main, one_clear_line, run
+from berm_command import BIN, ROOT, main, one_clear_line, run
 
 scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-modes-"))
 scratch.chmod(0o755)
@@ -51,7 +52,23 @@ def a_folder_for_temporary_files_that_they_cannot_enter():
     assert not (scratch / "never").exists() and not any((closed / "tmp").iterdir()), "left behind by a run that never was"
 
 
+def the_app_has_no_network():
+    """Neither the bus nor the scanners' ports are to be reached from where it is."""
+    scenario = ROOT / "fault_injection/scenarios/short.toml"
+    load = subprocess.Popen([str(BIN / "berm_load"), "--scenario", str(scenario)], stdout=subprocess.PIPE, text=True)
+    try:
+        line = next(line for line in load.stdout if " app " in line)
+        app = line.split(" app ")[1].split()[0]
+        assert os.readlink(f"/proc/{app}/ns/net") != os.readlink("/proc/self/ns/net"), "the app has the computer's network"
+        up = pathlib.Path(f"/proc/{app}/net/route").read_text().splitlines()[1:]
+        assert not up, up
+    finally:
+        load.terminate()
+        load.wait()
+        load.stdout.close()
+
+
 try:
-    main([whatever_the_umask_and_the_modes, a_folder_for_temporary_files_that_they_cannot_enter], "only root gives them users of their own" if os.geteuid() != 0 else None)
+    main([whatever_the_umask_and_the_modes, the_app_has_no_network, a_folder_for_temporary_files_that_they_cannot_enter], "only root gives them users of their own" if os.geteuid() != 0 else None)
 finally:
     shutil.rmtree(scratch)

@@ -59,6 +59,20 @@ TEST_F(JointAgreement, TheReadingsAgesMayShiftTheSpeedsByTheirLatency) {
 }
 
 // verifies: SK-MS-12
+TEST_F(JointAgreement, SoMayTheChangesOfTheSpeed) {
+  // Up to 0.1 rad/s and down again, 1000 urad: 2 x 1000, 20 ms x 2000 urad/s, half of the changes 2 x 500, 2 x 10 ms x (30 ms x 1 rad/s2 / 4), and twice
+  // 20 ms x (0.1 + 0.1 + 2 x 0.002).
+  const auto there_and_back = [this](std::int32_t angle) {
+    sk_agreement_begin(&span);
+    read(0, 0, 0, 20'000);
+    read(kGap, 500, 100'000, 20'000);
+    return read(2 * kGap, angle, 0, 20'000);
+  };
+  EXPECT_EQ(there_and_back(1000 + 2000 + 40 + 1000 + 150 + 8160), BERM_STOP_NONE);
+  EXPECT_EQ(there_and_back(1001 + 2000 + 40 + 1000 + 150 + 8160), BERM_STOP_STATE_FRAME);
+}
+
+// verifies: SK-MS-12
 TEST_F(JointAgreement, TheMostLatencyOfTheSpanHolds) {
   read(0, 0, 100'000, 20'000);
   EXPECT_EQ(read(kGap, 1000 + 2045 + 8160 + 50, 100'000, 0), BERM_STOP_NONE);
