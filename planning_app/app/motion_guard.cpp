@@ -32,7 +32,7 @@ Joints guarded(const MachineModel& machine, const Skyline& skyline, const Joints
     if (skyline.clear(angle, slowed)) return slowed;
   }
   const auto standing = skyline.blocking(preview(machine, angle, {}));
-  const bool too_high = standing && standing->what == Skyline::Blocking::What::too_high;
+  const bool too_high = standing && skyline.stands_too_high(*standing);
   return too_high && !skyline.clear(led_on(angle, command), {}) ? Joints{} : crept(machine, command);
 }
 

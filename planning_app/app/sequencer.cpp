@@ -189,24 +189,32 @@ void Sequencer::log_held(const Observation& o, const Joints& wanted) const {
   log_.event("held", fields);
 }
 
+// Whether the guard keeps the machine from getting where it is going. A swing that trembles at its goal while a bucket is weighed or poured is there.
+bool Sequencer::cut_short(const Observation& o, const Joints& wanted, const Joints& allowed) const {
+  constexpr double there = radians(2.0);
+  if (std::all_of(allowed.begin(), allowed.end(), [](double v) { return v == 0.0; })) return true;
+  if (stage_ == Stage::dig || stage_ == Stage::curl) return false;
+  const Joints goals = script_.goals();
+  for (std::size_t j = 0; j < joints; ++j)
+    if (allowed[j] != wanted[j] && std::fabs(wrapped(goals[j] - o.angle[j])) > there) return true;
+  return false;
+}
+
 // Through the guard. What the guard holds back for long is looked at again; if that does not help the kernel decides, at creep speed.
 Joints Sequencer::slowed(const Observation& o, const Joints& wanted) {
-  constexpr double look_after = 1.0, give_up_after = 12.0;
+  constexpr double look_after = 1.0;
   const Joints allowed = guarded(machine_, *skyline_, arm_.predicted(o.angle, o.velocity), wanted);
-  const bool held = std::all_of(allowed.begin(), allowed.end(), [](double v) { return v == 0.0; });
-  if (!held || held_since_s_ < 0.0) {
-    if (looked_) log_.event("released", {{"time_s", o.time_s}, {"held_s", o.time_s - held_since_s_}});
-    held_since_s_ = held ? o.time_s : -1.0;
+  const double held_before = hold_.seconds();
+  hold_.step(o.time_s, o.angle, cut_short(o, wanted, allowed));
+  if (looked_ && hold_.seconds() < held_before) {
+    log_.event("released", {{"time_s", o.time_s}, {"held_s", held_before}});
     looked_ = false;
-    return allowed;
-  }
-  const double held_s = o.time_s - held_since_s_;
-  if (held_s > look_after && !looked_) {
+  } else if (hold_.seconds() > look_after && !looked_) {
     log_held(o, wanted);
     scanners_.begin_full_sweep();
     looked_ = true;
   }
-  return held_s > give_up_after ? crept(machine_, wanted) : allowed;
+  return hold_.given_up() ? crept(machine_, wanted) : allowed;
 }
 
 // Not of the truck: that stays, and the plan goes round it.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/bench_move.hpp"
+#include "app/hold_watch.hpp"
 #include "app/joint_watch.hpp"
 #include "app/load_check.hpp"
 #include "app/observation.hpp"
@@ -134,6 +135,7 @@ private:
   void look(const Observation& o);            // renews the skyline now and then
   bool too_high_stands() const;  // what the kernel last stopped the machine for
   void log_held(const Observation& o, const Joints& wanted) const;
+  bool cut_short(const Observation& o, const Joints& wanted, const Joints& allowed) const;
   Joints slowed(const Observation& o, const Joints& wanted);
 
   const ScriptSet& scripts_;
@@ -180,8 +182,8 @@ private:
   std::vector<double> planned_fill_;          // of this dig: bank m3 in the bucket, evenly along its path
   bool holds_nothing_ = true;
   double yield_ = 1.0;                        // what a modelled cubic metre brings, of what bank soil weighs
-  double held_since_s_ = -1.0;                // by the guard
-  bool looked_ = false;
+  HoldWatch hold_;                            // by the guard
+  bool looked_ = false;                       // in this hold
   int poor_passes_ = 0;
   FaceYield face_yield_;
   double back_m_ = 0.0;                       // asked for

@@ -18,6 +18,7 @@ constexpr double lead_near = radians(45.0), lead_far = radians(85.0);  // ahead 
 constexpr double past_truck = radians(55.0);    // the implements' width, the overshoot of a stop, parallax
 constexpr double pi = std::numbers::pi;
 constexpr double beyond_truck = radians(50.0);
+constexpr double before_dig = radians(60.0);    // the columns beyond the last dig, the implements' width
 
 }  // namespace
 
@@ -63,6 +64,18 @@ PanSector ScanScheduler::sector(std::size_t scanner, std::uint16_t phase, double
       break;
     default: return whole;
   }
+  return to_pans(scanner, bearings, swing_angle);
+}
+
+// While the other scanner looks at the truck.
+PanSector ScanScheduler::beside_look(std::size_t scanner, double dig, double truck, double swing_angle) const {
+  const double side = truck >= dig ? 1.0 : -1.0;
+  return to_pans(scanner, {swing_angle + side * under_boom, dig - side * before_dig}, swing_angle);
+}
+
+PanSector ScanScheduler::to_pans(std::size_t scanner, const PanSector& bearings, double swing_angle) const {
+  const ScannerMount& mount = machine_.scanner[scanner];
+  const PanSector whole{mount.pan_low, mount.pan_high};
   PanSector s{std::min(bearings.low, bearings.high) - swing_angle, std::max(bearings.low, bearings.high) - swing_angle};
   s.low = std::clamp(s.low, whole.low, whole.high);
   s.high = std::clamp(s.high, whole.low, whole.high);
@@ -77,6 +90,8 @@ void ScanScheduler::begin_look(std::size_t scanner, const PanSector& bearings) {
   looker_ = scanner;
   look_bearings_ = bearings;
   look_ = Look::goes;
+  const std::size_t other = scanner == left ? right : left;
+  head_[other].up = other == right;
 }
 
 PanRequest ScanScheduler::look(double swing_angle, double pan) {
@@ -109,7 +124,9 @@ std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, d
     if (pan[i] < mount.pan_low + 2.0 * at_end) head.low_seen = true;
     if (pan[i] > mount.pan_high - 2.0 * at_end) head.high_seen = true;
     const bool whole = !(head.low_seen && head.high_seen);
-    const PanSector s = whole ? PanSector{mount.pan_low, mount.pan_high} : sector(i, phase, dig, truck, swing_angle);
+    const PanSector s = whole ? PanSector{mount.pan_low, mount.pan_high}
+                        : look_ != Look::none ? beside_look(i, dig, truck, swing_angle)
+                                              : sector(i, phase, dig, truck, swing_angle);
     if (pan[i] > s.high - at_end) head.up = false;
     if (pan[i] < s.low + at_end) head.up = true;
     const double direction = head.up ? 1.0 : -1.0;

@@ -27,7 +27,8 @@ public:
   bool full_sweep_done() const;
 
   // Sweeps one scanner over these bearings (base frame) once, from the end that is nearer, slowly enough for the truck recogniser (a scanline a degree);
-  // the other goes on. Until end_look the scanner then stays where it came to.
+  // the other looks at the ground on the way to the dig, its own side of the boom first: what is near the machine's feet there the boom hides once it digs. Until
+  // end_look the scanner then stays where it came to.
   void begin_look(std::size_t scanner, const PanSector& bearings);
   void end_look() { look_ = Look::none; }
   bool look_sweeps() const { return look_ == Look::sweeps; }
@@ -43,6 +44,8 @@ private:
   struct Head { bool up = true; bool low_seen = false, high_seen = false; };
 
   PanRequest look(double swing_angle, double pan);
+  PanSector beside_look(std::size_t scanner, double dig_bearing, double truck_bearing, double swing_angle) const;
+  PanSector to_pans(std::size_t scanner, const PanSector& bearings, double swing_angle) const;
 
   MachineModel machine_;
   std::array<Head, 2> head_;

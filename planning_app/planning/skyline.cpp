@@ -156,14 +156,26 @@ Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Groun
       no_passing_[static_cast<std::size_t>(b * LowerEdge::bins + bin)] = may_pass(2.0 * std::numbers::pi * b / over_bearings, bin) ? 0 : 1;
 }
 
-// Not widened by a cell, as heights are: a parked truck's cab stands close to where a bucket is dumped.
-bool Skyline::may_pass(double bearing, int bin) const {
-  const double r = (bin + 0.5) * LowerEdge::bin_m, c = std::cos(bearing), s = std::sin(bearing);
-  for (double across = -half_width_; across <= half_width_ + 1e-9; across += lateral_step) {
+bool Skyline::passable(double r, double bearing, double half_width) const {
+  const double c = std::cos(bearing), s = std::sin(bearing);
+  for (double across = -half_width; across <= half_width + 1e-9; across += lateral_step) {
     const int ix = static_cast<int>(std::floor((r * c - across * s) / cell)) + cells_side / 2, iy = static_cast<int>(std::floor((r * s + across * c) / cell)) + cells_side / 2;
     if (ix >= 0 && iy >= 0 && ix < cells_side && iy < cells_side && too_high_[static_cast<std::size_t>(iy * cells_side + ix)] != 0) return false;
   }
   return true;
+}
+
+// Not widened by a cell, as heights are: a parked truck's cab stands close to where a bucket is dumped.
+bool Skyline::may_pass(double bearing, int bin) const { return passable((bin + 0.5) * LowerEdge::bin_m, bearing, half_width_); }
+
+bool Skyline::stands_too_high(const Blocking& blocking) const {
+  if (blocking.what != Blocking::What::ground || too_high_.empty()) return blocking.what == Blocking::What::too_high;
+  // Where the height was taken from.
+  constexpr double step = 2.0 * std::numbers::pi / bearings;
+  const double bearing = step * std::round(blocking.bearing / step);
+  for (int radial = -1; radial <= 1; ++radial)
+    if (!passable(blocking.distance + radial * LowerEdge::bin_m, bearing, half_width_ + cell)) return true;
+  return false;
 }
 
 double Skyline::highest(double bearing_low, double bearing_high, double r_low, double r_high) const {

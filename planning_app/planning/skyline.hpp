@@ -47,6 +47,8 @@ public:
     const char* name() const;  // as an operator reads it
   };
   std::optional<Blocking> blocking(const ReachIntervals& box) const;
+  // Whether it may not be passed over with the implements up either: ground that is too near below them is what a box meets first.
+  bool stands_too_high(const Blocking& blocking) const;
 
   // The highest ground within the implements' width, between two bearings (low to high) and two distances.
   double highest(double bearing_low, double bearing_high, double r_low, double r_high) const;
@@ -68,6 +70,7 @@ private:
   double floor_ = 0.0;
   static constexpr int over_bearings = 360, cells_side = 100;
   bool may_pass(double bearing, int bin) const;
+  bool passable(double r, double bearing, double half_width) const;
 
   std::vector<double> all_, outside_dig_zone_;
   double half_width_ = 0.0;               // of the implements

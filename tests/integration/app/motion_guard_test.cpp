@@ -19,6 +19,12 @@ protected:
       for (double dy = -0.1; dy < 0.15; dy += 0.1) terrain.insert(3.7 * std::cos(bearing) + dx, 3.7 * std::sin(bearing) + dy, top, 1.0);
     return Skyline(machine, site, ground_of(terrain), Skyline::OverHigh::refused);
   }
+  // The same under the bucket, as the kernel's map has it. distance: from the swing axis, m.
+  static Skyline cell_of_map(const MachineModel& machine, const SiteModel& site, double bearing, double distance, double top) {
+    const auto index = [](double v) { return std::floor(v / 0.3); };
+    const double ix = index(distance * std::cos(bearing)), iy = index(distance * std::sin(bearing));
+    return Skyline(machine, site, [=](double x, double y) { return index(x) == ix && index(y) == iy ? top : 0.01; }, Skyline::OverHigh::refused);
+  }
   static bool stands(const Joints& v) { return std::all_of(v.begin(), v.end(), [](double x) { return x == 0.0; }); }
 
   const MachineModel machine_ = app_bench::zx200();
@@ -49,6 +55,35 @@ TEST_F(MotionGuard, BesideItNothingCreepsTowardsItButAwayFromIt) {
     EXPECT_EQ(guarded(machine_, beside, carried_, away), crept(machine_, away)) << side;
     EXPECT_FALSE(stands(crept(machine_, away)));
   }
+}
+
+// What a box meets first of it is ground that is too near below the bucket; that it is too high besides tells that no creeping will help.
+TEST_F(MotionGuard, NorWhereItReachesUpToTheBucket) {
+  const double distance = reach_of(machine_, carried_) - 0.6, underside = bucket_underside(machine_, carried_);
+  const double too_high = std::max(1.4, underside + 0.2);
+  for (const double side : {1.0, -1.0}) {
+    const Joints& towards = side > 0.0 ? to_left_ : to_right_;
+    double aside = radians(25.0);  // the farthest at which it is too near
+    const auto cell = [&] { return cell_of_map(machine_, site_, carried_[swing] + side * aside, distance, too_high); };
+    while (aside > 0.0 && cell().clear(carried_, {})) aside -= radians(0.5);
+    const Skyline beside = cell();
+    const auto met = beside.blocking(preview(machine_, carried_, {}));
+    ASSERT_TRUE(met && met->what == Skyline::Blocking::What::ground) << "it stands too near";
+    EXPECT_TRUE(beside.stands_too_high(*met));
+    EXPECT_TRUE(stands(guarded(machine_, beside, carried_, towards))) << side;
+  }
+}
+
+// A heap in the bed, or the face: close below the bucket, but no higher than the site's limits.
+TEST_F(MotionGuard, BesideWhatIsNotTooHighItCreeps) {
+  const Joints lowered{carried_[swing], carried_[boom] - radians(35.0), carried_[stick], carried_[bucket]};
+  const double distance = reach_of(machine_, lowered) - 0.6, top = bucket_underside(machine_, lowered) + 0.1;
+  ASSERT_LT(top, 0.7) << "or it would be too high";
+  const Skyline beside = cell_of_map(machine_, site_, carried_[swing] + radians(10.0), distance, top);
+  const auto met = beside.blocking(preview(machine_, lowered, {}));
+  ASSERT_TRUE(met && met->what == Skyline::Blocking::What::ground);
+  EXPECT_FALSE(beside.stands_too_high(*met));
+  EXPECT_EQ(guarded(machine_, beside, lowered, to_left_), crept(machine_, to_left_));
 }
 
 }  // namespace

@@ -229,6 +229,32 @@ TEST(Sequencer, StandsBeforeWhatIsTooHighUntilItIsGone) {
   expect_no_contact(run);
 }
 
+// Two wrong returns over the truck's wall while the bucket was poured out: as high as the bucket, on the way back.
+TEST(Sequencer, StandsBeforeWhatReachesUpToTheBucketToo) {
+  const app_bench::Events events;
+  Loading run(1, start_pose(), events.fd());
+  while (!(run.last.phase == BERM_PHASE_SWING_TO_DIG && run.plant.angle()[swing] > radians(60.0)) && run.seconds < 60.0) run.step();
+  ASSERT_LT(run.seconds, 60.0);
+  const double bearing = run.plant.angle()[swing] - radians(40.0), distance = reach_of(run.machine, run.plant.angle()) - 0.4;
+  const double x = distance * std::cos(bearing), y = distance * std::sin(bearing), top_m = 2.0;
+  const auto step = [&](double top) {
+    berm_state_segment& segment = run.plant.mutable_segment();
+    const auto index = [&](double v) { return static_cast<int>(std::floor((1e3 * v - segment.map_origin_mm) / segment.cell_mm)); };
+    segment.map_height_mm[index(y)][index(x)] = static_cast<std::int32_t>(1e3 * top);
+    run.step();
+  };
+  double farthest = 1e9;
+  for (int k = 0; k < 900; ++k) {
+    step(top_m);
+    farthest = std::min(farthest, run.plant.angle()[swing]);
+  }
+  EXPECT_GT(farthest, bearing + 0.6 / distance) << "its implements are 0.6 m to either side at least";
+  EXPECT_GE(events.named("held").size(), 1u) << "and has both scanners look";
+  for (int k = 0; k < 1000 && run.last.phase != BERM_PHASE_DIG; ++k) step(0.0);
+  EXPECT_EQ(run.last.phase, BERM_PHASE_DIG);
+  expect_no_contact(run);
+}
+
 TEST(Sequencer, WaitsForTheTruckAndStandsMeanwhile) {
   Loading run(1, start_pose());
   run.plant.truck_parked = false;

@@ -97,6 +97,39 @@ TEST(ScanScheduler, ALookSweepsItsSectorOnceAndSlowly) {
   EXPECT_GT(std::fabs(pans.pan[0] - stays), radians(5.0));
 }
 
+// Of the ground at the machine's feet on the way from there to the dig, which the boom hides during the dig: wherever the other scanner was when the look began.
+TEST(ScanScheduler, BesideALookTheOtherScannerSeesTheGroundAtTheFeet) {
+  const MachineModel machine = berm::app_bench::zx200();
+  const double swing_angle = radians(37.0);
+  for (double began = machine.scanner[1].pan_low; began <= machine.scanner[1].pan_high; began += radians(5.0)) {
+    Pans pans(machine);
+    for (int k = 0; k < 2000; ++k) pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
+    pans.pan[1] = began;
+    pans.scheduler.begin_look(0, {radians(40.0), radians(150.0)});
+    double high = began;
+    for (int k = 0; k < 1000 && !pans.scheduler.look_done(); ++k) {
+      pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
+      high = std::max(high, pans.pan[1]);
+    }
+    EXPECT_GT(high, radians(35.0)) << degrees(began);
+  }
+}
+
+// On the side of the dig, too: a truck on the right is looked at by the right scanner.
+TEST(ScanScheduler, BesideALookTheOtherScannerKeepsToTheWayToTheDig) {
+  Pans pans(berm::app_bench::zx200());
+  const double swing_angle = radians(37.0);
+  for (int k = 0; k < 2000; ++k) pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
+  pans.scheduler.begin_look(0, {radians(40.0), radians(150.0)});
+  for (int k = 0; k < 1500; ++k) pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
+  double low = 1e9;
+  for (int k = 0; k < 1000; ++k) {
+    pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
+    low = std::min(low, degrees(pans.pan[1] + swing_angle));
+  }
+  EXPECT_NEAR(low, -60.0, 3.0) << "beyond the dig by the implements' width and the columns beside it";
+}
+
 TEST(ScanScheduler, ALookBeyondThePansRangeEndsWhereTheRangeDoes) {
   Pans pans(berm::app_bench::zx200());
   pans.scheduler.begin_look(0, {radians(60.0), radians(300.0)});
