@@ -121,16 +121,19 @@ class Fit {
     }
   }
 
-  void check(const toml::value& value, const std::string& field) const {
+  void check(const toml::value& value, const std::string& field) {
     if (value.is_table()) {
       for (const auto& [key, inner] : value.as_table()) check(inner, field.empty() ? key : field + "." + key);
     } else if (value.is_array()) {
       std::size_t i = 0;
       for (const toml::value& inner : value.as_array()) check(inner, inner.is_table() ? fmt::format("{}[{}]", field, i++) : field);
     } else if (value.is_integer()) {
-      const std::int64_t x = value.as_integer();  // only those are looked at in the text that may be another's stand-in: that is slow
-      if ((x == Integer::max() || x == Integer::min() || binary_) && !integer_fits(written(value))) refuse(field, written(value), Integer::min(), Integer::max());
+      const std::int64_t x = value.as_integer();
+      if (x != Integer::max() && x != Integer::min() && !binary_) return;
+      look_up(field);
+      if (!integer_fits(written(value))) refuse(field, written(value), Integer::min(), Integer::max());
     } else if (value.is_floating() && std::abs(value.as_floating()) == Floating::max()) {
+      look_up(field);
       if (!std::isfinite(std::strtod(written(value).c_str(), nullptr))) refuse(field, written(value), -Floating::max(), Floating::max());
     }
   }
@@ -139,6 +142,12 @@ class Fit {
   using Integer = std::numeric_limits<std::int64_t>;
   using Floating = std::numeric_limits<double>;
   static constexpr std::size_t kBits = 64;
+  static constexpr int kMostLookedUp = 200;  // toml11 counts the text's lines for each: a megabyte of them would be minutes
+
+  // Only those are looked up in the text that may be another's stand-in.
+  void look_up(const std::string& field) {
+    if (++looked_up_ > kMostLookedUp) throw ConfigError(fmt::format("{}: {}: more than {} numbers that may not fit into 64 bits", file_, field, kMostLookedUp));
+  }
 
   // As the file has it, without the underscores.
   static std::string written(const toml::value& value) {
@@ -163,6 +172,7 @@ class Fit {
 
   const std::string& file_;
   bool binary_ = false;  // there is one of 64 digits or more
+  int looked_up_ = 0;
 };
 
 }  // namespace
@@ -179,7 +189,7 @@ toml::value parse_toml_file(const std::string& file) {
     if (const std::size_t line = Depth(text).too_deep_line(); line != 0)
       throw ConfigError(fmt::format("{}: line {}: nested more than {} deep", file, line, kDeepest));
     if (const std::size_t line = too_long_line(text); line != 0) throw ConfigError(fmt::format("{}: line {}: more than {} bytes", file, line, kLongest));
-    const Fit fit(file, text);
+    Fit fit(file, text);
     std::istringstream lines(std::move(text));
     toml::value value = toml::parse(lines, file);
     fit.check(value, "");

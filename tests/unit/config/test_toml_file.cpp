@@ -122,6 +122,17 @@ TEST(TomlFile, TheLastNumberThatFitsIsRead) {
   EXPECT_EQ(verdict("a = [1.7976931348623157e308, -1.7976931348623157e308, inf, -inf, nan, 1e-999]\n"), "read");
 }
 
+// verifies: IF-CF-24
+// Each is looked up in the text, which costs a walk through all of it.
+TEST(TomlFile, ManyNumbersThatMayNotFitAreRefused) {
+  const std::string most = ": more than 200 numbers that may not fit into 64 bits", last = "9223372036854775807,", binary = "a = 0b" + std::string(64, '0') + "\n";
+  EXPECT_EQ(verdict("a = [" + times(200, last) + "]\n"), "read");
+  EXPECT_EQ(verdict("a = 1\nb.c = [" + times(201, last) + "]\n"), ": b.c" + most);
+  EXPECT_EQ(verdict(binary + "b = [" + times(199, "1,") + "]\n"), "read");
+  EXPECT_NE(verdict(binary + "b = [" + times(200, "1,") + "]\n").find(most), std::string::npos) << "at either, for tables have no order";
+  EXPECT_EQ(verdict("a = [" + times(201, "1.7976931348623157e308,") + "]\n"), ": a" + most);
+}
+
 TEST(TomlFile, OtherRefusalsStayAsTheyAre) {
   EXPECT_EQ(verdict("a = = 1\n"), ": line 1: not valid TOML");
   EXPECT_EQ(verdict(""), "read");
