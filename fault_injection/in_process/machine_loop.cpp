@@ -7,6 +7,7 @@ namespace berm::in_process {
 
 namespace {
 constexpr double still = 0.004;  // rad/s
+constexpr int looks_before_run = 10;  // cycles: two of the panel's frames
 }
 
 MachineLoop::MachineLoop(const plant::PlantProfile& profile, const plant::WorldConfig& world, std::uint64_t seed, const Start& start,
@@ -39,7 +40,9 @@ void MachineLoop::advance(const Answer& answer) {
   snapshot.joints = dynamics_.state();
   snapshot.payload_kg = payload_kg_;
   snapshot.pilot_unlocked = controller_.pilot_unlocked();
-  snapshot.panel.run = true;
+  // The run switch goes on when the kernel has stood by for a moment: one that was on before counts for nothing.
+  stood_by_cycles_ += supervisor_->state().kernel_state == BERM_STATE_STANDBY;
+  snapshot.panel.run = stood_by_cycles_ > looks_before_run;
   snapshot.truck_parked = world_.truck_parked();
   snapshot.truck_leaving = world_.truck_leaving();
   const bool has_request = cycle_ > 1;

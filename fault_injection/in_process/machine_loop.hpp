@@ -59,6 +59,7 @@ class MachineLoop {
   berm_request asked_{};
   std::uint64_t cycle_ = 0;
   bool resting_ = true;
+  int stood_by_cycles_ = 0;
 };
 
 }  // namespace berm::in_process

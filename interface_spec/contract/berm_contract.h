@@ -131,7 +131,7 @@ typedef struct berm_request_segment {
 #define BERM_PANEL_OPERATOR_RUN 1u
 #define BERM_PANEL_TRUCK_PARKED 2u  /* the spotter: a truck stands ready to be loaded */
 #define BERM_PANEL_TRUCK_LEAVING 4u
-
+#define BERM_PANEL_RELEASE_AWAITED 8u /* in STANDBY: RUN does not begin before the run switch was switched off once; the kernel's, of no frame */
 #define BERM_UNWATCHED_TAIL 1u      /* the ground round the upper body's tail: it must be fenced */
 #define BERM_UNWATCHED_WORKSPACE 2u /* the safety region: nobody may come into it */
 

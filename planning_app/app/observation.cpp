@@ -46,6 +46,7 @@ Observation observe(const berm_state& state) {
   o.blocked_y = state.blocked_y_mm * 1e-3;
   o.blocked_height = state.blocked_height_mm * 1e-3;
   o.run_switch = (state.panel & BERM_PANEL_OPERATOR_RUN) != 0;
+  o.release_awaited = (state.panel & BERM_PANEL_RELEASE_AWAITED) != 0;
   o.truck_parked = (state.panel & BERM_PANEL_TRUCK_PARKED) != 0;
   o.truck_leaves = (state.panel & BERM_PANEL_TRUCK_LEAVING) != 0;
   return o;

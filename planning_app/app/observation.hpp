@@ -31,6 +31,7 @@ struct Observation {
   bool truck_parked = false;    // the spotter's: it stands ready ...
   bool truck_leaves = false;    // ... or drives off
   bool run_switch = false;      // the operator's
+  bool release_awaited = false; // nothing begins before that switch was off once
 
   // Whether blocked_x and blocked_y are those of a cell.
   bool has_place() const { return BERM_STOP_HAS_CELL(stop_reason) && (blocked_x != 0.0 || blocked_y != 0.0); }

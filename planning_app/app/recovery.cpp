@@ -48,15 +48,15 @@ nlohmann::ordered_json with_place(const Observation& o, nlohmann::ordered_json f
 
 const char* advice_for(std::uint8_t reason, bool latched) {
   switch (reason) {
-    case BERM_STOP_TAIL: return "send away who stands behind the machine, look all round it, beside the tracks too, then press reset";
+    case BERM_STOP_TAIL: return "send away who stands behind the machine, look all round it, beside the tracks too, then switch run off, press reset, switch run on";
     case BERM_STOP_JOINT_RANGE: return "move the joint back into its range by hand";
     case BERM_STOP_INTRUDER: return "send away who or what came; if nobody is there, press relearn";
     case BERM_STOP_SEPARATION: return "make the sensors see all round the machine again, or take it out of where they cannot";
     case BERM_STOP_SENSOR_BLOCKED:
-      return "look what lies on the sensors' windows, clean them, then press reset; relearn before it if that does not help";
+      return "look what lies on the sensors' windows, clean them, then switch run off, press reset, switch run on; relearn before it if that does not help";
     case BERM_STOP_DUST: return "wait until the dust has settled, or lay it with water; if there is none, clean the sensors' windows";
     case BERM_STOP_OVERPASS: return "send away who or what stands there, or admit the truck; if nothing stands there, press relearn, with the implements lifted by hand if need be";
-    default: return latched ? "mend the cause, then press reset"
+    default: return latched ? "mend the cause, then switch run off, press reset, switch run on"
                                  : "clear the place; if nothing stands there, press relearn; if that does not help, lift the implements by hand before it";
   }
 }

@@ -234,6 +234,7 @@ Answer Sequencer::step(const Observation& o) {
   if (stage_ == Stage::ask_move || stage_ == Stage::being_moved) await_move(o);
   // While the operator trams the machine its stops are his.
   const Recovery::Advice advice = stage_ == Stage::being_moved ? Recovery::Advice{} : recovery_.step(o, log_, too_high_stands());
+  restart_call_.step(o, log_);
   if (advice.rescan) scanners_.begin_full_sweep();
   if (advice.resumed) go_on_with_script(o);
   if (advice.resumed && advice.moved && begins_anew_where_moved()) begin_dig_from_here(o);

@@ -13,6 +13,7 @@
 #include "app/progress_log.hpp"
 #include "app/reach_again.hpp"
 #include "app/recovery.hpp"
+#include "app/restart_call.hpp"
 #include "app/slow_down.hpp"
 #include "app/standing_watch.hpp"
 #include "app/truck_look.hpp"
@@ -159,6 +160,7 @@ private:
   ScanScheduler scanners_;
   TruckLook look_;
   Recovery recovery_;
+  RestartCall restart_call_;
   SlowDown slow_down_;
   StandingWatch standing_;
   int stands_ = 0, missed_digs_ = 0;          // in a row

@@ -5,12 +5,13 @@ typedef struct stop_demand {
   uint8_t rank;   /* of the highest reason present */
   uint8_t reason;
   bool cut;       /* power is to be removed at once */
-  bool go;        /* nothing but the reasons is in the way of motion */
+  bool go;        /* nothing but the reasons, and the interlock in STANDBY, is in the way of motion */
+  bool off;       /* the run switch is seen off */
 } stop_demand;
 
 /*@ predicate demand_ok(stop_demand d) =
   @   d.rank <= SK_RANK_FAULT && d.reason < BERM_STOP_REASONS && (d.reason == 0 <==> d.rank == SK_RANK_NONE) &&
-  @   (d.cut == true ==> d.rank >= SK_RANK_LATCH);
+  @   (d.cut == true ==> d.rank >= SK_RANK_LATCH) && (d.go == true ==> d.off == false);
   @ predicate stopping_shape(sk_stop_state *s) = sk_stop_paused(s) || sk_stop_held(s) || sk_stop_latching(s) || sk_stop_faulting(s);
   @ predicate rank_joined(integer before, integer asked, integer now) = now == (asked > before ? asked : before);
   @*/
@@ -74,6 +75,7 @@ static uint8_t input_reason(const sk_stop_input *in)
   @ ensures \result.rank == SK_RANK_NONE <==> sk_stop_quiet(in);
   @ ensures \result.cut == true <==> sk_stop_cut(in);
   @ ensures \result.go == true <==> sk_stop_go(in);
+  @ ensures \result.off == true <==> sk_stop_off(in);
   @*/
 static stop_demand demand_of(const sk_stop_input *in)
 {
@@ -82,56 +84,8 @@ static stop_demand demand_of(const sk_stop_input *in)
   d.reason = input_reason(in);
   d.cut = cut(in);
   d.go = in->operator_run && in->inputs_ready;
+  d.off = in->operator_run_off && !in->operator_run;
   return d;
-}
-
-/*@ requires \valid_read(s);
-  @ assigns \nothing;
-  @ ensures \result == true <==> sk_stop_idle(s);
-  @*/
-static bool idle(const sk_stop_state *s)
-{
-  return s->rank == SK_RANK_NONE && s->reason == 0U && s->category == SK_CATEGORY_NONE && !s->latched;
-}
-
-/*@ requires \valid_read(s);
-  @ assigns \nothing;
-  @ ensures \result == true <==> sk_stop_paused(s);
-  @*/
-static bool paused(const sk_stop_state *s)
-{
-  return s->rank == SK_RANK_NONE && s->reason == 0U && s->category == SK_CATEGORY_1 && !s->latched;
-}
-
-/*@ requires \valid_read(s);
-  @ assigns \nothing;
-  @ ensures \result == true <==> sk_stop_held(s);
-  @*/
-static bool held(const sk_stop_state *s)
-{
-  return s->rank == SK_RANK_HOLD && s->reason > 0U && s->reason < BERM_STOP_REASONS && s->category == SK_CATEGORY_HELD && !s->latched;
-}
-
-/*@ requires \valid_read(s);
-  @ assigns \nothing;
-  @ ensures \result == true <==> s->rank == rank && 0 < s->reason < BERM_STOP_REASONS && s->category <= SK_CATEGORY_1 && s->latched == true;
-  @*/
-static bool latched_at(const sk_stop_state *s, uint8_t rank)
-{
-  return s->rank == rank && s->reason > 0U && s->reason < BERM_STOP_REASONS && s->category <= SK_CATEGORY_1 && s->latched;
-}
-
-/*@ requires \valid_read(s);
-  @ assigns \nothing;
-  @ ensures \result == true <==> sk_stop_valid(s);
-  @*/
-static bool valid(const sk_stop_state *s)
-{
-  if (s->code == SK_STATE_INIT || s->code == SK_STATE_STANDBY || s->code == SK_STATE_RUN) { return idle(s); }
-  if (s->code == SK_STATE_STOPPED) { return held(s) || latched_at(s, SK_RANK_LATCH); }
-  if (s->code == SK_STATE_FAULT) { return latched_at(s, SK_RANK_FAULT); }
-  if (s->code != SK_STATE_STOPPING) { return false; }
-  return paused(s) || held(s) || latched_at(s, SK_RANK_LATCH) || (latched_at(s, SK_RANK_FAULT) && s->category == SK_CATEGORY_1);
 }
 
 /* STANDBY or RUN: nothing holds. */
@@ -152,9 +106,9 @@ static void enter_idle(sk_stop_state *s, uint16_t code)
 /* STOPPED latched, or FAULT. */
 /*@ requires \valid(s) && 0 < reason < BERM_STOP_REASONS && category <= SK_CATEGORY_1;
   @ requires (code == SK_STATE_STOPPED && rank == SK_RANK_LATCH) || (code == SK_STATE_FAULT && rank == SK_RANK_FAULT);
-  @ assigns s->code, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
+  @ assigns s->code, s->run_release, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
   @ ensures s->code == code && s->rank == rank && s->reason == reason && s->category == category && s->latched == true;
-  @ ensures s->reset_seen_released == false;
+  @ ensures s->reset_seen_released == false && s->run_release == SK_RELEASE_AWAITED && sk_stop_valid(s);
   @*/
 static void enter_latched(sk_stop_state *s, uint16_t code, uint8_t rank, uint8_t reason, uint8_t category)
 {
@@ -164,12 +118,14 @@ static void enter_latched(sk_stop_state *s, uint16_t code, uint8_t rank, uint8_t
   s->category = category;
   s->latched = true;
   s->reset_seen_released = false;
+  s->run_release = SK_RELEASE_AWAITED;
 }
 
 /* Takes up what is asked for: a higher rank replaces rank and reason; power that is to be removed at once stays so. */
 /*@ requires \valid(s) && demand_ok(d) && stopping_shape(s);
-  @ assigns s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
+  @ assigns s->run_release, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
   @ ensures stopping_shape(s);
+  @ ensures release: s->run_release == (d.rank >= SK_RANK_LATCH ? SK_RELEASE_AWAITED : \old(s->run_release));
   @ ensures rank_joined(\old(s->rank), d.rank, s->rank);
   @ ensures kept: d.rank <= \old(s->rank) ==> s->reason == \old(s->reason) && s->latched == \old(s->latched) &&
   @   s->reset_seen_released == \old(s->reset_seen_released);
@@ -184,17 +140,21 @@ static void take_up(sk_stop_state *s, stop_demand d)
     s->latched = d.rank >= SK_RANK_LATCH;
     s->reset_seen_released = false;
   }
+  if (d.rank >= SK_RANK_LATCH) { s->run_release = SK_RELEASE_AWAITED; }
   if (d.cut) { s->category = SK_CATEGORY_0; }
   if (s->category != SK_CATEGORY_0) { s->category = s->rank == SK_RANK_HOLD ? SK_CATEGORY_HELD : SK_CATEGORY_1; }
 }
 
 /* From INIT, STANDBY: no motion, so a stop is complete at once. */
-/*@ requires \valid(s) && demand_ok(d) && sk_stop_idle(s) && (s->code == SK_STATE_INIT || s->code == SK_STATE_STANDBY);
-  @ assigns s->code, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
+/*@ requires \valid(s) && demand_ok(d) && sk_stop_valid(s) && (s->code == SK_STATE_INIT || s->code == SK_STATE_STANDBY);
+  @ assigns s->code, s->run_release, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
   @ ensures sk_stop_valid(s);
   @ ensures fault: s->code == SK_STATE_FAULT <==> d.rank == SK_RANK_FAULT;
   @ ensures latch: s->code == SK_STATE_STOPPED <==> d.rank == SK_RANK_LATCH && \old(s->code) == SK_STATE_STANDBY;
-  @ ensures run: s->code == SK_STATE_RUN <==> d.rank == SK_RANK_NONE && d.go == true && \old(s->code) == SK_STATE_STANDBY;
+  @ ensures run: s->code == SK_STATE_RUN <==>
+  @   d.rank == SK_RANK_NONE && d.go == true && \old(s->code) == SK_STATE_STANDBY && \old(s->run_release) == SK_RELEASE_SEEN;
+  @ ensures release: s->latched == false ==> s->run_release ==
+  @   (\old(s->code) == SK_STATE_STANDBY && s->code == SK_STATE_STANDBY && d.off == true ? SK_RELEASE_SEEN : \old(s->run_release));
   @ ensures init: s->code == SK_STATE_INIT ==> \old(s->code) == SK_STATE_INIT;
   @ ensures init_latch: \old(s->code) == SK_STATE_INIT && d.rank == SK_RANK_LATCH ==> s->code == SK_STATE_INIT;
   @ ensures cut: d.cut == true && s->code != SK_STATE_INIT ==> s->category == SK_CATEGORY_0;
@@ -209,17 +169,20 @@ static void step_idle(sk_stop_state *s, stop_demand d, bool inputs_ready)
     if (d.rank != SK_RANK_LATCH && inputs_ready) { enter_idle(s, SK_STATE_STANDBY); }
   } else if (d.rank == SK_RANK_LATCH) {
     enter_latched(s, SK_STATE_STOPPED, SK_RANK_LATCH, d.reason, category);
-  } else if (d.rank == SK_RANK_NONE && d.go) {
+  } else if (d.off) {
+    s->run_release = SK_RELEASE_SEEN;
+  } else if (d.rank == SK_RANK_NONE && d.go && s->run_release == SK_RELEASE_SEEN) {
     enter_idle(s, SK_STATE_RUN);
   }
 }
 
 /* From RUN. */
-/*@ requires \valid(s) && demand_ok(d) && sk_stop_idle(s) && s->code == SK_STATE_RUN;
-  @ assigns s->code, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
+/*@ requires \valid(s) && demand_ok(d) && sk_stop_valid(s) && s->code == SK_STATE_RUN;
+  @ assigns s->code, s->run_release, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
   @ ensures sk_stop_valid(s);
   @ ensures run: s->code == SK_STATE_RUN <==> d.rank == SK_RANK_NONE && d.go == true;
   @ ensures stop: s->code == SK_STATE_RUN || s->code == SK_STATE_STOPPING || s->code == SK_STATE_FAULT;
+  @ ensures release: s->latched == false ==> s->run_release == \old(s->run_release);
   @ ensures rank: s->rank == d.rank;
   @ ensures cut: d.cut == true ==> s->category == SK_CATEGORY_0;
   @*/
@@ -237,6 +200,7 @@ static void step_run(sk_stop_state *s, stop_demand d)
 
 /* At standstill: where a stop of this rank ends. */
 /*@ requires \valid(s) && stopping_shape(s);
+  @ requires s->run_release == (s->latched == true ? SK_RELEASE_AWAITED : SK_RELEASE_SEEN);
   @ assigns s->code, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
   @ ensures sk_stop_valid(s);
   @ ensures \old(s->rank) == SK_RANK_FAULT ==> s->code == SK_STATE_FAULT;
@@ -263,10 +227,11 @@ static bool is_overdue(const sk_stop_state *s, const sk_stop_input *in)
 
 /* From STOPPING. */
 /*@ requires \valid(s) && demand_ok(d) && s->code == SK_STATE_STOPPING && sk_stop_valid(s);
-  @ assigns s->code, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
+  @ assigns s->code, s->run_release, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
   @ ensures sk_stop_valid(s);
   @ ensures codes: s->code == SK_STATE_STOPPING || s->code == SK_STATE_STOPPED || s->code == SK_STATE_STANDBY || s->code == SK_STATE_FAULT;
   @ ensures standby: s->code == SK_STATE_STANDBY ==> \old(s->rank) == SK_RANK_NONE && d.rank == SK_RANK_NONE;
+  @ ensures release: s->latched == false ==> s->run_release == \old(s->run_release);
   @ ensures rank: s->code != SK_STATE_STANDBY ==> s->rank >= d.rank && s->rank >= \old(s->rank);
   @ ensures first: s->rank == \old(s->rank) ==> s->reason == \old(s->reason);
   @ ensures cut: d.cut == true || \old(s->category) == SK_CATEGORY_0 ==> s->category == SK_CATEGORY_0;
@@ -296,12 +261,13 @@ static bool is_settled(const sk_stop_state *s, const sk_stop_input *in)
 }
 
 /* From STOPPED for a hold reason: power is on, the machine stands. */
-/*@ requires \valid(s) && demand_ok(d) && sk_stop_held(s) && s->code == SK_STATE_STOPPED;
-  @ assigns s->code, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
+/*@ requires \valid(s) && demand_ok(d) && sk_stop_valid(s) && sk_stop_held(s) && s->code == SK_STATE_STOPPED;
+  @ assigns s->code, s->run_release, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
   @ ensures sk_stop_valid(s);
   @ ensures codes: s->code == SK_STATE_RUN || s->code == SK_STATE_STANDBY || s->code == SK_STATE_STOPPED || s->code == SK_STATE_FAULT;
   @ ensures run: s->code == SK_STATE_RUN <==> d.rank == SK_RANK_NONE && d.go == true && settled == true;
   @ ensures standby: s->code == SK_STATE_STANDBY ==> d.rank <= SK_RANK_HOLD;
+  @ ensures release: s->latched == false ==> s->run_release == \old(s->run_release);
   @ ensures fault: s->code == SK_STATE_FAULT <==> d.rank == SK_RANK_FAULT;
   @ ensures latch: d.rank == SK_RANK_LATCH <==> s->rank == SK_RANK_LATCH;
   @ ensures first: s->rank == SK_RANK_HOLD ==> s->reason == \old(s->reason);
@@ -322,7 +288,7 @@ static void step_held(sk_stop_state *s, stop_demand d, bool settled)
 /* From STOPPED latched, or FAULT. */
 /*@ requires \valid(s) && demand_ok(d) && s->latched == true && sk_stop_valid(s);
   @ requires s->code == SK_STATE_STOPPED || s->code == SK_STATE_FAULT;
-  @ assigns s->code, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
+  @ assigns s->code, s->run_release, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
   @ ensures sk_stop_valid(s);
   @ ensures codes: s->code == SK_STATE_STANDBY || s->code == SK_STATE_STOPPED || s->code == SK_STATE_FAULT;
   @ ensures fault: \old(s->code) == SK_STATE_FAULT ==> s->code != SK_STATE_STOPPED;
@@ -332,6 +298,7 @@ static void step_held(sk_stop_state *s, stop_demand d, bool settled)
   @ ensures first: s->rank == \old(s->rank) ==> s->reason == \old(s->reason);
   @ ensures cut: s->latched == true && (d.cut == true || \old(s->category) == SK_CATEGORY_0) ==> s->category == SK_CATEGORY_0;
   @ ensures released: reset == false ==> s->reset_seen_released == true;
+  @ ensures release: s->run_release == SK_RELEASE_AWAITED;
   @*/
 static void step_latched(sk_stop_state *s, stop_demand d, bool standstill, bool reset)
 {
@@ -345,11 +312,13 @@ static void step_latched(sk_stop_state *s, stop_demand d, bool standstill, bool 
 }
 
 /*@ requires \valid(s) && demand_ok(d) && \valid_read(in) && \separated(s, in) && sk_stop_valid(s);
-  @ assigns s->code, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
+  @ assigns s->code, s->run_release, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
   @ ensures sk_stop_valid(s);
   @ ensures run: s->code == SK_STATE_RUN <==> d.rank == SK_RANK_NONE && d.go == true && \old(s->latched) == false &&
-  @   (\old(s->code) == SK_STATE_STANDBY || \old(s->code) == SK_STATE_RUN ||
+  @   ((\old(s->code) == SK_STATE_STANDBY && \old(s->run_release) == SK_RELEASE_SEEN) || \old(s->code) == SK_STATE_RUN ||
   @    (\old(s->code) == SK_STATE_STOPPED && sk_stop_settled{Pre}(s, in)));
+  @ ensures release: s->latched == false ==> s->run_release ==
+  @   (\old(s->code) == SK_STATE_STANDBY && s->code == SK_STATE_STANDBY && d.off == true ? SK_RELEASE_SEEN : \old(s->run_release));
   @ ensures init: s->code == SK_STATE_INIT ==> \old(s->code) == SK_STATE_INIT;
   @ ensures fault: d.rank == SK_RANK_FAULT ==> s->rank == SK_RANK_FAULT;
   @ ensures latch: d.rank == SK_RANK_LATCH && \old(s->code) != SK_STATE_INIT ==> s->latched == true;
@@ -374,22 +343,11 @@ static void advance(sk_stop_state *s, stop_demand d, const sk_stop_input *in)
   else { step_idle(s, d, in->inputs_ready); }
 }
 
-void sk_stop_init(sk_stop_state *s)
-{
-  s->code = SK_STATE_INIT;
-  s->reason = 0U;
-  s->category = SK_CATEGORY_NONE;
-  s->rank = SK_RANK_NONE;
-  s->latched = false;
-  s->reset_seen_released = false;
-  s->since_us = 0;
-  s->hold_seen_us = 0;
-}
-
-/*@ requires \valid_read(s) && sk_stop_valid(s);
+/*@ requires \valid_read(s) && sk_stop_shaped(s);
   @ assigns \nothing;
   @ ensures \result == true <==> s->code == SK_STATE_RUN || (s->code == SK_STATE_STOPPING && s->category != SK_CATEGORY_0) ||
   @   (s->code == SK_STATE_STOPPED && s->latched == false);
+  @ ensures s->category == SK_CATEGORY_0 ==> \result == false;
   @*/
 static bool keeps_power(const sk_stop_state *s)
 {
@@ -402,10 +360,11 @@ void sk_stop_step(sk_stop_state *s, const sk_stop_input *in, sk_stop_output *out
 {
   stop_demand d = demand_of(in);
   uint16_t before = s->code;
-  if (valid(s)) { advance(s, d, in); }
+  if (sk_stop_is_valid(s)) { advance(s, d, in); }
   else { enter_latched(s, SK_STATE_FAULT, SK_RANK_FAULT, BERM_STOP_INTERNAL, SK_CATEGORY_0); }
   if (s->code != before) { s->since_us = in->now_us; }
   if (in->hold_reason != 0U) { s->hold_seen_us = in->now_us; }
+  bool powered = keeps_power(s);
   out->motion_enabled = s->code == SK_STATE_RUN;
-  out->heartbeat_enable = keeps_power(s);
+  out->heartbeat_enable = powered;
 }

@@ -13,6 +13,11 @@ SK_BEGIN
 #define SK_STATE_STOPPED  0x3CA5u
 #define SK_STATE_FAULT    0x6996u
 
+/* Whether the run switch was seen off, in STANDBY, since the start or the last latched stop: else RUN must not begin. Far apart as well: no flipped
+   bits let a machine go whose switch was left on. */
+#define SK_RELEASE_AWAITED 0x2D96u
+#define SK_RELEASE_SEEN    0xD269u
+
 /* Ranks of what holds: a higher one replaces a lower one, an equal one does not. */
 #define SK_RANK_NONE 0u
 #define SK_RANK_HOLD 1u   /* resumes by itself */
@@ -37,12 +42,14 @@ typedef struct sk_stop_input {
   uint8_t hold_reason;       /* collision predicted, unknown, stale, floor, range, request hold: stops, resumes by itself, or 0 */
   bool inputs_ready;         /* parameters in force, first frames of machine and operator seen, scanners alive */
   bool standstill;
-  bool operator_run;         /* run switch */
+  bool operator_run;         /* run switch on */
+  bool operator_run_off;     /* run switch heard off; what is not heard is neither on nor off */
   bool operator_reset;       /* reset key, level */
 } sk_stop_input;
 
 typedef struct sk_stop_state {
   uint16_t code;
+  uint16_t run_release;      /* SK_RELEASE_* */
   uint8_t reason;            /* in force; 0 in RUN, and in STOPPING because the run switch was released */
   uint8_t category;          /* SK_CATEGORY_*: 0, 1, 2 held for a hold reason, 255 none */
   uint8_t rank;              /* SK_RANK_* of reason */
@@ -66,6 +73,7 @@ typedef struct sk_stop_output {
   @ predicate sk_stop_cut(sk_stop_input *i) =
   @   (i->fault_reason != 0 && i->fault_category_0 == true) || (i->latch_reason != 0 && i->latch_category_0 == true) || sk_stop_wild(i);
   @ predicate sk_stop_go(sk_stop_input *i) = i->operator_run == true && i->inputs_ready == true;
+  @ predicate sk_stop_off(sk_stop_input *i) = i->operator_run == false && i->operator_run_off == true;
   @ predicate sk_stop_reset(sk_stop_state *s, sk_stop_input *i) =
   @   i->operator_reset == true && s->reset_seen_released == true && i->standstill == true && sk_stop_quiet(i);
   @ predicate sk_stop_overdue(sk_stop_state *s, sk_stop_input *i) =
@@ -83,25 +91,36 @@ typedef struct sk_stop_output {
   @   s->rank == SK_RANK_LATCH && 0 < s->reason < BERM_STOP_REASONS && s->category <= SK_CATEGORY_1 && s->latched == true;
   @ predicate sk_stop_faulting(sk_stop_state *s) =
   @   s->rank == SK_RANK_FAULT && 0 < s->reason < BERM_STOP_REASONS && s->category <= SK_CATEGORY_1 && s->latched == true;
-  @ predicate sk_stop_valid(sk_stop_state *s) =
+  @ predicate sk_stop_release_fits(sk_stop_state *s) =
+  @   (s->run_release == SK_RELEASE_AWAITED && (s->code == SK_STATE_INIT || s->code == SK_STATE_STANDBY || s->latched == true)) ||
+  @   (s->run_release == SK_RELEASE_SEEN && s->code != SK_STATE_INIT && s->latched == false);
+  @ predicate sk_stop_shaped(sk_stop_state *s) =
   @   (s->code == SK_STATE_INIT && sk_stop_idle(s)) || (s->code == SK_STATE_STANDBY && sk_stop_idle(s)) ||
   @   (s->code == SK_STATE_RUN && sk_stop_idle(s)) ||
   @   (s->code == SK_STATE_STOPPING && (sk_stop_paused(s) || sk_stop_held(s) || sk_stop_latching(s) ||
   @                                     (sk_stop_faulting(s) && s->category == SK_CATEGORY_1))) ||
   @   (s->code == SK_STATE_STOPPED && (sk_stop_held(s) || sk_stop_latching(s))) ||
   @   (s->code == SK_STATE_FAULT && sk_stop_faulting(s));
+  @ predicate sk_stop_valid(sk_stop_state *s) = sk_stop_shaped(s) && sk_stop_release_fits(s);
   @*/
 
 /*@ requires \valid(s);
   @ assigns *s;
-  @ ensures sk_stop_valid(s) && s->code == SK_STATE_INIT && s->since_us == 0 && s->hold_seen_us == 0;
+  @ ensures sk_stop_valid(s) && s->code == SK_STATE_INIT && s->run_release == SK_RELEASE_AWAITED && s->since_us == 0 && s->hold_seen_us == 0;
   @*/
 void sk_stop_init(sk_stop_state *s);
+
+/*@ requires \valid_read(s);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_stop_valid(s);
+  @*/
+bool sk_stop_is_valid(const sk_stop_state *s);
 
 /* Total: a state that is none of the valid ones is read as FAULT (BERM_STOP_INTERNAL), category 0. */
 /*@ requires \valid(s) && \valid_read(in) && \valid(out) && \separated(s, in, out);
   @ assigns *s, *out;
-  @ ensures valid: sk_stop_valid(s);
+  @ ensures valid: sk_stop_shaped(s);
+  @ ensures valid_release: sk_stop_release_fits(s);
   @ ensures corrupt: !sk_stop_valid{Pre}(s) ==>
   @   s->code == SK_STATE_FAULT && s->reason == BERM_STOP_INTERNAL && s->category == SK_CATEGORY_0;
   @ ensures motion: out->motion_enabled == true <==> s->code == SK_STATE_RUN;
@@ -125,7 +144,16 @@ void sk_stop_init(sk_stop_state *s);
   @ ensures no_weaker: sk_stop_valid{Pre}(s) && \old(s->category) == SK_CATEGORY_0 && s->latched == true ==> s->category == SK_CATEGORY_0;
   @ ensures not_forever: \old(s->code) == SK_STATE_STOPPING && s->code == SK_STATE_STOPPING ==>
   @   in->standstill == false && !sk_stop_overdue{Pre}(s, in);
-  @ ensures starts: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_STANDBY && sk_stop_quiet{Pre}(in) && sk_stop_go{Pre}(in) ==> s->code == SK_STATE_RUN;
+  @ ensures interlock: s->code == SK_STATE_RUN && \old(s->code) == SK_STATE_STANDBY ==> \old(s->run_release) == SK_RELEASE_SEEN;
+  @ ensures interlock_set: s->run_release == SK_RELEASE_SEEN && \old(s->run_release) != SK_RELEASE_SEEN ==>
+  @   \old(s->code) == SK_STATE_STANDBY && s->code == SK_STATE_STANDBY && sk_stop_off{Pre}(in);
+  @ ensures interlock_anew: s->latched == true || (sk_stop_valid{Pre}(s) && \old(s->latched) == true) || s->code == SK_STATE_INIT ==>
+  @   s->run_release == SK_RELEASE_AWAITED;
+  @ ensures interlock_seen: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_STANDBY && s->code == SK_STATE_STANDBY && sk_stop_off{Pre}(in) ==>
+  @   s->run_release == SK_RELEASE_SEEN;
+  @ ensures interlock_kept: \old(s->run_release) == SK_RELEASE_SEEN && s->latched == false ==> s->run_release == SK_RELEASE_SEEN;
+  @ ensures starts: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_STANDBY && \old(s->run_release) == SK_RELEASE_SEEN &&
+  @   sk_stop_quiet{Pre}(in) && sk_stop_go{Pre}(in) ==> s->code == SK_STATE_RUN;
   @ ensures runs_on: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_RUN && sk_stop_quiet{Pre}(in) && sk_stop_go{Pre}(in) ==> s->code == SK_STATE_RUN;
   @ ensures resumes: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_STOPPED && \old(s->latched) == false && sk_stop_quiet{Pre}(in) &&
   @   sk_stop_go{Pre}(in) && sk_stop_settled{Pre}(s, in) ==> s->code == SK_STATE_RUN;

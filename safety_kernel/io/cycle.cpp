@@ -252,6 +252,7 @@ void Cycle::step_stop_logic(const CycleInputs& in) {
   stop_in.inputs_ready = inputs_ready(frames_, {scans_.health(), lidars_, sight_}, parameters_, in.now_us);
   stop_in.standstill = standstill_;
   stop_in.operator_run = panel_fresh && panel.run && app_.heard;
+  stop_in.operator_run_off = panel_fresh && !panel.run;
   stop_in.operator_reset = panel_fresh && panel.reset;
   const sk_stop_state before = stop_;
   sk_stop_step(&stop_, &stop_in, &permit_);

@@ -48,6 +48,7 @@ std::uint32_t Cycle::panel_flags(std::int64_t now_us) const {
   if (frames_.operator_fresh(now_us) && picture.panel.run) flags |= BERM_PANEL_OPERATOR_RUN;
   if (frames_.spotter_fresh(now_us) && frames_.truck_parked()) flags |= BERM_PANEL_TRUCK_PARKED;
   if (frames_.spotter_fresh(now_us) && frames_.truck_leaving()) flags |= BERM_PANEL_TRUCK_LEAVING;
+  if (stop_.code == SK_STATE_STANDBY && stop_.run_release == SK_RELEASE_AWAITED) flags |= BERM_PANEL_RELEASE_AWAITED;
   return flags;
 }
 

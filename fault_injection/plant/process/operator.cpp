@@ -77,6 +77,8 @@ void Operator::attend(double t, const Sees& sees) {
   if (t < *acts_s_) return;
   presses_.push_back({t, !held_, panel->stop_reason});
   stopped_since_s_ = -1.0;
+  // The kernel goes on only where it sees the run switch off after a reset, and so at a start. A held machine needs no more than its map anew.
+  if (!held_ || stands_by) run_ = false;
   lifting_ = pressed_at_ && !moved_since(*pressed_at_, sees.angle) && (stands_by || BERM_STOP_HAS_CELL(panel->stop_reason));
   pressed_at_ = sees.angle;
   if (lifting_) {
@@ -122,6 +124,7 @@ void Operator::step(double t, const HornSignal& signal, const Sees& sees) {
     case Stage::heard:
       if (gone_s >= delay_s_) {
         run_ = false;
+        trams_ = true;
         off_s_ = t;
         enter(Stage::stops, t);
       }
@@ -153,8 +156,9 @@ void Operator::step(double t, const HornSignal& signal, const Sees& sees) {
     case Stage::run_on:
       if (gone_s < kBetween_s) return;
       run_ = true;
-      (lifting_ ? hand_lifts_.back().to_s : moves_.back().to_s) = t;
-      lifting_ = false;
+      if (lifting_) hand_lifts_.back().to_s = t;
+      if (trams_) moves_.back().to_s = t;
+      lifting_ = trams_ = false;
       enter(Stage::works, t);
       return;
     case Stage::takes:
@@ -165,7 +169,7 @@ void Operator::step(double t, const HornSignal& signal, const Sees& sees) {
       return;
     case Stage::presses:
       reset_ = gone_s >= kBetween_s;
-      if (gone_s >= kBetween_s + kKey_s) enter(Stage::works, t);
+      if (gone_s >= kBetween_s + kKey_s) enter(run_ ? Stage::works : Stage::run_on, t);
       return;
   }
 }

@@ -1,6 +1,6 @@
 // The operator: hears the horn, sees the kernel's state on the panel, and does what the app's messages ask of a person: trams the machine back from a
-// face that is dug out, and after stops that latch looks, then resets. Where that did not help, and it is the ground that keeps the machine, he lifts
-// the implements by hand before he has the map learned anew. He knows nothing of the app but its horn.
+// face that is dug out, and after stops that latch looks, then switches run off, resets, and switches run on. Where that did not help, and it is the
+// ground that keeps the machine, he lifts the implements by hand before he has the map learned anew. He knows nothing of the app but its horn.
 #pragma once
 
 #include <array>
@@ -78,7 +78,7 @@ class Operator {
   double stopped_since_s_ = -1.0, off_s_ = 0.0;
   std::optional<double> acts_s_;         // on the stop that he has noticed
   std::optional<std::array<double, 4>> pressed_at_;     // joints at the last press, rad
-  bool lifting_ = false;               // from the run switch off on
+  bool lifting_ = false, trams_ = false;  // from the run switch off on
   std::vector<HandLiftTime> hand_lifts_;
   std::vector<BenchMove> moves_;
   std::vector<Press> presses_;

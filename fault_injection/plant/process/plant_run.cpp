@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "contract/berm_contract.h"
 #include "plant/machine/kinematics.hpp"
 #include "plant/machine/strict_table.hpp"
 #include "plant/world/spinning_lidar.hpp"
@@ -22,6 +23,7 @@ constexpr double kStandstillSpeed = radians(0.5);
 constexpr int kStandstillCycles = 20;
 constexpr double kFarthestClearance = 100.0;  // m, in the trace
 constexpr double kAfterFinish = 1.0;  // s
+constexpr double kLooksBeforeRun_s = 0.2;  // four frames of the panel
 constexpr double kBesideReach = 2.0;  // m beyond the implements: nobody may be nearer when they are moved by hand
 constexpr const char* kJointNames[] = {"swing", "boom", "stick", "bucket"};
 constexpr double kAfterLoss = 2.0;    // s at standstill without a peer
@@ -159,7 +161,23 @@ void PlantRun::take_levers(double t) {
   controller_.select(hand_lift_.levers());
 }
 
+// Who starts the machine looks at the panel first: a run switch that was on before the kernel stood by would have to be switched off again.
+void PlantRun::watch_start(double t) {
+  if (may_start_ || !controller_.heartbeat_heard()) return;
+  const int state = controller_.heartbeat().kernel_state;
+  if (state != BERM_STATE_STANDBY) stands_by_s_ = -1.0;
+  else if (stands_by_s_ < 0.0) stands_by_s_ = t;
+  may_start_ = state == BERM_STATE_RUN || (stands_by_s_ >= 0.0 && t - stands_by_s_ >= kLooksBeforeRun_s);
+}
+
+PanelInput PlantRun::panel(double t) const {
+  PanelInput keys = panel_at(scenario_, t);
+  keys.run = keys.run && may_start_;
+  return keys;
+}
+
 void PlantRun::attend(double t) {
+  watch_start(t);
   const HornSignal signal = horn_.step(now_, controller_.horn());
   if (signal.what == HornSignal::What::truck_full && world_.truck_parked()) world_.release_truck(t);
   if (!operator_) return;
@@ -170,7 +188,7 @@ void PlantRun::attend(double t) {
   sees.base_yaw = base_.pose().yaw;
   sees.angle = dynamics_.state().angle;
   sees.implements_up = hand_lift_.done();
-  sees.run_switch = panel_at(scenario_, t).run;
+  sees.run_switch = panel(t).run;
   sees.dust = world_.dust(t);
   operator_->step(t, signal, sees);
   take_levers(t);
@@ -200,7 +218,7 @@ void PlantRun::send(double t) {
   snapshot.digging = std::any_of(factor.begin(), factor.end(), [](double f) { return f < 1.0; });
   snapshot.edge = soil_.edge;
   snapshot.pilot_unlocked = controller_.pilot_unlocked();
-  snapshot.panel = panel_at(scenario_, t);
+  snapshot.panel = panel(t);
   if (operator_) {
     snapshot.panel.run = snapshot.panel.run && operator_->run();
     snapshot.panel.reset = snapshot.panel.reset || operator_->reset();

@@ -58,6 +58,8 @@ class PlantRun {
   void take_levers(double t);
   bool somebody_near() const;
   BasePose base_pose() const;
+  void watch_start(double t);
+  PanelInput panel(double t) const;   // as the scenario has it; the run switch waits for the kernel at the start
   void change_weather(double t);
   void send(double t);
   std::uint32_t datagrams() const;  // to all sensor ports
@@ -88,6 +90,8 @@ class PlantRun {
   HornListener horn_;
   std::optional<Operator> operator_;
   HandLift hand_lift_;
+  double stands_by_s_ = -1.0;         // since when the panel has shown STANDBY, at the start; negative: it does not
+  bool may_start_ = false;            // and the operator has seen it
   std::size_t soil_changes_ = 0;      // that have happened
   std::size_t presses_told_ = 0, lifts_told_ = 0;
   StateFrames frames_;

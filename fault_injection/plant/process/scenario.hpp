@@ -21,7 +21,7 @@ struct Scenario {
   std::string name;
   std::string machine_file;             // plant profile
   double max_time_s = 0.0;
-  double run_from_s = 0.0;              // the operator's run switch is on from here
+  double run_from_s = 0.0;              // the operator's run switch is on from here; in a run, from when the kernel stands by, if that is later
   JointState start;
   std::vector<PanelEvent> panel;
   std::vector<MachineFault> machine_fault;

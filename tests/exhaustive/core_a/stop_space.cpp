@@ -6,9 +6,10 @@ namespace berm::core_test {
 
 namespace {
 
-sk_stop_state make(std::uint16_t code, std::uint8_t reason, std::uint8_t category, std::uint8_t rank, bool released) {
+sk_stop_state make(std::uint16_t code, std::uint8_t reason, std::uint8_t category, std::uint8_t rank, bool released, std::uint16_t run_release) {
   sk_stop_state s{};
   s.code = code;
+  s.run_release = run_release;
   s.reason = reason;
   s.category = category;
   s.rank = rank;
@@ -27,6 +28,10 @@ bool valid_state(const sk_stop_state& s) {
   if (s.latched != (s.rank == 2 || s.rank == 3)) return false;
   if ((s.rank == 0) == (s.reason != 0)) return false;
   if (s.rank != 0 && !reason_named) return false;
+  // Only in STANDBY may the release of the run switch have been seen or not.
+  const bool never_yet = s.code == SK_STATE_INIT || s.latched;
+  if (s.run_release != kAwaited && s.run_release != kSeen) return false;
+  if (s.code != SK_STATE_STANDBY && (s.run_release == kAwaited) != never_yet) return false;
   switch (s.code) {
     case SK_STATE_INIT:
     case SK_STATE_STANDBY:
@@ -46,10 +51,11 @@ std::vector<sk_stop_state> valid_states() {
     for (const int rank : {0, 1, 2, 3})
       for (const int reason : {0, 1, 21})
         for (const int category : {0, 1, 2, 255})
-          for (const bool released : {false, true}) {
-            const sk_stop_state s = make(code, static_cast<std::uint8_t>(reason), static_cast<std::uint8_t>(category), static_cast<std::uint8_t>(rank), released);
-            if (valid_state(s)) all.push_back(s);
-          }
+          for (const bool released : {false, true})
+            for (const std::uint16_t run_release : {kAwaited, kSeen}) {
+              const sk_stop_state s = make(code, static_cast<std::uint8_t>(reason), static_cast<std::uint8_t>(category), static_cast<std::uint8_t>(rank), released, run_release);
+              if (valid_state(s)) all.push_back(s);
+            }
   return all;
 }
 
@@ -59,7 +65,7 @@ std::vector<sk_stop_input> inputs(std::int64_t now_us) {
   for (const std::uint8_t fault : codes)
     for (const std::uint8_t latch : codes)
       for (const std::uint8_t hold : codes)
-        for (unsigned bits = 0; bits < 64; ++bits) {
+        for (unsigned bits = 0; bits < 128; ++bits) {
           sk_stop_input in{};
           in.now_us = now_us;
           in.fault_reason = fault;
@@ -71,6 +77,7 @@ std::vector<sk_stop_input> inputs(std::int64_t now_us) {
           in.standstill = bits & 8;
           in.operator_run = bits & 16;
           in.operator_reset = bits & 32;
+          in.operator_run_off = bits & 64;
           all.push_back(in);
         }
   return all;
@@ -83,7 +90,7 @@ std::vector<std::int64_t> times() {
 }
 
 bool same(const sk_stop_state& a, const sk_stop_state& b) {
-  return a.code == b.code && a.reason == b.reason && a.category == b.category && a.rank == b.rank && a.latched == b.latched &&
+  return a.code == b.code && a.run_release == b.run_release && a.reason == b.reason && a.category == b.category && a.rank == b.rank && a.latched == b.latched &&
          a.reset_seen_released == b.reset_seen_released && a.since_us == b.since_us && a.hold_seen_us == b.hold_seen_us;
 }
 

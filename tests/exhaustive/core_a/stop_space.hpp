@@ -12,6 +12,8 @@
 namespace berm::core_test {
 
 constexpr std::int64_t kEntered = 1'000'000, kHoldSeen = 1'150'000;
+// The release of the run switch, as the kernel codes it.
+constexpr std::uint16_t kAwaited = SK_RELEASE_AWAITED, kSeen = SK_RELEASE_SEEN;
 constexpr std::uint16_t kCodes[] = {SK_STATE_INIT, SK_STATE_STANDBY, SK_STATE_RUN, SK_STATE_STOPPING, SK_STATE_STOPPED, SK_STATE_FAULT};
 
 // An independent statement of which states are valid.

@@ -30,6 +30,13 @@ struct Goal {
   bool released;
 };
 
+// Whether the run switch was seen off, from what the requirements say of it and nothing else.
+std::uint16_t release(const sk_stop_state& s, const sk_stop_input& in, std::uint16_t next_code, int next_rank) {
+  if (next_rank >= 2 || s.rank >= 2) return kAwaited;
+  if (s.code == SK_STATE_STANDBY && next_code == SK_STATE_STANDBY && in.operator_run_off && !in.operator_run) return kSeen;
+  return s.run_release;
+}
+
 Goal goal(const sk_stop_state& s, const sk_stop_input& in) {
   const Ask ask = asked(in);
   const bool go = in.operator_run && in.inputs_ready;
@@ -51,7 +58,7 @@ Goal goal(const sk_stop_state& s, const sk_stop_input& in) {
     case SK_STATE_STANDBY:
       if (ask.rank == 3) return {SK_STATE_FAULT, 3, ask.reason, ask.cut ? 0 : 1, false};
       if (ask.rank == 2) return {SK_STATE_STOPPED, 2, ask.reason, ask.cut ? 0 : 1, false};
-      return ask.rank == 0 && go ? run : idle_here;
+      return ask.rank == 0 && go && s.run_release == kSeen ? run : idle_here;
     case SK_STATE_RUN:
       if (ask.rank == 0 && go) return idle_here;
       if (ask.rank == 3 && ask.cut) return {SK_STATE_FAULT, 3, ask.reason, 0, false};
@@ -92,6 +99,7 @@ sk_stop_state expected_state(const sk_stop_state& s, const sk_stop_input& in) {
   next.category = static_cast<std::uint8_t>(g.category);
   next.latched = g.rank >= 2;
   next.reset_seen_released = g.released;
+  next.run_release = release(s, in, g.code, g.rank);
   next.since_us = g.code == s.code ? s.since_us : in.now_us;
   next.hold_seen_us = in.hold_reason ? in.now_us : s.hold_seen_us;
   return next;

@@ -66,7 +66,20 @@ TEST(StopCorruption, EveryFieldValue) {
 }
 
 // verifies: SK-ST-23
+TEST(StopCorruption, EveryValueOfTheRelease) {
+  for (const sk_stop_state& valid : valid_states()) {
+    for (unsigned value = 0; value <= 0xFFFF; ++value) {
+      sk_stop_state s = valid;
+      s.run_release = static_cast<std::uint16_t>(value);
+      expect_fault_if_invalid(s);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+// verifies: SK-ST-23
 TEST(StopCorruption, CodesAreFarApart) {
+  EXPECT_EQ(__builtin_popcount(static_cast<unsigned>(kAwaited ^ kSeen)), 16);
   for (const std::uint16_t a : kCodes)
     for (const std::uint16_t b : kCodes) {
       if (a == b) continue;

@@ -11,8 +11,8 @@
 namespace berm::core_test {
 namespace {
 
-using Key = std::tuple<std::uint16_t, std::uint8_t, std::uint8_t, std::uint8_t, bool, bool>;
-Key key(const sk_stop_state& s) { return {s.code, s.reason, s.category, s.rank, s.latched, s.reset_seen_released}; }
+using Key = std::tuple<std::uint16_t, std::uint8_t, std::uint8_t, std::uint8_t, bool, bool, std::uint16_t>;
+Key key(const sk_stop_state& s) { return {s.code, s.reason, s.category, s.rank, s.latched, s.reset_seen_released, s.run_release}; }
 
 // Breadth first over all inputs that pass; time is either fresh or overdue, so the state's own are always kEntered.
 template <class Allowed>
@@ -69,6 +69,20 @@ TEST(StopReachable, WithoutTheResetKeyNoLatchedStateRunsAgain) {
     EXPECT_FALSE(reaches(stuck, SK_STATE_RUN) || reaches(stuck, SK_STATE_STANDBY)) << name(s.code);
     const auto any = reach(s, [](const sk_stop_input&) { return true; });
     EXPECT_TRUE(reaches(any, SK_STATE_RUN)) << name(s.code) << ": the operator can get it going again";
+  }
+}
+
+// verifies: SK-ST-6
+TEST(StopReachable, WithTheRunSwitchLeftOnNothingBegins) {
+  const auto left_on = [](const sk_stop_input& in) { return in.operator_run || !in.operator_run_off; };
+  sk_stop_state start{};
+  sk_stop_init(&start);
+  EXPECT_FALSE(reaches(reach(start, left_on), SK_STATE_RUN)) << "from the start";
+  for (const sk_stop_state& s : valid_states()) {
+    if (!s.latched) continue;
+    const auto seen = reach(s, left_on);
+    EXPECT_FALSE(reaches(seen, SK_STATE_RUN)) << name(s.code);
+    EXPECT_TRUE(reaches(seen, SK_STATE_STANDBY)) << name(s.code) << ": the reset is not kept from him";
   }
 }
 

@@ -37,23 +37,23 @@ void for_every_step(Check check) {
         check(t);
         if (testing::Test::HasFailure()) {
           FAIL() << name(before.code) << " reason " << int{before.reason} << " category " << int{before.category} << " rank " << int{before.rank}
-                 << " released " << before.reset_seen_released << " -> " << name(t.after.code) << "; inputs: fault " << int{in.fault_reason} << " latch "
+                 << " released " << before.reset_seen_released << " run release " << std::hex << before.run_release << std::dec << " -> " << name(t.after.code) << "; inputs: fault " << int{in.fault_reason} << " latch "
                  << int{in.latch_reason} << " hold " << int{in.hold_reason} << " cut " << in.fault_category_0 << in.latch_category_0 << " ready "
-                 << in.inputs_ready << " standstill " << in.standstill << " run " << in.operator_run << " reset " << in.operator_reset << " now " << now_us;
+                 << in.inputs_ready << " standstill " << in.standstill << " run " << in.operator_run << " off " << in.operator_run_off << " reset " << in.operator_reset << " now " << now_us;
         }
       }
     }
   }
-  EXPECT_EQ(steps, states.size() * times().size() * 4096u);
+  EXPECT_EQ(steps, states.size() * times().size() * 8192u);
 }
 
-// verifies: SK-ST-4, SK-ST-5, SK-ST-10, SK-ST-11, SK-ST-12, SK-ST-13, SK-ST-14, SK-ST-20, SK-ST-21, SK-ST-22, SK-ST-24, SK-ST-32, SK-ST-33
+// verifies: SK-ST-4, SK-ST-5, SK-ST-6, SK-ST-7, SK-ST-10, SK-ST-11, SK-ST-12, SK-ST-13, SK-ST-14, SK-ST-20, SK-ST-21, SK-ST-22, SK-ST-24, SK-ST-32, SK-ST-33
 TEST(StopTransitions, AreThoseOfTheTable) {
   for_every_step([](const Step& t) {
     const sk_stop_state expected = expected_state(t.before, t.in);
     EXPECT_TRUE(same(t.after, expected)) << "expected " << name(expected.code) << " reason " << int{expected.reason} << " category "
                                          << int{expected.category} << " rank " << int{expected.rank} << " released " << expected.reset_seen_released
-                                         << " since " << expected.since_us << "; is reason " << int{t.after.reason} << " category "
+                                         << " since " << expected.since_us << " run release " << expected.run_release << "; is " << t.after.run_release << " reason " << int{t.after.reason} << " category "
                                          << int{t.after.category} << " rank " << int{t.after.rank} << " released " << t.after.reset_seen_released
                                          << " since " << t.after.since_us;
   });
@@ -66,6 +66,27 @@ TEST(StopTransitions, MotionOnlyInRunWithNothingInTheWay) {
     if (!t.out.motion_enabled) return;
     EXPECT_TRUE(t.quiet && t.go);
     EXPECT_TRUE(!t.before.latched && (t.before.code == SK_STATE_STANDBY || t.before.code == SK_STATE_RUN || t.before.code == SK_STATE_STOPPED));
+  });
+}
+
+// verifies: SK-ST-6, SK-ST-7
+TEST(StopTransitions, WhatWasLeftOnStartsNothing) {
+  for_every_step([](const Step& t) {
+    const bool seen_before = t.before.run_release == kSeen, seen = t.after.run_release == kSeen;
+    const bool stands_by = t.before.code == SK_STATE_STANDBY && t.after.code == SK_STATE_STANDBY;
+    const bool off = t.in.operator_run_off && !t.in.operator_run;
+    if (t.before.code == SK_STATE_STANDBY && t.after.code == SK_STATE_RUN) {
+      EXPECT_TRUE(seen_before);
+    }
+    if (seen != seen_before) {
+      EXPECT_TRUE(seen ? stands_by && off : t.after.latched);
+    }
+    if (stands_by && off) {
+      EXPECT_TRUE(seen);
+    }
+    if (t.before.latched || t.after.latched) {
+      EXPECT_FALSE(seen);
+    }
   });
 }
 

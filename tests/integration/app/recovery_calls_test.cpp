@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/recovery.hpp"
+#include "app/restart_call.hpp"
 #include "app_bench/bench_machine.hpp"
 #include "app_bench/events.hpp"
 #include "recovery_observations.hpp"
@@ -12,6 +13,30 @@ namespace {
 
 using namespace berm::app;
 using namespace berm::app_bench;
+
+// A run switch that was left on through a reset starts nothing: who waits for that waits for ever if he is not told.
+TEST(RestartCall, TellsWhoLeftTheRunSwitchOnOnceEachTime) {
+  RestartCall call;
+  const Events events;
+  const ProgressLog log(events.fd());
+  const auto for_seconds = [&](double from, double to, bool awaited, bool on) {
+    for (double t = from; t < to; t += 0.1) {
+      Observation o = stopped(t, BERM_STOP_NONE);
+      o.kernel_state = BERM_STATE_STANDBY;
+      o.release_awaited = awaited;
+      o.run_switch = on;
+      call.step(o, log);
+    }
+    return events.named("operator_needed").size();
+  };
+  EXPECT_EQ(for_seconds(0.0, 60.0, true, false), 0u) << "nobody wants it to run";
+  EXPECT_EQ(for_seconds(60.0, 62.0, true, true), 0u) << "he may have his hand at the switch";
+  EXPECT_EQ(for_seconds(62.0, 200.0, true, true), 1u);
+  EXPECT_EQ(for_seconds(200.0, 201.0, false, false), 1u);
+  EXPECT_EQ(for_seconds(201.0, 300.0, false, true), 1u);
+  EXPECT_EQ(for_seconds(300.0, 310.0, true, true), 2u) << "after another reset";
+  EXPECT_EQ(events.named("operator_needed")[0].at("advice"), "look whether the machine may start, then switch run off and on again");
+}
 
 TEST(RecoveryCalls, CallsTheOperatorForABlockedSensorAtOnce) {
   Recovery recovery(berm::app_bench::zx200());

@@ -45,6 +45,9 @@ TEST(Request, ObservationIsInRadians) {
   EXPECT_LT(o.payload_kg, 0.0);
   EXPECT_TRUE(o.truck_parked);
   EXPECT_TRUE(o.running());
+  EXPECT_FALSE(o.release_awaited);
+  state.panel = BERM_PANEL_RELEASE_AWAITED;
+  EXPECT_TRUE(observe(state).release_awaited);
 }
 
 TEST(Request, ACellThatTheTailMeetsLiesBehindTheArm) {

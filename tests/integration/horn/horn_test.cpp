@@ -66,6 +66,7 @@ struct Attended {
       signal = {};
       run_off = run_off || !person.run();
       relearned = relearned || person.relearn();
+      reset_with_run_on = reset_with_run_on || (person.reset() && person.run());
       reset_after_relearn = reset_after_relearn || (relearned && person.reset());
       moved = moved || person.moved() != nullptr;
       if (person.wants_place()) truck_about = false;
@@ -75,7 +76,7 @@ struct Attended {
   Operator person;
   berm_heartbeat panel{true, 255, BERM_STATE_RUN, 0, 0, 0};
   std::array<double, 4> angle{};
-  bool lifting_helps = true, run_switch = true, lifted = false, relearned_by_hand = false;
+  bool lifting_helps = true, run_switch = true, lifted = false, relearned_by_hand = false, reset_with_run_on = false;
   double t = 0.0, dust = 0.0;
   bool truck_about = true, run_off = false, relearned = false, reset_after_relearn = false, moved = false, moved_with_truck = false;
 };
@@ -112,6 +113,11 @@ TEST(Operator, ResetsAfterAStopThatLatchedAndNotBefore) {
   site.until(9.0);
   ASSERT_EQ(site.person.presses().size(), 1U);
   EXPECT_TRUE(site.person.presses()[0].reset && site.reset_after_relearn);
+  EXPECT_TRUE(site.run_off) << "what was left on through the reset starts nothing";
+  EXPECT_FALSE(site.reset_with_run_on);
+  site.panel = {false, 255, BERM_STATE_STANDBY, BERM_STOP_NONE, 0, 0};
+  site.until(11.0);
+  EXPECT_TRUE(site.person.run());
 }
 
 TEST(Operator, LeavesAHeldMachineAlone) {

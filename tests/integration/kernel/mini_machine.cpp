@@ -57,6 +57,16 @@ void MiniMachine::move() {
   }
 }
 
+// Of each frame of the panel.
+bool MiniMachine::switched_on() {
+  const bool stands_by = heartbeat_.kernel_state == BERM_STATE_STANDBY;
+  const bool latched = heartbeat_.kernel_state == BERM_STATE_FAULT || (heartbeat_.kernel_state == BERM_STATE_STOPPED && heartbeat_.stop_category != 2);
+  if (heartbeat_.kernel_state == BERM_STATE_INIT || latched) was_off_ = false;
+  const bool on = run_switch && (run_left_on || was_off_);
+  if (stands_by) was_off_ = true;
+  return on;
+}
+
 void MiniMachine::make_frames() {
   if (!joints_silent) {
     berm_front_angle angle{};
@@ -86,7 +96,7 @@ void MiniMachine::make_frames() {
   const berm_estop estop{estop_pressed, true, 0};
   add_guarded(berm_encode_estop(&estop));
   if (!operator_silent) {
-    const berm_operator panel{run_switch, operator_stop, reset_key, relearn_key, 0};
+    const berm_operator panel{switched_on(), operator_stop, reset_key, relearn_key, 0};
     add_guarded(berm_encode_operator(&panel));
   }
   if (spotter_present) {

@@ -38,7 +38,8 @@ class MiniMachine {
   bool operator_silent = false;
   bool reset_key = false;
   bool relearn_key = false;
-  bool run_switch = true;
+  bool run_switch = true;        // the operator lets it run: switches off at the start and after what latched, and on when the kernel has stood by
+  bool run_left_on = false;      // or forgets to switch off
   bool operator_stop = false;
   bool estop_pressed = false;
   bool spotter_present = false;  // says that a truck is parked
@@ -74,6 +75,7 @@ class MiniMachine {
  private:
   void move();
   void make_frames();
+  bool switched_on();
   void make_packets(int scanner);
   double relief_at(double x, double y) const;  // base frame
   double range_m(int scanner, double pan_rad, double elevation_rad, double swing_rad) const;
@@ -81,6 +83,7 @@ class MiniMachine {
 
   berm_parameters parameters_;
   std::uint32_t cycle_ = 0;
+  bool was_off_ = false;         // the run switch, while the kernel stood by
   std::int32_t said_urad_[4] = {};
   std::uint8_t counter_[256] = {};  // by data id
   std::uint32_t sequence_[2] = {};

@@ -18,8 +18,17 @@ class StopLogic : public testing::Test {
     sk_stop_step(&s, &in, &out);
     return s.code;
   }
+  std::uint16_t step_switched_off() {
+    in.operator_run = false;
+    in.operator_run_off = true;
+    const std::uint16_t code = step();
+    in.operator_run = true;
+    in.operator_run_off = false;
+    return code;
+  }
   void start() {
     ASSERT_EQ(step(), SK_STATE_STANDBY);
+    ASSERT_EQ(step_switched_off(), SK_STATE_STANDBY);
     ASSERT_EQ(step(), SK_STATE_RUN);
     in.standstill = false;
   }
@@ -36,6 +45,7 @@ TEST_F(StopLogic, Starts) {
   EXPECT_EQ(step(), SK_STATE_STANDBY);
   EXPECT_FALSE(out.motion_enabled);
   EXPECT_FALSE(out.heartbeat_enable);
+  EXPECT_EQ(step_switched_off(), SK_STATE_STANDBY);
   EXPECT_EQ(step(), SK_STATE_RUN);
   EXPECT_TRUE(out.motion_enabled);
   EXPECT_TRUE(out.heartbeat_enable);
@@ -114,6 +124,65 @@ TEST_F(StopLogic, ALatchNeedsAFreshReset) {
   in.standstill = true;
   EXPECT_EQ(step(), SK_STATE_STANDBY);
   EXPECT_FALSE(out.motion_enabled);
+}
+
+// verifies: SK-ST-6
+TEST_F(StopLogic, ARunSwitchThatWasLeftOnStartsNothing) {
+  in.inputs_ready = false;
+  EXPECT_EQ(step_switched_off(), SK_STATE_INIT);
+  in.inputs_ready = true;
+  EXPECT_EQ(step_switched_off(), SK_STATE_STANDBY) << "and that was still INIT";
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(step(), SK_STATE_STANDBY);
+  in.operator_run = false;
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(step(), SK_STATE_STANDBY) << "not heard is not off";
+  in.operator_run = true;
+  EXPECT_EQ(step(), SK_STATE_STANDBY);
+  in.hold_reason = BERM_STOP_UNKNOWN_GROUND;
+  EXPECT_EQ(step_switched_off(), SK_STATE_STANDBY);
+  EXPECT_EQ(step(), SK_STATE_STANDBY);
+  in.hold_reason = 0;
+  EXPECT_EQ(step(), SK_STATE_RUN) << "what held meanwhile is another matter";
+}
+
+// verifies: SK-ST-6, SK-ST-22
+TEST_F(StopLogic, AfterAResetItMustBeSwitchedOffAndOn) {
+  const auto stop_and_reset = [this](std::uint8_t fault, std::uint8_t latch) {
+    in.fault_reason = fault;
+    in.latch_reason = latch;
+    in.latch_category_0 = latch == BERM_STOP_EMERGENCY;
+    step();
+    in.fault_reason = in.latch_reason = 0;
+    in.standstill = true;
+    for (int k = 0; k < 2; ++k) step_switched_off();  // too early: what is latched is not reset yet
+    in.operator_reset = true;
+    EXPECT_EQ(step(), SK_STATE_STANDBY);
+    in.operator_reset = false;
+  };
+  start();
+  for (const auto& [fault, latch] : {std::pair{BERM_STOP_NONE, BERM_STOP_OPERATOR}, {BERM_STOP_NONE, BERM_STOP_EMERGENCY}, {BERM_STOP_SCANNER_SILENT, BERM_STOP_NONE}}) {
+    stop_and_reset(static_cast<std::uint8_t>(fault), static_cast<std::uint8_t>(latch));
+    for (int k = 0; k < 5; ++k) EXPECT_EQ(step(), SK_STATE_STANDBY) << latch;
+    EXPECT_EQ(step_switched_off(), SK_STATE_STANDBY);
+    EXPECT_EQ(step(), SK_STATE_RUN) << latch;
+  }
+  // In STANDBY a stop that latches takes the release back as well.
+  in.operator_run = false;
+  step();
+  ASSERT_EQ(step(), SK_STATE_STANDBY);
+  in.operator_run = true;
+  stop_and_reset(BERM_STOP_NONE, BERM_STOP_EMERGENCY);
+  EXPECT_EQ(step(), SK_STATE_STANDBY);
+}
+
+// verifies: SK-ST-7
+TEST_F(StopLogic, APauseThatEndsOnTheWayNeedsNoOther) {
+  start();
+  in.inputs_ready = false;
+  in.standstill = true;
+  EXPECT_EQ(step(), SK_STATE_STOPPING);
+  EXPECT_EQ(step(), SK_STATE_STANDBY);
+  in.inputs_ready = true;
+  EXPECT_EQ(step(), SK_STATE_RUN);
 }
 
 // verifies: SK-ST-14, SK-ST-20, SK-ST-31
