@@ -45,4 +45,11 @@ Joints crept(const MachineModel& machine, const Joints& command) {
   return creep;
 }
 
+bool cut_short(const Joints& angle, const Joints& wanted, const Joints& allowed, const std::optional<Joints>& goals) {
+  constexpr double there = radians(1.0);
+  for (std::size_t j = 0; j < joints; ++j)
+    if (allowed[j] != wanted[j] && !(goals && std::fabs(wrapped((*goals)[j] - angle[j])) < there)) return true;
+  return false;
+}
+
 }  // namespace berm::app

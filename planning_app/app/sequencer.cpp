@@ -189,23 +189,13 @@ void Sequencer::log_held(const Observation& o, const Joints& wanted) const {
   log_.event("held", fields);
 }
 
-// Whether the guard keeps the machine from getting where it is going. A swing that trembles at its goal while a bucket is weighed or poured is there.
-bool Sequencer::cut_short(const Observation& o, const Joints& wanted, const Joints& allowed) const {
-  constexpr double there = radians(2.0);
-  if (std::all_of(allowed.begin(), allowed.end(), [](double v) { return v == 0.0; })) return true;
-  if (stage_ == Stage::dig || stage_ == Stage::curl) return false;
-  const Joints goals = script_.goals();
-  for (std::size_t j = 0; j < joints; ++j)
-    if (allowed[j] != wanted[j] && std::fabs(wrapped(goals[j] - o.angle[j])) > there) return true;
-  return false;
-}
-
 // Through the guard. What the guard holds back for long is looked at again; if that does not help the kernel decides, at creep speed.
 Joints Sequencer::slowed(const Observation& o, const Joints& wanted) {
   constexpr double look_after = 1.0;
   const Joints allowed = guarded(machine_, *skyline_, arm_.predicted(o.angle, o.velocity), wanted);
   const double held_before = hold_.seconds();
-  hold_.step(o.time_s, o.angle, cut_short(o, wanted, allowed));
+  const bool by_script = stage_ != Stage::dig && stage_ != Stage::curl;
+  hold_.step(o.time_s, o.angle, cut_short(o.angle, wanted, allowed, by_script ? std::optional(script_.goals()) : std::nullopt));
   if (looked_ && hold_.seconds() < held_before) {
     log_.event("released", {{"time_s", o.time_s}, {"held_s", held_before}});
     looked_ = false;

@@ -136,7 +136,6 @@ private:
   void look(const Observation& o);            // renews the skyline now and then
   bool too_high_stands() const;  // what the kernel last stopped the machine for
   void log_held(const Observation& o, const Joints& wanted) const;
-  bool cut_short(const Observation& o, const Joints& wanted, const Joints& allowed) const;
   Joints slowed(const Observation& o, const Joints& wanted);
 
   const ScriptSet& scripts_;

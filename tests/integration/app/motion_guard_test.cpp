@@ -86,5 +86,18 @@ TEST_F(MotionGuard, BesideWhatIsNotTooHighItCreeps) {
   EXPECT_EQ(guarded(machine_, beside, lowered, to_left_), crept(machine_, to_left_));
 }
 
+TEST(CutShort, IsWhatDoesNotGetToItsGoal) {
+  const Joints angle{radians(179.0), 0.0, 0.0, 0.0}, wanted{radians(5.0), radians(2.0), 0.0, 0.0};
+  const Joints far{radians(-178.5), radians(20.0), 0.0, 0.0}, there{radians(-180.2), radians(0.9), 0.0, 0.0};
+  EXPECT_FALSE(cut_short(angle, wanted, wanted, far));
+  EXPECT_FALSE(cut_short(angle, wanted, wanted, std::nullopt));
+  for (const Joints& allowed : {Joints{}, Joints{wanted[swing] / 2.0, wanted[boom], 0.0, 0.0}, Joints{wanted[swing], 0.0, 0.0, 0.0}}) {
+    EXPECT_TRUE(cut_short(angle, wanted, allowed, far));
+    EXPECT_TRUE(cut_short(angle, wanted, allowed, std::nullopt)) << "a dig has no goals";
+    EXPECT_FALSE(cut_short(angle, wanted, allowed, there)) << "it trembles at its goal";
+  }
+  EXPECT_TRUE(cut_short(angle, wanted, {}, Joints{there[swing], far[boom], 0.0, 0.0})) << "one of them is not there";
+}
+
 }  // namespace
 }  // namespace berm::app

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app_bench/events.hpp"
@@ -214,10 +215,16 @@ TEST(Sequencer, StandsBeforeWhatIsTooHighUntilItIsGone) {
     run.step();
   };
   double farthest = -1e9;
-  for (int k = 0; k < 800; ++k) {
+  std::array<bool, 2> low{}, high{};  // ends of the pans' ranges that are asked for
+  for (int k = 0; k < 1100; ++k) {
     step(top_m);
     farthest = std::max(farthest, run.plant.angle()[swing]);
+    for (std::size_t i = 0; i < 2 && !events.named("held").empty(); ++i) {
+      low[i] = low[i] || run.last.pan[i].goal <= run.machine.scanner[i].pan_low;
+      high[i] = high[i] || run.last.pan[i].goal >= run.machine.scanner[i].pan_high;
+    }
   }
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(low[i] && high[i]) << i;
   EXPECT_LT(farthest, std::atan2(y, x) - 0.6 / std::hypot(x, y)) << "its implements are 0.6 m to either side at least";
   EXPECT_GT(farthest, radians(10.0)) << "it waits before it, not where it began";
   EXPECT_LT(std::fabs(run.last.velocity[swing]), radians(0.1));
@@ -253,6 +260,24 @@ TEST(Sequencer, StandsBeforeWhatReachesUpToTheBucketToo) {
   for (int k = 0; k < 1000 && run.last.phase != BERM_PHASE_DIG; ++k) step(0.0);
   EXPECT_EQ(run.last.phase, BERM_PHASE_DIG);
   expect_no_contact(run);
+}
+
+// In a dig, too: there no script says where it is going.
+TEST(Sequencer, IsHeldInADigAsElsewhere) {
+  const app_bench::Events events;
+  Loading run(1, start_pose(), events.fd());
+  while (run.last.phase != BERM_PHASE_DIG && run.seconds < 60.0) run.step();
+  ASSERT_LT(run.seconds, 60.0);
+  const double bearing = run.plant.angle()[swing] + radians(8.0), distance = 3.7;
+  const double x = distance * std::cos(bearing), y = distance * std::sin(bearing);
+  for (int k = 0; k < 400; ++k) {
+    berm_state_segment& segment = run.plant.mutable_segment();
+    const auto index = [&](double v) { return static_cast<int>(std::floor((1e3 * v - segment.map_origin_mm) / segment.cell_mm)); };
+    segment.map_height_mm[index(y)][index(x)] = 2000;
+    run.step();
+  }
+  ASSERT_EQ(events.named("held").size(), 1u);
+  EXPECT_EQ(run.last.phase, BERM_PHASE_DIG);
 }
 
 TEST(Sequencer, WaitsForTheTruckAndStandsMeanwhile) {
