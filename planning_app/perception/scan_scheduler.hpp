@@ -27,7 +27,7 @@ public:
   bool full_sweep_done() const;
 
   // Sweeps one scanner over these bearings (base frame) once, from the end that is nearer, slowly enough for the truck recogniser (a scanline a degree);
-  // the other looks at the ground on the way to the dig, its own side of the boom first: what is near the machine's feet there the boom hides once it digs. Until
+  // the other sees the ground on the way to the dig, from under the boom outwards: what is near the machine's feet there the boom hides once it digs. Until
   // end_look the scanner then stays where it came to.
   void begin_look(std::size_t scanner, const PanSector& bearings);
   void end_look() { look_ = Look::none; }

@@ -169,7 +169,7 @@ bool Skyline::passable(double r, double bearing, double half_width) const {
 bool Skyline::may_pass(double bearing, int bin) const { return passable((bin + 0.5) * LowerEdge::bin_m, bearing, half_width_); }
 
 bool Skyline::stands_too_high(const Blocking& blocking) const {
-  if (blocking.what != Blocking::What::ground || too_high_.empty()) return blocking.what == Blocking::What::too_high;
+  if (blocking.what != Blocking::What::ground || blocking.unseen() || too_high_.empty()) return blocking.what == Blocking::What::too_high;
   // Where the height was taken from.
   constexpr double step = 2.0 * std::numbers::pi / bearings;
   const double bearing = step * std::round(blocking.bearing / step);

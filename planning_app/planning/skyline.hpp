@@ -47,7 +47,7 @@ public:
     const char* name() const;  // as an operator reads it
   };
   std::optional<Blocking> blocking(const ReachIntervals& box) const;
-  // Whether it may not be passed over with the implements up either: ground that is too near below them is what a box meets first.
+  // Whether it may not be passed over with the implements up either: ground that is too near below them is what a box meets first. Not of unseen ground.
   bool stands_too_high(const Blocking& blocking) const;
 
   // The highest ground within the implements' width, between two bearings (low to high) and two distances.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/motion_guard.hpp"
 #include "app_bench/bench_machine.hpp"
@@ -84,6 +85,15 @@ TEST_F(MotionGuard, BesideWhatIsNotTooHighItCreeps) {
   ASSERT_TRUE(met && met->what == Skyline::Blocking::What::ground);
   EXPECT_FALSE(beside.stands_too_high(*met));
   EXPECT_EQ(guarded(machine_, beside, lowered, to_left_), crept(machine_, to_left_));
+}
+
+// What nobody has seen below the bucket may be nothing: the kernel decides.
+TEST_F(MotionGuard, OverUnseenGroundItCreeps) {
+  const double distance = reach_of(machine_, carried_) - 0.6;
+  const Skyline beside = cell_of_map(machine_, site_, carried_[swing] + radians(10.0), distance, std::numeric_limits<double>::infinity());
+  const auto met = beside.blocking(preview(machine_, carried_, {}));
+  ASSERT_TRUE(met && met->what == Skyline::Blocking::What::ground && met->unseen());
+  EXPECT_EQ(guarded(machine_, beside, carried_, to_left_), crept(machine_, to_left_));
 }
 
 TEST(CutShort, IsWhatDoesNotGetToItsGoal) {

@@ -23,6 +23,13 @@ void expect_no_contact(const Loading& run) {
   EXPECT_EQ(f.range_contacts, 0);
 }
 
+// In the kernel's map: the cell at x, y is this high.
+void show_height(Loading& run, double x, double y, double top_m) {
+  berm_state_segment& segment = run.plant.mutable_segment();
+  const auto index = [&](double v) { return static_cast<int>(std::floor((1e3 * v - segment.map_origin_mm) / segment.cell_mm)); };
+  segment.map_height_mm[index(y)][index(x)] = static_cast<std::int32_t>(1e3 * top_m);
+}
+
 TEST(Sequencer, NothingMovesBeforeBothScannersHaveSweptTheirRange) {
   Loading run(1, start_pose());
   double left_low = 1e9, left_high = -1e9, right_low = 1e9, right_high = -1e9;
@@ -176,9 +183,8 @@ TEST(Sequencer, TriesNothingWhileWhatIsTooHighStands) {
     ASSERT_LT(run.seconds, 60.0);
     for (int k = 0; k < 50; ++k) run.step();
     const auto show = [&](double top_m) {
+      show_height(run, at.x, at.y, top_m);
       berm_state_segment& segment = run.plant.mutable_segment();
-      const auto index = [&](double v) { return static_cast<int>(std::floor((1e3 * v - segment.map_origin_mm) / segment.cell_mm)); };
-      segment.map_height_mm[index(at.y)][index(at.x)] = static_cast<std::int32_t>(1e3 * top_m);
       segment.state.blocked_x_mm = static_cast<std::int32_t>(1e3 * at.x);
       segment.state.blocked_y_mm = static_cast<std::int32_t>(1e3 * at.y);
     };
@@ -209,9 +215,7 @@ TEST(Sequencer, StandsBeforeWhatIsTooHighUntilItIsGone) {
   ASSERT_LT(run.seconds, 60.0);
   constexpr double x = 2.25, y = 2.55, top_m = 1.4;
   const auto step = [&](double top) {
-    berm_state_segment& segment = run.plant.mutable_segment();
-    const auto index = [&](double v) { return static_cast<int>(std::floor((1e3 * v - segment.map_origin_mm) / segment.cell_mm)); };
-    segment.map_height_mm[index(y)][index(x)] = static_cast<std::int32_t>(1e3 * top);
+    show_height(run, x, y, top);
     run.step();
   };
   double farthest = -1e9;
@@ -245,9 +249,7 @@ TEST(Sequencer, StandsBeforeWhatReachesUpToTheBucketToo) {
   const double bearing = run.plant.angle()[swing] - radians(40.0), distance = reach_of(run.machine, run.plant.angle()) - 0.4;
   const double x = distance * std::cos(bearing), y = distance * std::sin(bearing), top_m = 2.0;
   const auto step = [&](double top) {
-    berm_state_segment& segment = run.plant.mutable_segment();
-    const auto index = [&](double v) { return static_cast<int>(std::floor((1e3 * v - segment.map_origin_mm) / segment.cell_mm)); };
-    segment.map_height_mm[index(y)][index(x)] = static_cast<std::int32_t>(1e3 * top);
+    show_height(run, x, y, top);
     run.step();
   };
   double farthest = 1e9;
@@ -271,9 +273,7 @@ TEST(Sequencer, IsHeldInADigAsElsewhere) {
   const double bearing = run.plant.angle()[swing] + radians(8.0), distance = 3.7;
   const double x = distance * std::cos(bearing), y = distance * std::sin(bearing);
   for (int k = 0; k < 400; ++k) {
-    berm_state_segment& segment = run.plant.mutable_segment();
-    const auto index = [&](double v) { return static_cast<int>(std::floor((1e3 * v - segment.map_origin_mm) / segment.cell_mm)); };
-    segment.map_height_mm[index(y)][index(x)] = 2000;
+    show_height(run, x, y, 2.0);
     run.step();
   }
   ASSERT_EQ(events.named("held").size(), 1u);
