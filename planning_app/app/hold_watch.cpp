@@ -1,20 +1,12 @@
 #include "app/hold_watch.hpp"
 
-#include <cmath>
-
-#include "motion/angles.hpp"
-
 namespace berm::app {
 
 void HoldWatch::step(double time_s, const Joints& angle, bool cut) {
-  bool anew = time_s - cut_s_ > gap;
-  for (std::size_t j = 0; j < joints && !given_up(); ++j) anew = anew || std::fabs(wrapped(angle[j] - from_[j])) > about;
+  if (time_s - cut_s_ > gap) still_.begin(time_s, angle);
+  else if (!given_up()) still_.step(time_s, angle);
   if (cut) cut_s_ = time_s;
-  if (anew) {
-    since_s_ = time_s;
-    from_ = angle;
-  }
-  seconds_ = time_s - since_s_;
+  seconds_ = still_.seconds(time_s);
 }
 
 }  // namespace berm::app

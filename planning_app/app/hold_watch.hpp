@@ -2,15 +2,14 @@
 // machine trembles in and out of the guard's margins.
 #pragma once
 
-#include "motion/machine_model.hpp"
+#include "app/stillness.hpp"
 
 namespace berm::app {
 
 class HoldWatch {
 public:
-  static constexpr double about = radians(1.0);  // what a joint that stands trembles by, at most
-  static constexpr double gap = 0.5;             // s without a cut, after which nothing is held any more
-  static constexpr double patience = 12.0;       // s; then it is for the kernel to decide, and what moves ends no hold
+  static constexpr double gap = 0.5;        // s without a cut, after which nothing is held any more
+  static constexpr double patience = 12.0;  // s; then it is for the kernel to decide, and what moves ends no hold
 
   // Once a cycle in which a motion is wanted; cut: the guard lets less of it out.
   void step(double time_s, const Joints& angle, bool cut);
@@ -19,9 +18,8 @@ public:
   bool given_up() const { return seconds_ > patience; }
 
 private:
-  Joints from_{};
-  double since_s_ = 0.0, cut_s_ = -1e9;
-  double seconds_ = 0.0;
+  Stillness still_;
+  double cut_s_ = -1e9, seconds_ = 0.0;
 };
 
 }  // namespace berm::app

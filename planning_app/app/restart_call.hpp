@@ -8,8 +8,7 @@ namespace berm::app {
 
 class RestartCall {
 public:
-  // True when the call was made just now.
-  bool step(const Observation& o, const ProgressLog& log);
+  void step(const Observation& o, const ProgressLog& log);
 
 private:
   bool told_ = false;

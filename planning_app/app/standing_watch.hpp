@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/observation.hpp"
+#include "app/stillness.hpp"
 
 namespace berm::app {
 
@@ -14,8 +15,7 @@ public:
   bool step(const Observation& o, bool works);
 
 private:
-  Joints from_{};
-  double since_s_ = -1.0;  // since when the joints are where they are, about
+  Stillness still_;
 };
 
 }  // namespace berm::app

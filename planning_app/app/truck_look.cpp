@@ -131,6 +131,7 @@ std::optional<TruckBed> TruckLook::step(const Observation& o, ScanScheduler& sca
     case Stage::asked: take_answer(o, scanners, truck, log); break;
     case Stage::passes:
       if (sweep_.recording() && !scanners.look_done() && !passed(*bed_, o)) break;
+      if (!scanners.feet_seen()) break;  // what is dug next hides them
       stop(scanners);
       return bed_;
     case Stage::pauses:

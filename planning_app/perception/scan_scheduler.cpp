@@ -92,6 +92,7 @@ void ScanScheduler::begin_look(std::size_t scanner, const PanSector& bearings) {
   look_ = Look::goes;
   const std::size_t other = scanner == left ? right : left;
   head_[other].up = other == right;
+  feet_seen_ = false;
 }
 
 PanRequest ScanScheduler::look(double swing_angle, double pan) {
@@ -124,9 +125,9 @@ std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, d
     if (pan[i] < mount.pan_low + 2.0 * at_end) head.low_seen = true;
     if (pan[i] > mount.pan_high - 2.0 * at_end) head.high_seen = true;
     const bool whole = !(head.low_seen && head.high_seen);
-    const PanSector s = whole ? PanSector{mount.pan_low, mount.pan_high}
-                        : look_ != Look::none ? beside_look(i, dig, truck, swing_angle)
-                                              : sector(i, phase, dig, truck, swing_angle);
+    const PanSector beside = beside_look(i, dig, truck, swing_angle);
+    if (i != looker_ && (i == right ? pan[i] > beside.high - at_end : pan[i] < beside.low + at_end)) feet_seen_ = true;
+    const PanSector s = whole ? PanSector{mount.pan_low, mount.pan_high} : look_ != Look::none ? beside : sector(i, phase, dig, truck, swing_angle);
     if (pan[i] > s.high - at_end) head.up = false;
     if (pan[i] < s.low + at_end) head.up = true;
     const double direction = head.up ? 1.0 : -1.0;

@@ -33,6 +33,8 @@ public:
   void end_look() { look_ = Look::none; }
   bool look_sweeps() const { return look_ == Look::sweeps; }
   bool look_done() const { return look_ == Look::done; }
+  // Since begin_look the other scanner has been under the boom.
+  bool feet_seen() const { return feet_seen_; }
 
   // phase: BERM_PHASE_*, the one the motion is about to enter where that is known (LIFT before a dig ends); bearings of dig and truck; measured pans, swing angle and speed.
   std::array<PanRequest, 2> step(std::uint16_t phase, double dig_bearing, double truck_bearing, double swing_angle, double swing_speed,
@@ -53,6 +55,7 @@ private:
   std::size_t looker_ = 0;
   PanSector look_bearings_;
   bool look_up_ = true;
+  bool feet_seen_ = false;
   bool far_seen_ = false;  // during this swing to the truck the leading scanner has seen the ground beyond the truck
 };
 

@@ -94,7 +94,7 @@ Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Groun
   double half_width = 0.0;
   for (const Prism& part : machine.parts) half_width = std::max(half_width, part.half_width);
   half_width_ = half_width;
-  half_width += 0.3;  // a cell of the kernel's map
+  half_width += cell;  // of the kernel's map
   const double bed_c = site.bed ? std::cos(site.bed->yaw) : 1.0, bed_s = site.bed ? std::sin(site.bed->yaw) : 0.0;
   const auto top = [&](double x, double y, double z) {
     if (!site.bed || z >= site.bed->wall_top) return z;
@@ -170,7 +170,7 @@ bool Skyline::may_pass(double bearing, int bin) const { return passable((bin + 0
 
 bool Skyline::stands_too_high(const Blocking& blocking) const {
   if (blocking.what != Blocking::What::ground || blocking.unseen() || too_high_.empty()) return blocking.what == Blocking::What::too_high;
-  // Where the height was taken from.
+  // Where blocking() has the height from.
   constexpr double step = 2.0 * std::numbers::pi / bearings;
   const double bearing = step * std::round(blocking.bearing / step);
   for (int radial = -1; radial <= 1; ++radial)

@@ -47,6 +47,25 @@ TEST(TruckLook, AsksWithOneSweepOverTheWholePlaceFromWhereTheMachineStands) {
   EXPECT_FALSE(moves(run.last));
 }
 
+// From beside the truck it goes to dig over ground at its feet that the other scanner must have seen by then, wherever that was when the look began.
+TEST(TruckLook, TheDigWaitsUntilTheOtherScannerHasSeenTheFeet) {
+  Loading run(1, start_pose());
+  const double outmost = run.machine.scanner[1].pan_low;
+  double inmost = outmost, looks_since = -1.0;
+  bool moved = false;
+  while (!moved && run.seconds < 60.0) {
+    run.step();
+    const bool looks = !run.finder.looks.empty();
+    if (looks && looks_since < 0.0) looks_since = run.seconds;
+    const bool late = looks_since < 0.0 || run.seconds < looks_since + 2.0;  // the other scanner
+    if (late && std::fabs(run.plant.angle()[swing]) > radians(10.0)) run.plant.put_pan(1, outmost);
+    if (looks) inmost = std::max(inmost, run.plant.state().pan_angle_urad[1] * 1e-6);
+    moved = looks && moves(run.last);
+  }
+  ASSERT_TRUE(moved);
+  EXPECT_GT(inmost, radians(35.0));
+}
+
 TEST(TruckLook, WithoutATruckItLooksAgainTellsTheOperatorAndDoesNotDig) {
   Events events;
   Loading run(1, start_pose(), events.fd());

@@ -50,6 +50,7 @@ public:
   double payload_kg() const { return payload_; }
   const app::Joints& angle() const { return angle_; }
   void put(app::Joint joint, double angle) { angle_[joint] = angle; }  // by hand
+  void put_pan(std::size_t scanner, double pan) { pan_[scanner] = pan; }
 
   bool truck_parked = true, truck_leaves = false;
   bool kernel_runs = true;        // false: STOPPED, for collision_reason, nothing moves but at creep speeds

@@ -12,9 +12,9 @@ namespace {
 using namespace berm::app;
 
 struct Pans {
-  explicit Pans(const MachineModel& m) : machine(m), scheduler(m) {}
+  explicit Pans(const MachineModel& m, double truck_bearing = radians(96.0)) : machine(m), scheduler(m), truck(truck_bearing) {}
   void step(std::uint16_t phase, double swing_angle, double swing_speed) {
-    const auto request = scheduler.step(phase, 0.0, radians(96.0), swing_angle, swing_speed, pan);
+    const auto request = scheduler.step(phase, 0.0, truck, swing_angle, swing_speed, pan);
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_GE(request[i].goal, machine.scanner[i].pan_low);
       EXPECT_LE(request[i].goal, machine.scanner[i].pan_high);
@@ -29,6 +29,7 @@ struct Pans {
   }
   MachineModel machine;
   ScanScheduler scheduler;
+  double truck;
   std::array<double, 2> pan{}, low{1e9, 1e9}, high{-1e9, -1e9};
   double fastest = 0.0;
 };
@@ -97,37 +98,65 @@ TEST(ScanScheduler, ALookSweepsItsSectorOnceAndSlowly) {
   EXPECT_GT(std::fabs(pans.pan[0] - stays), radians(5.0));
 }
 
-// Of the ground at the machine's feet on the way from there to the dig, which the boom hides during the dig: wherever the other scanner was when the look began.
+// Of the ground at the machine's feet on the way from there to the dig, which the boom hides during the dig: wherever the other scanner was when the look
+// began, and not much after the shortest look. A truck on the right is looked at by the right scanner.
 TEST(ScanScheduler, BesideALookTheOtherScannerSeesTheGroundAtTheFeet) {
   const MachineModel machine = berm::app_bench::zx200();
-  const double swing_angle = radians(37.0);
-  for (double began = machine.scanner[1].pan_low; began <= machine.scanner[1].pan_high; began += radians(5.0)) {
-    Pans pans(machine);
-    for (int k = 0; k < 2000; ++k) pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
-    pans.pan[1] = began;
-    pans.scheduler.begin_look(0, {radians(40.0), radians(150.0)});
-    double high = began;
-    for (int k = 0; k < 1000 && !pans.scheduler.look_done(); ++k) {
-      pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
-      high = std::max(high, pans.pan[1]);
+  for (const double side : {1.0, -1.0}) {
+    const std::size_t looker = side > 0.0 ? 0 : 1, other = 1 - looker;
+    const double swing_angle = side * radians(37.0), one = side * radians(40.0), far = side * radians(150.0);
+    for (double began = machine.scanner[other].pan_low; began <= machine.scanner[other].pan_high; began += radians(5.0)) {
+      Pans pans(machine, side * radians(96.0));
+      for (int k = 0; k < 2000; ++k) pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
+      pans.pan[other] = began;
+      pans.pan[looker] = one - swing_angle;
+      pans.scheduler.begin_look(looker, {std::min(one, far), std::max(one, far)});
+      ASSERT_FALSE(pans.scheduler.feet_seen());
+      double inmost = side * began, after_look = 0.0;
+      for (int k = 0; k < 2000 && !(pans.scheduler.look_done() && pans.scheduler.feet_seen()); ++k) {
+        pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
+        inmost = std::max(inmost, side * pans.pan[other]);
+        if (pans.scheduler.look_done()) after_look += 0.01;
+      }
+      EXPECT_GT(inmost, radians(35.0)) << side << " " << degrees(began);
+      EXPECT_LT(after_look, 1.0) << side << " " << degrees(began);
     }
-    EXPECT_GT(high, radians(35.0)) << degrees(began);
   }
 }
 
-// On the side of the dig, too: a truck on the right is looked at by the right scanner.
-TEST(ScanScheduler, BesideALookTheOtherScannerKeepsToTheWayToTheDig) {
+TEST(ScanScheduler, WhatLookedAtTheTruckIsNotTheOtherScanner) {
   Pans pans(berm::app_bench::zx200());
-  const double swing_angle = radians(37.0);
-  for (int k = 0; k < 2000; ++k) pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
+  const double outmost = pans.machine.scanner[1].pan_low;
+  const auto go_on = [&](int cycles) {
+    for (int k = 0; k < cycles; ++k) {
+      pans.pan[1] = outmost;
+      pans.step(BERM_PHASE_WAIT, radians(37.0), 0.0);
+    }
+  };
   pans.scheduler.begin_look(0, {radians(40.0), radians(150.0)});
-  for (int k = 0; k < 1500; ++k) pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
-  double low = 1e9;
-  for (int k = 0; k < 1000; ++k) {
-    pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
-    low = std::min(low, degrees(pans.pan[1] + swing_angle));
+  go_on(1000);
+  ASSERT_TRUE(pans.scheduler.look_done());
+  pans.scheduler.end_look();
+  pans.pan[0] = pans.machine.scanner[0].pan_low;  // it is under the boom itself now
+  go_on(10);
+  EXPECT_FALSE(pans.scheduler.feet_seen());
+}
+
+TEST(ScanScheduler, BesideALookTheOtherScannerKeepsToTheWayToTheDig) {
+  for (const double side : {1.0, -1.0}) {
+    const std::size_t looker = side > 0.0 ? 0 : 1, other = 1 - looker;
+    const double swing_angle = side * radians(37.0), one = side * radians(40.0), far = side * radians(150.0);
+    Pans pans(berm::app_bench::zx200(), side * radians(96.0));
+    for (int k = 0; k < 2000; ++k) pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
+    pans.scheduler.begin_look(looker, {std::min(one, far), std::max(one, far)});
+    for (int k = 0; k < 1500; ++k) pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
+    double outmost = 1e9;
+    for (int k = 0; k < 1000; ++k) {
+      pans.step(BERM_PHASE_WAIT, swing_angle, 0.0);
+      outmost = std::min(outmost, side * degrees(pans.pan[other] + swing_angle));
+    }
+    EXPECT_NEAR(outmost, -60.0, 3.0) << side << ": beyond the dig by the implements' width and the columns beside it";
   }
-  EXPECT_NEAR(low, -60.0, 3.0) << "beyond the dig by the implements' width and the columns beside it";
 }
 
 TEST(ScanScheduler, ALookBeyondThePansRangeEndsWhereTheRangeDoes) {
