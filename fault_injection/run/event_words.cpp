@@ -23,7 +23,7 @@ std::string words_of(const nlohmann::json& event) {
   if (name == "stopped") return fmt::format("the kernel stopped the machine: {}", event.value("reason", "?"));
   if (name == "full_speed" && event.value("slowed_s", 0.0) >= kSlowedWorthTelling_s)
     return fmt::format("was slowed by the kernel for {:.1f} s, to {:.0f} %{}", event.value("slowed_s", 0.0), 100 * event.value("least_share", 1.0),
-                       event.value("dust", false) ? " (dust)" : "");
+                       event.value("dust", false) ? " (dust)" : event.value("learning", false) ? " (the ground was being learned)" : "");
   if (name == "held") return "the app holds back: " + held_by(event);
   if (name == "operator_needed") return fmt::format("operator needed, {}: {}", operator_needed_for(event), event.value("advice", ""));
   if (name == "move_back") return fmt::format("the app asks for a bench move, {:.1f} m back: {}", event.value("distance_m", 0.0), event.value("why", ""));

@@ -115,6 +115,7 @@ void compile_workspace(const WorkspaceFile& w, const SiteFile& site, berm_parame
   p.workspace_period_us = down(w.period, kMicro);
   p.workspace_dwell_us = up(w.dwell, kMicro);
   p.workspace_learn_us = down(w.learn, kMicro);          // less is taken for ground
+  p.workspace_learn_speed_permille = down(w.learn_speed, kMilli);
   p.workspace_foreign = w.foreign;
   p.workspace_lidar_wait_us = down(w.lidar_wait, kMicro);
   p.workspace_lidar_period_us = down(w.lidar_period, kMicro);

@@ -128,6 +128,7 @@ void workspace(const berm_parameters& p, Listing& out) {
   out.row("workspace_period_us", p.workspace_period_us);
   out.row("workspace_dwell_us", p.workspace_dwell_us);
   out.row("workspace_learn_us", p.workspace_learn_us);
+  out.row("workspace_learn_speed_permille", p.workspace_learn_speed_permille);
   out.row("workspace_foreign", p.workspace_foreign);
   out.row("workspace_lidar_wait_us", p.workspace_lidar_wait_us);
   out.row("workspace_lidar_period_us", p.workspace_lidar_period_us);

@@ -145,6 +145,7 @@ WorkspaceFile read_workspace(StrictTable table, double own_body_radius) {
   w.period = table.number("period", 0.01, 1.0);
   w.dwell = table.number("dwell", 0.0, 60.0);
   w.learn = table.number("learn", 0.0, 120.0);
+  w.learn_speed = table.number("learn_speed", 0.05, 1.0);
   w.foreign = static_cast<int>(table.integer("foreign", 0, 100));
   w.lidar_wait = table.number("lidar_wait", 0.0, 10.0);
   w.lidar_period = table.number("lidar_period", 0.01, 1.0);

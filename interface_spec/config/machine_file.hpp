@@ -66,6 +66,7 @@ struct WorkspaceFile {
   double radius;                              // m, of the safety region about the swing axis
   double rise, neighbour, slope;              // m
   double wait, period, dwell, learn;          // s
+  double learn_speed;                         // share of the largest speeds, while the ground is learned
   double lidar_wait, lidar_period;            // s, of what the lidars see
   int foreign;                                // voxels of free space with something in them that are an intruder; 0: not kept
   bool follows;                               // the map that is compared with follows what is seen

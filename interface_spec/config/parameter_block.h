@@ -119,6 +119,7 @@ typedef struct berm_parameters {
   int32_t workspace_period_us;                    /* between comparisons */
   int32_t workspace_dwell_us;                     /* the region is clear for so long before the machine may go on */
   int32_t workspace_learn_us;                     /* the ground is learned for so long from the begin, a lane's from when a truck has parked */
+  int32_t workspace_learn_speed_permille;         /* of each joint's largest speed, while it is learned; while a lane is, near that */
   int32_t workspace_foreign;                      /* so many voxels of free space with something in them are an intruder; 0: free space is not kept */
   int32_t workspace_lidar_wait_us;                /* the same two of what a lidar on the upper body sees: it sees all round, ten times a second */
   int32_t workspace_lidar_period_us;

@@ -38,6 +38,7 @@ Observation observe(const berm_state& state) {
   o.kernel_state = state.kernel_state;
   o.stop_reason = state.stop_reason;
   o.slowed_by_dust = (state.sight & BERM_SIGHT_DUST_SLOW) != 0;
+  o.learns_ground = (state.sight & (BERM_SIGHT_LEARNS | BERM_SIGHT_LEARNS_LANE)) != 0;
   o.held_by_dust = (state.sight & BERM_SIGHT_DUST_STOP) != 0;
   o.latched = state.kernel_state == BERM_STATE_FAULT || (state.kernel_state == BERM_STATE_STOPPED && state.stop_category != category_held);
   const double behind = state.blocked_link == BERM_SWING ? -1.0 : 1.0;  // the upper body's tail meets it: the arm points the other way

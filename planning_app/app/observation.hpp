@@ -21,6 +21,7 @@ struct Observation {
   std::uint8_t kernel_state = BERM_STATE_INIT;
   std::uint8_t stop_reason = BERM_STOP_NONE;
   bool slowed_by_dust = false;
+  bool learns_ground = false;  // everywhere, or a truck's lane: the kernel slows, in the lane only near it
   bool held_by_dust = false;    // so much that nothing may move, whatever reason is published
   bool latched = false;         // stopped until the operator resets
   Joints commanded{};           // what the kernel told the machine in this cycle

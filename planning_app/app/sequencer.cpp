@@ -12,6 +12,7 @@ namespace {
 constexpr double script_period = 0.02;            // s; the paper has 0.1 (4.4), and each rule that waits for a crossing then comes half of that late
 constexpr double skyline_period = 0.5;
 constexpr double most_brake_share = 0.9;          // of the largest acceleration of the swing: no landing is planned harder
+constexpr double slow_for_long = 3.0;                // s
 constexpr double full_share = 0.975;              // of a heaped bucket: what passes are planned with
 
 }  // namespace
@@ -242,6 +243,8 @@ Answer Sequencer::step(const Observation& o) {
   if (o.running())
     for (std::size_t j = 0; j < joints; ++j) answer.velocity[j] = std::clamp(answer.velocity[j], o.permitted_low[j], o.permitted_high[j]);
   arm_.asked(answer.velocity);
+  // A motion that is let out slowly for long: ground grows old on which the looks of its phase do not fall.
+  if (slow_down_.lasts_s() > slow_for_long) scanners_.begin_full_sweep();
   const double truck_bearing = site_.bed ? std::atan2(site_.bed->centre_y, site_.bed->centre_x) : std::atan2(site_.place.y, site_.place.x);
   const bool lifts_soon = stage_ == Stage::curl || (stage_ == Stage::dig && follower_.progress() > 0.6);
   answer.pan = scanners_.step(lifts_soon ? std::uint16_t{BERM_PHASE_LIFT} : phase_, task_.next_bearing, truck_bearing, o.angle[swing], o.velocity[swing], o.pan);

@@ -23,19 +23,20 @@ void SlowDown::step(const Observation& o, const ArmController& arm, double cycle
     ++spans_;
     from_s_ = last_s_ = o.time_s - cycle_s;
     span_least_ = 1.0;
-    span_dust_ = false;
+    span_dust_ = span_learning_ = false;
     log.event("slowed", {{"time_s", from_s_}, {"joint", joint_names[most_cut]}, {"phase", phase}});
   }
   seconds_ += o.time_s - last_s_;
   last_s_ = o.time_s;
   span_dust_ = span_dust_ || o.slowed_by_dust;
+  span_learning_ = span_learning_ || o.learns_ground;
   span_least_ = std::min(span_least_, share[most_cut]);
   least_share_ = std::min(least_share_, span_least_);
 }
 
 void SlowDown::end(const ProgressLog& log) {
   open_ = false;
-  log.event("full_speed", {{"time_s", last_s_}, {"slowed_s", last_s_ - from_s_}, {"least_share", span_least_}, {"dust", span_dust_}});
+  log.event("full_speed", {{"time_s", last_s_}, {"slowed_s", last_s_ - from_s_}, {"least_share", span_least_}, {"dust", span_dust_}, {"learning", span_learning_}});
 }
 
 }  // namespace berm::app

@@ -67,6 +67,15 @@ PanSector ScanScheduler::sector(std::size_t scanner, std::uint16_t phase, double
   return to_pans(scanner, bearings, swing_angle);
 }
 
+// Of a scanner that has not seen its whole range since it was to. On the swing back the ground beyond the dig comes first, on which only the looks of a dig
+// fall: the swing does not wait until it comes in its turn.
+PanSector ScanScheduler::unseen_sector(std::size_t scanner, bool leads_to_dig) const {
+  const PanSector whole{machine_.scanner[scanner].pan_low, machine_.scanner[scanner].pan_high};
+  if (!leads_to_dig) return whole;
+  if (scanner == right) return head_[right].low_seen ? whole : PanSector{whole.low, whole.low + narrowest};
+  return head_[left].high_seen ? whole : PanSector{whole.high - narrowest, whole.high};
+}
+
 // While the other scanner looks at the truck.
 PanSector ScanScheduler::beside_look(std::size_t scanner, double dig, double truck, double swing_angle) const {
   const double side = truck >= dig ? 1.0 : -1.0;
@@ -127,7 +136,7 @@ std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, d
     const bool whole = !(head.low_seen && head.high_seen);
     const PanSector beside = beside_look(i, dig, truck, swing_angle);
     if (i != looker_ && (i == right ? pan[i] > beside.high - at_end : pan[i] < beside.low + at_end)) feet_seen_ = true;
-    const PanSector s = whole ? PanSector{mount.pan_low, mount.pan_high} : look_ != Look::none ? beside : sector(i, phase, dig, truck, swing_angle);
+    const PanSector s = whole ? unseen_sector(i, i != ahead && phase == BERM_PHASE_SWING_TO_DIG) : look_ != Look::none ? beside : sector(i, phase, dig, truck, swing_angle);
     if (pan[i] > s.high - at_end) head.up = false;
     if (pan[i] < s.low + at_end) head.up = true;
     const double direction = head.up ? 1.0 : -1.0;

@@ -46,6 +46,7 @@ private:
   struct Head { bool up = true; bool low_seen = false, high_seen = false; };
 
   PanRequest look(double swing_angle, double pan);
+  PanSector unseen_sector(std::size_t scanner, bool leads_to_dig) const;
   PanSector beside_look(std::size_t scanner, double dig_bearing, double truck_bearing, double swing_angle) const;
   PanSector to_pans(std::size_t scanner, const PanSector& bearings, double swing_angle) const;
 

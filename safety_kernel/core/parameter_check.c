@@ -328,5 +328,6 @@ int32_t sk_parameters_check(const berm_parameters *p)
   if (rule == SK_RULE_NONE) { rule = sk_check_workspace(p); }
   if (rule == SK_RULE_NONE) { rule = sk_check_sight(p); }
   if (rule == SK_RULE_NONE) { rule = sk_check_stops(p); }
+  if (rule == SK_RULE_NONE && !sk_is_within(p->workspace_learn_speed_permille, 50, 1000)) { rule = SK_RULE_LEARN_SPEED; }
   return rule;
 }

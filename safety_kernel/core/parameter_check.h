@@ -107,6 +107,7 @@ SK_BEGIN
   @ ensures why_dust_dwell: \result == SK_RULE_DUST_DWELL ==> !sk_rule_dust_dwell(p);
   @ ensures why_stop_angle: \result == SK_RULE_STOP_ANGLE ==> !sk_rule_stop_angle(p);
   @ ensures why_stop_time: \result == SK_RULE_STOP_TIME ==> !sk_rule_stop_time(p);
+  @ ensures why_learn_speed: \result == SK_RULE_LEARN_SPEED ==> !sk_rule_learn_speed(p);
   @*/
 int32_t sk_parameters_check(const berm_parameters *p);
 

@@ -38,7 +38,8 @@ enum {
   SK_RULE_WORKSPACE_HISTOGRAM = 90,
   SK_RULE_SIGHT_BLIND = 91, SK_RULE_DUST_SLOW = 92, SK_RULE_DUST_STOP = 93, SK_RULE_DUST_SPEED = 94, SK_RULE_DUST_DWELL = 95,
   SK_RULE_STOP_ANGLE = 96, SK_RULE_STOP_TIME = 97,
-  SK_RULES = 98
+  SK_RULE_LEARN_SPEED = 98,
+  SK_RULES = 99
 };
 
 #define SK_SLOW_MAX_URAD_S 261799 /* 15 deg/s: recovery motion, and the swing in contact with soil */
@@ -281,10 +282,13 @@ enum {
   @ predicate sk_rule_stop_time(berm_parameters *p) = \forall integer j; 0 <= j < SK_JOINTS ==> sk_joint_times(p, j);
   @ predicate sk_stops_ok(berm_parameters *p) = sk_rule_stop_angle(p) && sk_rule_stop_time(p);
   @
+  @ // while the ground is learned
+  @ predicate sk_rule_learn_speed(berm_parameters *p) = sk_within(p->workspace_learn_speed_permille, 50, 1000);
+  @
   @ predicate sk_parameters_ok(berm_parameters *p) =
   @   sk_head_ok(p) && sk_kinematics_ok(p) && sk_joints_ok(p) && sk_braking_ok(p) && sk_parts_ok(p) && sk_sensors_ok(p) && sk_map_rules_ok(p) &&
   @   sk_times_ok(p) && sk_base_ok(p) && sk_overpass_ok(p) && sk_tail_ok(p) && sk_lidars_ok(p) && sk_workspace_ok(p) && sk_sight_ok(p) &&
-  @   sk_stops_ok(p);
+  @   sk_stops_ok(p) && sk_rule_learn_speed(p);
   @*/
 
 SK_END

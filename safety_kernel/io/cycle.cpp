@@ -211,7 +211,9 @@ void Cycle::judge_motion(std::int64_t now_us) {
   std::copy(requested_urad_s_, requested_urad_s_ + SK_JOINTS, query.requested_urad_s);
   commands_.range(now_us - query.late_us, query.under_way_low_urad_s, query.under_way_high_urad_s);
   query.truck_admitted = frames_.truck_admitted(now_us);
-  if (sight_.dust() == SK_DUST_SLOW) query.speed_permille = parameters_.dust_speed_permille;
+  const bool dust = sight_.dust() == SK_DUST_SLOW;
+  query.speed_permille = sk_speed_share(&parameters_, dust, workspace_.learns());
+  query.lane_speed_permille = workspace_.learns_lanes() ? sk_speed_share(&parameters_, dust, true) : query.speed_permille;
   query.sectors = sectors_.evaluated() ? &sectors_ : nullptr;
   motion_.check(query, map_, verdict_);
   motion_fault_ = motion_watch_.check(query, verdict_.box, frames_.angle_us(), frames_.velocity_us());

@@ -97,6 +97,8 @@ void Cycle::report_state(const CycleInputs& in, berm_state& state) const {
   static_assert(SightWatch::kEyes == BERM_SIGHT_EYES);
   if (sight_.dust() == SK_DUST_SLOW) state.sight |= BERM_SIGHT_DUST_SLOW;
   if (sight_.dust() == SK_DUST_STOP) state.sight |= BERM_SIGHT_DUST_STOP;
+  if (workspace_.learns()) state.sight |= BERM_SIGHT_LEARNS;
+  if (workspace_.learns_lanes()) state.sight |= BERM_SIGHT_LEARNS_LANE;
   const std::int64_t confirmed_us = registration_.confirmed_us();
   state.terrain_confirmed_ms = UINT32_MAX;
   if (confirmed_us >= 0) state.terrain_confirmed_ms = static_cast<std::uint32_t>(std::clamp<std::int64_t>((in.now_us - confirmed_us) / 1000, 0, UINT32_MAX - 1));

@@ -230,9 +230,14 @@ void MotionCheck::certify(const MotionQuery& query, const sk_height_map& map, Mo
   }
 }
 
-void MotionCheck::cut_to_share(MotionQuery& query) const {
+bool MotionCheck::sweeps_near_lane() const {
+  const sk_slice* const end = request_slices_.slice + request_slices_.count;
+  return request_slices_.count == 0 || !std::all_of(request_slices_.slice, end, [this](const sk_slice& slice) { return sk_away_from_lanes(&parameters_, &slice); });
+}
+
+void MotionCheck::cut_to_share(MotionQuery& query, std::int32_t permille) const {
   for (int j = 0; j < SK_JOINTS; ++j) {
-    const auto speed = static_cast<std::int32_t>(std::int64_t{parameters_.velocity_max_urad_s[j]} * query.speed_permille / 1000);
+    const auto speed = static_cast<std::int32_t>(std::int64_t{parameters_.velocity_max_urad_s[j]} * permille / SK_WHOLE_PERMILLE);
     query.requested_urad_s[j] = sk_governor_clamp(query.requested_urad_s[j], -speed, speed);
   }
 }
@@ -282,9 +287,19 @@ void MotionCheck::check(const MotionQuery& query, const sk_height_map& map, Moti
     return;
   }
   MotionQuery cut = query;
-  cut_to_share(cut);
+  cut_to_share(cut, query.speed_permille);
   const bool may_move = separate(cut, verdict);
   certify(cut, map, verdict);
+  if (query.lane_speed_permille < query.speed_permille && sweeps_near_lane()) {
+    const MotionVerdict elsewhere = verdict;
+    verdict = MotionVerdict{};
+    verdict.separation_known = elsewhere.separation_known;
+    verdict.separation = elsewhere.separation;
+    verdict.slices = elsewhere.slices;
+    verdict.cells = elsewhere.cells;
+    cut_to_share(cut, query.lane_speed_permille);
+    certify(cut, map, verdict);
+  }
   if (verdict.permission == Permission::kHeld) return;
   if (query.sectors != nullptr && query.sectors->enforced() && !(may_move && stands_in_time(query, verdict))) {
     verdict.permission = Permission::kHeld;

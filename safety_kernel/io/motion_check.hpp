@@ -4,6 +4,7 @@
 // were read, and until the machine would brake by itself if no other command came (a kernel that is late, or dead). Clear: the request goes
 // out, its swing cut to the speed for which there is room ahead. Else the same with the request slowed. Else recovery: a machine slower than
 // the creep speeds may creep, by the same rule. Else the machine is held, with what blocked.
+// Where it is slower near a truck's lane, what is asked for at the speed elsewhere is swept first; if that comes near, it is asked for more slowly.
 // Where ISO 13855's distance is enforced, the request is cut to the speeds from which the machine stands in the time left, and nothing goes out from
 // which it does not.
 #pragma once
@@ -16,6 +17,7 @@
 #include "core/columns.h"
 #include "core/governor.h"
 #include "core/reach_box.h"
+#include "core/speed_share.h"
 #include "geometry/swept_slices.hpp"
 #include "io/own_cells.hpp"
 #include "io/sector_watch.hpp"
@@ -34,7 +36,8 @@ struct MotionQuery {
   std::int32_t under_way_high_urad_s[4];
   bool truck_admitted;                   // by the spotter, now: trucks in the truck zones may be passed over
   const SectorWatch* sectors;            // null: the separation is not evaluated
-  std::int32_t speed_permille = 1000;    // of each joint's largest speed, that may be asked for
+  std::int32_t speed_permille = SK_WHOLE_PERMILLE;       // of each joint's largest speed, that may be asked for
+  std::int32_t lane_speed_permille = SK_WHOLE_PERMILLE;  // the same where what is asked for could come near a lane
 };
 
 struct MotionVerdict {
@@ -80,7 +83,9 @@ class MotionCheck {
   // Room (urad from the measured angle) that is clear in the swing's direction of the request, as far as the box and wanted reach.
   std::int64_t room_ahead(const MotionQuery& query, const sk_height_map& map, std::int64_t wanted_urad, MotionVerdict& verdict);
   void govern_swing(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
-  void cut_to_share(MotionQuery& query) const;
+  void cut_to_share(MotionQuery& query, std::int32_t permille) const;
+  // Something that the newest box of the request sweeps is near a lane, or nothing is known of what it sweeps.
+  bool sweeps_near_lane() const;
   // What the separation leaves of the request; false where no joint may move at all.
   bool separate(MotionQuery& query, MotionVerdict& verdict) const;
   // Whether everything that moves, or may by the verdict's commands, stands in the time that the separation leaves over the verdict's box.

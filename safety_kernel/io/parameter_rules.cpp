@@ -106,6 +106,7 @@ constexpr const char* kText[] = {
     "dust_dwell_us: within 0..60000000",
     "brake_angle_urad: no shorter than at four times acceleration_max_urad_s2 from its column's speed",
     "brake_time_us: no shorter than at four times acceleration_max_urad_s2 from its column's speed",
+    "workspace_learn_speed_permille: within 50..1000",
 };
 static_assert(sizeof kText / sizeof kText[0] == SK_RULES, "one text a rule");
 

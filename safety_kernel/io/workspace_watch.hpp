@@ -40,6 +40,9 @@ class WorkspaceWatch {
   bool step(std::int64_t now_us);
 
   bool watched() const { return parameters_.workspace_watched != 0; }
+  // The whole region's ground is being learned, or that of the lanes since a truck has parked: nobody there is watched.
+  bool learns() const { return watched() && (!begun_ || learned_us_ != kNotLearning); }
+  bool learns_lanes() const { return !lanes_open_ && lane_learned_us_ != kNotLearning; }
   // Of the newest step, of a monitor that says stop: a cell with somebody in it, its centre and what is seen there; false when there is none (any
   // more).
   bool place(std::int32_t& x_mm, std::int32_t& y_mm, std::int32_t& height_mm) const;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -132,6 +133,29 @@ TEST(SlowedSwing, IsCounted) {
   for (int k = 0; k < 500; ++k) run.step();
   EXPECT_EQ(slowed.seconds(), until_here) << "nothing is cut any more";
   EXPECT_EQ(slowed.spans(), spans);
+}
+
+// Which ends of the scanners' ranges are asked for during a swing to the truck whose first seconds are slowed to a tenth.
+int ends_asked_for(double slowed_s) {
+  Loading run(1, start_pose());
+  go_to_swing(run, 1);
+  std::array<std::array<bool, 2>, 2> asked{};
+  const double begin = run.seconds;
+  for (std::size_t j = 0; j < joints; ++j) run.plant.most_speed[j] = 0.1 * run.machine.joint[j].velocity_max;
+  while (run.seconds < begin + slowed_s || (run.seconds < begin + slowed_s + 20.0 && run.last.phase == BERM_PHASE_SWING_TO_TRUCK)) {
+    if (run.seconds >= begin + slowed_s) std::fill(run.plant.most_speed.begin(), run.plant.most_speed.end(), 10.0);
+    run.step();
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      asked[i][0] = asked[i][0] || run.last.pan[i].goal <= run.machine.scanner[i].pan_low;
+      asked[i][1] = asked[i][1] || run.last.pan[i].goal >= run.machine.scanner[i].pan_high;
+    }
+  }
+  return asked[0][0] + asked[0][1] + asked[1][0] + asked[1][1];
+}
+
+TEST(SlowedSwing, ForLongHasBothScannersLookAtTheirWholeRanges) {
+  EXPECT_EQ(ends_asked_for(15.0), 4) << "else the ground that its looks leave out grows old";
+  EXPECT_LT(ends_asked_for(2.0), 4) << "for a moment changes nothing";
 }
 
 TEST(SlowedSwing, WhatIsHeldIsNotSlowed) {

@@ -65,6 +65,28 @@ TEST(ScanScheduler, DuringTheDigTheComingSectorIsSeenEveryNineSeconds) {
 }
 
 // What the truck recogniser needs: every bearing once, a scanline a degree, by a scanner that stands still afterwards.
+TEST(ScanScheduler, WhatIsToBeSeenAnewIsOnTheSwingBackSeenBeyondTheDigFirst) {
+  for (const double side : {1.0, -1.0}) {
+    for (const std::uint16_t phase : {BERM_PHASE_SWING_TO_DIG, BERM_PHASE_DUMP}) {
+      Pans pans(berm::app_bench::zx200(), side * radians(96.0));
+      const std::size_t leads = side > 0.0 ? 1 : 0;
+      const double far = side > 0.0 ? pans.machine.scanner[1].pan_low : pans.machine.scanner[0].pan_high, near = side > 0.0 ? pans.machine.scanner[1].pan_high : pans.machine.scanner[0].pan_low;
+      // On its way away from there.
+      pans.pan[leads] = 0.5 * (far + near);
+      pans.scheduler.begin_full_sweep();
+      while (std::fabs(pans.pan[leads] - far) > radians(5.0)) pans.step(BERM_PHASE_WAIT, 0.0, 0.0);
+      while (std::fabs(pans.pan[leads] - far) < radians(60.0)) pans.step(BERM_PHASE_WAIT, 0.0, 0.0);
+      pans.scheduler.begin_full_sweep();
+      int to_far = 0;
+      for (; std::fabs(pans.pan[leads] - far) > radians(2.0) && to_far < 2000; ++to_far) pans.step(phase, 0.0, 0.0);
+      if (phase == BERM_PHASE_SWING_TO_DIG) EXPECT_LT(to_far, 200) << side;
+      else EXPECT_GT(to_far, 500) << side << ": in its turn";
+      for (int k = 0; k < 2000 && !pans.scheduler.full_sweep_done(); ++k) pans.step(phase, 0.0, 0.0);
+      EXPECT_TRUE(pans.scheduler.full_sweep_done()) << side << ": and then the rest";
+    }
+  }
+}
+
 TEST(ScanScheduler, ALookSweepsItsSectorOnceAndSlowly) {
   Pans pans(berm::app_bench::zx200());
   const double swing_angle = radians(36.0);

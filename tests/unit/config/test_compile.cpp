@@ -127,6 +127,7 @@ void expect_workspace_safe(const WorkspaceFile& w, const SiteFile& site, const b
   expect_down(w.period * 1e6, p.workspace_period_us, "workspace period");
   expect_up(w.dwell * 1e6, p.workspace_dwell_us, "workspace dwell");
   expect_down(w.learn * 1e6, p.workspace_learn_us, "workspace learn");
+  expect_down(w.learn_speed * 1e3, p.workspace_learn_speed_permille, "workspace learn_speed");
   EXPECT_EQ(p.workspace_foreign, w.foreign);
   EXPECT_EQ(p.workspace_separation, w.separation);
   expect_up(w.approach_speed * 1e3, p.workspace_approach_mm_s, "workspace approach_speed");

@@ -89,6 +89,7 @@ std::vector<Limit> limits(const berm_parameters& ok) {
       limit(SK_RULE_WORKSPACE_LIDAR_TIMES, 1, 1000000, FIELD(workspace_lidar_period_us)),
       limit(SK_RULE_WORKSPACE_FOLLOWS, 0, 1, FIELD(workspace_follows)),
       limit(SK_RULE_WORKSPACE_HISTOGRAM, 0, 1, FIELD(workspace_histogram)),
+      limit(SK_RULE_LEARN_SPEED, 50, 1000, FIELD(workspace_learn_speed_permille)),
       limit(SK_RULE_SEPARATION_MODE, 0, 2, FIELD(workspace_separation)),
       limit(SK_RULE_SEPARATION_APPROACH, 500, 5000, FIELD(workspace_approach_mm_s)),
       limit(SK_RULE_SEPARATION_INTRUSION, 0, 3000, FIELD(workspace_intrusion_mm)),
@@ -140,7 +141,7 @@ TEST(ParameterCheck, AcceptsTheDemonstrationMachine) {
 // verifies: SK-PC-58, SK-PC-59, SK-PC-60, SK-PC-61, SK-PC-62, SK-PC-63, SK-PC-66
 // verifies: SK-PC-69, SK-PC-70, SK-PC-71, SK-PC-72, SK-PC-73, SK-PC-74, SK-PC-75
 // verifies: SK-PC-78, SK-PC-79, SK-PC-80, SK-PC-81, SK-PC-82, SK-PC-83, SK-PC-84, SK-PC-86, SK-PC-87, SK-PC-88, SK-PC-89
-// verifies: SK-PC-90, SK-PC-91, SK-PC-92, SK-PC-93, SK-PC-94, SK-PC-95, SK-PC-101
+// verifies: SK-PC-90, SK-PC-91, SK-PC-92, SK-PC-93, SK-PC-94, SK-PC-95, SK-PC-98, SK-PC-101
 TEST(ParameterCheck, EachFieldBeyondEachLimit) {
   berm_parameters ok = valid_parameters();
   ok.dust_stop_permille = 1000;  // so that what is above it is above the other's limit too

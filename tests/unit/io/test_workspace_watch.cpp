@@ -99,6 +99,29 @@ TEST_F(WorkspaceWatchTest, ALaneChangesOnlyOnAFreshWord) {
   EXPECT_FALSE(watched(4050, 7050));
 }
 
+// verifies: SK-WM-74, SK-WM-75
+TEST_F(WorkspaceWatchTest, ItLearnsFromTheBeginAndALaneFromWhenATruckHasParked) {
+  EXPECT_TRUE(watch->learns()) << "before the first step";
+  EXPECT_FALSE(watch->learns_lanes());
+  watch->step(kNow);
+  watch->step(kNow + parameters.workspace_learn_us - 1);
+  EXPECT_TRUE(watch->learns());
+  watch->step(kNow + parameters.workspace_learn_us);
+  EXPECT_FALSE(watch->learns());
+  const std::int64_t parked = kNow + 2 * std::int64_t{parameters.workspace_learn_us};
+  watch->trucks(true, true, parked);
+  EXPECT_TRUE(watch->learns_lanes());
+  EXPECT_FALSE(watch->learns());
+  watch->step(parked + parameters.workspace_learn_us - 1);
+  EXPECT_TRUE(watch->learns_lanes());
+  watch->step(parked + parameters.workspace_learn_us);
+  EXPECT_FALSE(watch->learns_lanes());
+  watch->trucks(true, false, parked + parameters.workspace_learn_us);
+  EXPECT_FALSE(watch->learns_lanes()) << "open";
+  watch->begin();
+  EXPECT_TRUE(watch->learns()) << "anew";
+}
+
 // verifies: SK-WM-62, SK-WM-63
 TEST_F(WorkspaceWatchTest, WithHistogramsTheGroundIsLearnedThenThreePointsStopIt) {
   EXPECT_EQ(watch->histogram(), nullptr);
