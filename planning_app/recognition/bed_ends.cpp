@@ -308,14 +308,17 @@ std::vector<BedEnds> best_ends(const BedStrip& strip, const PackedRays& rays, co
   CabProfile cab(strip.width / 2, strip.width / 2 + strip.thickness);
   cab.take(pose_of(strip), rays);
   cab.finish();
-  std::array<float, kEnds> cab_front{}, cab_rear{};
-  for (int k = 0; k < kEnds; ++k) {
-    cab_front[static_cast<std::size_t>(k)] = static_cast<float>(cab.beyond(place_of(k) + strip.thickness, 1, share));
-    cab_rear[static_cast<std::size_t>(k)] = static_cast<float>(cab.beyond(place_of(k) - strip.thickness, -1, share));
-  }
+  constexpr float unknown = 1e9F;
+  std::array<float, kEnds> cab_front, cab_rear;  // where a bed has that end
+  cab_front.fill(unknown), cab_rear.fill(unknown);
+  const auto cab_at = [&](std::array<float, kEnds>& known, int end, int side) {
+    float& cab_there = known[static_cast<std::size_t>(end)];
+    if (cab_there == unknown) cab_there = static_cast<float>(cab.to_front(place_of(end) + side * strip.thickness, side, share));
+    return cab_there;
+  };
   std::vector<Pair> pairs;
   for (const Beds& b : beds) {
-    const float at_front = cab_front[static_cast<std::size_t>(b.front)], at_rear = cab_rear[static_cast<std::size_t>(b.rear)];
+    const float at_front = cab_at(cab_front, b.front, 1), at_rear = cab_at(cab_rear, b.rear, -1);
     Pair p = pair(b, 0, at_front >= at_rear ? 1 : -1, b.closed, std::max(at_front, at_rear));
     for (const Pair& open : {pair(b, -1, 1, b.open_rear, at_front), pair(b, 1, -1, b.open_front, at_rear)})
       if (open.score > p.score) p = open;

@@ -113,7 +113,8 @@ template <bool counted>
   }
   BedEvidence e;
   const auto sum = [](const Eight& lanes) { return static_cast<double>(sum8(lanes)); };
-  e.score = sum(sums.score) + saturated(sum(sums.end_face)) + saturated(sum(sums.side_face));
+  e.end_face = saturated(sum(sums.end_face));
+  e.score = sum(sums.score) + e.end_face + saturated(sum(sums.side_face));
   if (pose.open_end != 0) e.score -= kOpenEnd;
   e.score -= tilt_cost(pose.pitch, pose.roll);
   if constexpr (counted) {

@@ -149,6 +149,7 @@ void weigh_whole(const FanSweep& sweep, BedInterpretation& i) {
   i.cab_end = p.open_end != 0 ? -p.open_end : front >= rear ? 1 : -1;
   i.cab_seen = i.cab_end > 0 ? front : rear;
   i.cab = i.cab_end > 0 ? profile.beyond(at_front, 1, 1.0) : profile.beyond(at_rear, -1, 1.0);
+  i.cab_to_front = profile.to_front(i.cab_end > 0 ? at_front : at_rear, i.cab_end, 1.0);
 }
 
 double longer_length(const FanSweep& sweep, const BedPose& pose, const TruckRangeSet& ranges, double cab) {
@@ -173,7 +174,8 @@ int sides_beyond(const FanSweep& sweep, const BedPose& pose, int cab_end) {
     const double sensor = (turn * (sweep.heads[fan] - pose.middle)).y();
     const bool far_inner = std::abs(std::abs(p.y()) - pose.width / 2) < kBeyondGate && p.y() * sensor < 0.0;
     const bool near_outer = std::abs(std::abs(p.y()) - pose.face(1, 1, true)) < kBeyondGate && p.y() * sensor > 0.0 && end != cab_end;
-    count += far_inner || near_outer ? 1 : 0;
+    const bool flat_cab = end == cab_end && !sweep.returns[k].upright;  // its roof
+    count += (far_inner || near_outer) && !flat_cab ? 1 : 0;
   });
   return count;
 }

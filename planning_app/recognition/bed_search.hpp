@@ -19,6 +19,7 @@ struct BedInterpretation {
   std::vector<Ray> rays;  // that come near the bed
   double cab = 0.0;       // evidence of the cab, not in that of the bed; half of what longer sides of the bed would explain
   double cab_seen = 0.0;  // the same of all that a cab explains
+  double cab_to_front = 0.0;  // as cab, of a cab of any length
   int cab_end = 0;        // 1: at +u
   [[nodiscard]] double whole() const;
 };

@@ -10,12 +10,13 @@ namespace {
 constexpr double kCabReach = 11.0, kCabStep = 0.05;   // m
 constexpr int kCabCells = static_cast<int>(2 * kCabReach / kCabStep);
 // Below the tops of the walls every cab is solid between these heights; it is at most as wide as the bed.
-constexpr double kCoreLow = -1.4, kCoreHigh = -0.75, kCoreHalf = 1.0;
+constexpr double kCoreLow = -1.4, kCoreHigh = -0.95, kCoreHalf = 1.0;
 constexpr double kReturnLow = -1.6, kReturnHigh = 0.9, kReturnHalf = kCabAside;
 constexpr std::array<double, 3> kGaps{0.15, 0.3, 0.45};
 constexpr double kSideGate = 0.08;                              // m, of a return from the plane of a bed's side
 constexpr float kOfSide = 0.5F;                               // of the weight of such a return
 constexpr double kShortest = 1.2;
+constexpr std::array<double, 3> kLengths{1.2, 1.65, 2.1};  // of a cab, to its front
 constexpr double kReturnWeight = 0.3, kReturnsMost = 300.0;  // in rays
 constexpr float kFlatWeight = 0.5F;                         // of a return that is none of an upright surface: a roof, a canopy
 constexpr double kFlatLow = -0.5;                           // m: lower it may be soil
@@ -93,14 +94,22 @@ double CabProfile::block(const std::vector<float>& returns, double low, double h
   return kReturnWeight * std::min(hits, kReturnsMost / kReturnWeight / share) - kPassWeight * std::min(passes, kPassesMost / share);
 }
 
-double CabProfile::beyond(double u, int side, double share, Returns which) const {
+double CabProfile::of_length(double u, int side, double length, double share, Returns which) const {
   const std::vector<float>& returns = which == Returns::all ? returns_ : shared_;
   double best = -1e9;
   for (const double gap : kGaps) {
-    const double begin = u + side * gap, end = begin + side * kShortest;
+    const double begin = u + side * gap, end = begin + side * length;
     const double low = std::min(begin, end), high = std::max(begin, end);
     best = std::max(best, block(returns, low, high, side > 0 ? low + 0.3 : low + 0.05, side > 0 ? high - 0.05 : high - 0.3, share));
   }
+  return best;
+}
+
+double CabProfile::beyond(double u, int side, double share, Returns which) const { return of_length(u, side, kShortest, share, which); }
+
+double CabProfile::to_front(double u, int side, double share) const {
+  double best = -1e9;
+  for (const double length : kLengths) best = std::max(best, of_length(u, side, length, share, Returns::shared));
   return best;
 }
 

@@ -11,10 +11,10 @@
 namespace berm::app {
 
 // A cab counts for no more than a share of the bed before it.
-inline double with_cab(double bed, double cab) { return bed + std::min(cab, kCabShare * std::max(0.0, bed)); }
+inline double with_cab(double bed, double cab) { return bed + std::min({cab, kCabEnough, kCabShare * std::max(0.0, bed)}); }
 
 // What lies so far beyond an end wall's outer face, and so far from the bed's axis, says nothing of a cab. Metres.
-constexpr double kCabFarthest = 1.7, kCabAside = 1.4;
+constexpr double kCabFarthest = 2.6, kCabAside = 1.4;
 
 class CabProfile {
  public:
@@ -26,8 +26,11 @@ class CabProfile {
   // taken stands for; the evidence is in those taken. Shared: what lies in the planes of the bed's sides counts half, for a longer bed would explain it as well.
   enum class Returns { all, shared };
   [[nodiscard]] double beyond(double u, int side, double share, Returns which = Returns::shared) const;
+  // The same of each return, of the length with the most: a cab's front, as one sees it from before the truck, has most of its returns.
+  [[nodiscard]] double to_front(double u, int side, double share) const;
 
  private:
+  [[nodiscard]] double of_length(double u, int side, double length, double share, Returns which) const;
   [[nodiscard]] double block(const std::vector<float>& returns, double low, double high, double core_low, double core_high, double share) const;
   double inner_, outer_;
   std::vector<float> returns_, shared_, within_, begins_, ends_;  // running sums along u

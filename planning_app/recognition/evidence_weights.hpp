@@ -11,6 +11,7 @@ constexpr double kAboveInner = 0.05, kAboveInnerMost = 0.35, kInnerGate = 0.09; 
 constexpr double kLevel = 0.15;    // a return over the opening in the plane of the tops: a lid
 constexpr double kUpright = 1.0;    // an upright surface within the opening, over the load or in it: soil lies flatter
 constexpr double kCabShare = 1.0;  // of the bed's evidence, at most
+constexpr double kCabEnough = 60.0;  // of a cab and of an end's outer face: that there is one; more says no more of where the bed ends
 constexpr double kTiltUsual = 0.03;  // rad, of a bed that stands on ground a truck can back up on: costs a ray
 constexpr double kOpenEnd = 12.0;  // for an end without a wall: a wall more would explain less
 

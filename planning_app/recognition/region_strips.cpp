@@ -15,6 +15,8 @@ constexpr std::size_t kTopLines = 2;
 constexpr double kTiltMost = 0.07;      // rad
 constexpr double kHeightSlack = 0.12;   // m; a bed may tilt where a region does not show it
 constexpr double kExtentSlack = 0.25;   // m
+constexpr double kInnerEnd = 1.0;       // m, of an end's inner face, to be tried as one
+constexpr double kEdgeUnseen = 0.1;     // m, from its last return to the side
 constexpr double kParallel = 0.05;      // rad, of two sides
 constexpr double kApartSlack = 0.10;    // m
 constexpr double kRollMost = 0.09;      // rad
@@ -91,7 +93,7 @@ std::vector<BedStrip> strips_of(const UprightRegion& region, const TruckRangeSet
   const Vector2d along(region.normal.y(), -region.normal.x());  // along x normal = up
   const Vector2d middle = 0.5 * (region.first + region.last);
   BedStrip strip = usual_strip(ranges);
-  const double outer = strip.width / 2 + strip.thickness;
+  const double outer = strip.width / 2 + strip.thickness, widest = ranges.hull(&TruckRanges::inside_width)[1];
   std::vector<BedStrip> out;
   for (const TopLine& top : top_lines(region, along, middle)) {
     const auto offer = [&](const Vector2d& axis, double x, double depth) {
@@ -111,6 +113,17 @@ std::vector<BedStrip> strips_of(const UprightRegion& region, const TruckRangeSet
     // As an end: the region shows all of it, or its left or right part.
     const double slack = outer - 0.5 * extent;
     offer(region.normal, centre, 0.0);
+    // As an end's inner face, between the sides: from behind an open end rays graze those, and sides too near together would let many through.
+    if (extent > kInnerEnd && extent < widest) {
+      const double usual = strip.width;
+      strip.width = widest;
+      offer(region.normal, centre, 0.0);
+      if (const double aside = 0.5 * (widest - extent) - kEdgeUnseen; aside > kEdgeUnseen) {
+        offer(region.normal, centre - aside, 0.0);
+        offer(region.normal, centre + aside, 0.0);
+      }
+      strip.width = usual;
+    }
     if (slack < 0.25) continue;
     offer(region.normal, centre - slack, 0.0);
     offer(region.normal, centre + slack, 0.0);

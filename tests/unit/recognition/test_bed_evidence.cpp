@@ -171,5 +171,16 @@ TEST(BedEvidence, TellsSoilFromWhatIsTooSteep) {
   EXPECT_EQ(at(0.0, 1.7, true).not_soil, 0) << "too high to be of the load";
 }
 
+TEST(BedEvidence, TellsWhatOfItAnEndsOuterFaceMakes) {
+  BedPose pose;
+  pose.length = 5.0, pose.width = 2.4, pose.thickness = 0.1;
+  const auto weighed = [&](const Eigen::Vector3d& head, const Eigen::Vector3d& at) { return weigh(pose, std::vector<Ray>(30, ray_in(pose, head, at, true))); };
+  const BedEvidence end = weighed({9.0, 0.0, 1.0}, {pose.face(0, 1, true), 0.3, -0.3}), side = weighed({0.0, 8.0, 1.0}, {0.3, pose.face(1, 1, true), -0.3});
+  EXPECT_NEAR(end.end_face, 30.0, 0.1);
+  EXPECT_NEAR(end.score, 30.0, 0.1);
+  EXPECT_NEAR(side.score, 30.0, 0.1);
+  EXPECT_EQ(side.end_face, 0.0);
+}
+
 }  // namespace
 }  // namespace berm::app

@@ -26,5 +26,28 @@ TEST(BedSearch, WhatWasRefusedIsLeftOut) {
     EXPECT_TRUE(i.pose.open_end != best.open_end || (i.pose.middle - best.middle).norm() + std::abs(i.pose.length - best.length) > 0.2);
 }
 
+// A roof before the bed is none of its sides' going on; what stands upright there is.
+TEST(BedSearch, ACabsRoofIsNoSideThatGoesOn) {
+  DrawnBed bed;
+  bed.cab = false;
+  FanSweep sweep = make_fans(sweep_of(bed), drawn_viewpoint);
+  BedPose pose;
+  pose.middle = {bed.x, bed.y, bed.top};
+  pose.yaw = bed.yaw, pose.length = bed.length, pose.width = bed.width, pose.thickness = bed.thickness;
+  const int before = sides_beyond(sweep, pose, 1);
+  // Twenty of the returns lie where the far side would go on before the bed.
+  const Eigen::Vector3f there = (pose.middle + pose.rotation() * Eigen::Vector3d(0.5 * bed.length + 0.8, 0.5 * bed.width, -0.3)).cast<float>();
+  const auto with = [&](bool upright) {
+    FanSweep changed = sweep;
+    int moved = 0;
+    visit_around(sweep, pose.middle, [&](std::size_t, std::size_t k) {
+      if (moved < 20) changed.returns[k].place = there, changed.returns[k].upright = upright, ++moved;
+    });
+    return sides_beyond(changed, pose, 1);
+  };
+  EXPECT_EQ(with(false), before);
+  EXPECT_EQ(with(true), before + 20);
+}
+
 }  // namespace
 }  // namespace berm::app

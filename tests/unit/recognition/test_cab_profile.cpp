@@ -39,5 +39,24 @@ TEST(CabProfile, RaysThatPassWhereItWouldStandAreAgainstIt) {
   EXPECT_LT(profile.beyond(kEnd, 1, 1.0), -20.0);
 }
 
+// From before a truck most of what comes back of its cab is its front, 1.9 m before the bed.
+TEST(CabProfile, ACabIsSeenToItsFront) {
+  CabProfile profile(kHalfInner, kHalfOuter);
+  const Vector3f before(12.0F, 1.0F, 2.0F);
+  std::vector<Ray> rays;
+  for (int k = 0; k < 40; ++k) rays.push_back({before, Vector3f(static_cast<float>(kEnd) + 1.9F, -1.0F + 0.05F * static_cast<float>(k), -0.6F), true});
+  profile.take({}, PackedRays(rays));
+  profile.finish();
+  EXPECT_NEAR(profile.beyond(kEnd, 1, 1.0), 0.0, 1e-6);
+  EXPECT_GT(profile.to_front(kEnd, 1, 1.0), 8.0);
+  EXPECT_NEAR(profile.to_front(-kEnd, -1, 1.0), 0.0, 1e-6);
+}
+
+TEST(CabProfile, MoreThanEnoughOfACabAddsNothing) {
+  EXPECT_EQ(with_cab(200.0, kCabEnough), with_cab(200.0, 3.0 * kCabEnough));
+  EXPECT_EQ(with_cab(200.0, 0.5 * kCabEnough), 200.0 + 0.5 * kCabEnough);
+  EXPECT_EQ(with_cab(10.0, kCabEnough), 20.0) << "nor more than the bed";
+}
+
 }  // namespace
 }  // namespace berm::app

@@ -61,5 +61,23 @@ TEST(RegionStrips, BehindWhatIsAsWideAsACabBeginStripsOfSeveralHeights) {
   EXPECT_TRUE(strips_behind(face({-0.4, 6.0}, {0.4, 6.0}, normal, 1.6), ranges()).empty()) << "a person, a post";
 }
 
+// From behind an open end the front wall's inside is in sight, and rays graze the sides: a strip of the widest bed lets none of them through.
+TEST(RegionStrips, OfAnEndsInnerFaceOneIsAsWideAsTheWidestBed) {
+  const double widest = ranges().hull(&TruckRanges::inside_width)[1];
+  const auto widest_of = [&](double extent) {
+    std::vector<BedStrip> strips = strips_of(face({-0.5 * extent, 6.0}, {0.5 * extent, 6.0}, {0.0, -1.0}, 1.6), ranges());
+    std::erase_if(strips, [&](const BedStrip& s) { return s.width != widest; });
+    return strips;
+  };
+  const std::vector<BedStrip> whole = widest_of(2.4), part = widest_of(1.5);
+  ASSERT_EQ(whole.size(), 1u);
+  EXPECT_NEAR(whole[0].middle.x(), 0.0, 1e-6);
+  EXPECT_NEAR(std::abs(std::cos(whole[0].yaw)), 0.0, 1e-6) << "along the face's normal";
+  ASSERT_EQ(part.size(), 3u) << "the middle of it, its left or its right part";
+  EXPECT_LT(part[1].middle.x() * part[2].middle.x(), 0.0);
+  EXPECT_TRUE(widest_of(0.6).empty());
+  EXPECT_TRUE(widest_of(2.7).empty());
+}
+
 }  // namespace
 }  // namespace berm::app
