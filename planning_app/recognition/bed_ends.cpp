@@ -16,7 +16,6 @@ using Eigen::Vector3d, Eigen::Vector3f;
 
 constexpr double kMeanFit = 2.0 / 3.0;  // of fit over its gate
 constexpr float kStraight = 1e-9F;      // m: a ray whose ends differ by less goes straight across an axis
-constexpr float kRounding = 1e-3F;      // rays, of sums that are added up in another order
 constexpr int kEndsApart = 2;  // steps
 constexpr double kAsGood = 2.0;  // rays
 constexpr double kCabFront = 0.2;    // m, of a return from the plane of a cab's front
@@ -295,11 +294,10 @@ std::vector<BedEnds> best_ends(const BedStrip& strip, const PackedRays& rays, co
   for (int k = 0; k < kEnds; ++k) {
     const float rear = w.rear_face.at(k), front = w.front_face.at(k), side = w.side_faces.at(k);
     of_rear[static_cast<std::size_t>(k)] = Ways{rear - side, -side - open_weight, rear - side - open_weight, -kNever};
-    of_front[static_cast<std::size_t>(k)] = Ways{front + side, front + side, side, 0.0F} + kRounding;
+    of_front[static_cast<std::size_t>(k)] = k < fronts[0] || k > fronts[1] ? kNoWay : Ways{front + side, front + side, side, 0.0F} + kRounding;
   }
   std::vector<Beds> beds;
-  w.sums.visit([&](int i, int j, const Ways& sums) {
-    if (j < fronts[0] || j > fronts[1] || !any_positive(sums + of_rear[static_cast<std::size_t>(i)] + of_front[static_cast<std::size_t>(j)])) return;
+  w.sums.visit(of_rear, of_front, [&](int i, int j, const Ways& sums) {
     const float rear = w.rear_face.at(i), front = w.front_face.at(j), sides = w.sides(i, j, share);
     const Beds b{i, j, sums[0] + sides + rear + front, sums[1] + sides + front - open_weight, sums[2] + sides + rear - open_weight};
     if (std::max({b.closed, b.open_rear, b.open_front}) > 0.0F && w.clear_of_sensor(place_of(i), place_of(j))) beds.push_back(b);

@@ -193,6 +193,7 @@ BERM_APP_LANES std::vector<std::uint32_t> numbers_meeting(const BedPose& pose, c
 }
 
 BERM_APP_LANES BedEvidence weigh(const BedPose& pose, const PackedRays& rays) { return weigh_all<true>(pose, rays); }
+BERM_APP_LANES BedScore score_with_ends(const BedPose& pose, const PackedRays& rays) { return weigh_all<false>(pose, rays); }
 BERM_APP_LANES double score_of(const BedPose& pose, const PackedRays& rays) { return weigh_all<false>(pose, rays).score; }
 BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays) { return weigh(pose, PackedRays(rays)); }
 

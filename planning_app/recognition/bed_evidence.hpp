@@ -8,9 +8,12 @@
 
 namespace berm::app {
 
-struct BedEvidence {
+struct BedScore {
   double score = 0.0;
   double end_face = 0.0;  // of it, for returns on outer faces of ends
+};
+
+struct BedEvidence : BedScore {
   int outer_face = 0, inner_face = 0, wall_top = 0, inside = 0, through = 0, before = 0, over = 0, above_face = 0, above_inner = 0;
   int level_inside = 0;  // of the returns over the opening, within 5 cm of the plane of the tops, more than 0.3 m from the walls
   int below_inside = 0;  // more than 5 cm below that plane
@@ -20,6 +23,8 @@ struct BedEvidence {
 
 BedEvidence weigh(const BedPose& pose, const PackedRays& rays);
 BedEvidence weigh(const BedPose& pose, const std::vector<Ray>& rays);
+// The same without what was counted.
+BedScore score_with_ends(const BedPose& pose, const PackedRays& rays);
 // The score alone.
 double score_of(const BedPose& pose, const PackedRays& rays);
 

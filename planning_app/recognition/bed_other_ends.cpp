@@ -10,9 +10,8 @@ namespace berm::app {
 namespace {
 
 constexpr double kPlaceStep = 0.1;           // m, between places of an end: a wall's agreement reaches over 0.12
-constexpr int kFirstPlace = 2, kPlacesMost = 20;
+constexpr int kFirstPlace = 2, kPlacesMost = 15;
 constexpr std::size_t kPlaceStride = 2;
-constexpr double kPeakWorth = 0.7;      // of the evidence of the bed as it is
 constexpr std::size_t kPeaks = 2;       // of an end
 
 BedPose with_end_moved(const BedPose& from, int end, double by) {
@@ -24,7 +23,7 @@ BedPose with_end_moved(const BedPose& from, int end, double by) {
 
 // What an end's outer face, or a cab, says beyond there being one does not tell where it is.
 double worth_of(const BedPose& pose, const PackedRays& rays) {
-  const BedEvidence e = weigh(pose, rays);
+  const BedScore e = score_with_ends(pose, rays);
   return e.score - e.end_face + std::min(e.end_face, kCabEnough);
 }
 
@@ -35,9 +34,9 @@ struct Place {
 
 }  // namespace
 
-std::vector<BedPose> other_ends(const FanSweep& sweep, const BedPose& pose, const SizeRange& lengths) {
+std::vector<BedPose> other_ends(const FanSweep& sweep, const BedPose& pose, const SizeRange& lengths, double worth) {
   const PackedRays rays = PassingRays(sweep, around_bed(pose.middle)).packed(kPlaceStride).meeting(with_end_moved(with_end_moved(pose, 1, kPlacesMost * kPlaceStep), -1, -kPlacesMost * kPlaceStep), 0.0);
-  const double least = kPeakWorth * worth_of(pose, rays);
+  const double least = worth * worth_of(pose, rays);
   std::vector<BedPose> out;
   for (const int end : {1, -1}) {
     std::vector<Place> peaks;

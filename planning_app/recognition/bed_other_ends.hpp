@@ -10,9 +10,9 @@
 
 namespace berm::app {
 
-// Beds with one end of the given one elsewhere along its sides, by 0.2 to 2 m, where the evidence, with no more than enough of it for an end's outer face, has a peak
-// that comes to 0.7 of that of the given bed at least: the best two of each end.
-// lengths: of the bed, inside, m.
-std::vector<BedPose> other_ends(const FanSweep& sweep, const BedPose& pose, const SizeRange& lengths);
+// Beds with one end of the given one elsewhere along its sides, by 0.2 to 1.5 m, where the evidence, with no more than enough of it for an end's outer face, has a peak
+// that comes to this share of that of the given bed at least: the best two of each end.
+// lengths: of the bed, inside, m; worth: the share.
+std::vector<BedPose> other_ends(const FanSweep& sweep, const BedPose& pose, const SizeRange& lengths, double worth);
 
 }  // namespace berm::app

@@ -79,6 +79,8 @@ std::vector<BedEnds> interpret_region(const FanSweep& sweep, const UprightRegion
   std::vector<BedEnds> found;
   for (const BedStrip& strip : strips_of(region, ranges))
     for (BedEnds& e : best_ends(strip, some.rays, lengths, some.share, kEndsOfStrip)) found.push_back(std::move(e));
+  for (const BedStrip& strip : strips_within(region, ranges, sweep.heads[sweep.heads.size() / 2].head<2>()))
+    for (BedEnds& e : best_ends(strip, some.rays, lengths, some.share, kEndsOfStrip)) found.push_back(std::move(e));
   found = distinct(std::move(found), kOfRegion);
   // What the region agrees with as a bed's end must not keep out beds of which it is the cab's front.
   std::vector<BedEnds> behind;
@@ -137,19 +139,19 @@ bool alike(const BedPose& a, const BedPose& b) {
 
 double BedInterpretation::whole() const { return with_cab(evidence.score, cab); }
 
-void weigh_whole(const FanSweep& sweep, BedInterpretation& i) {
+void weigh_whole(const FanSweep& sweep, BedInterpretation& i, bool to_front) {
   const BedPose& p = i.pose;
   i.rays = rays_near(sweep, p);
   i.evidence = weigh(p, i.rays);
   CabProfile profile(p.width / 2, p.face(1, 1, true));
-  profile.take(p, PassingRays(sweep, around_cabs(p)).packed(1));
+  profile.take(p, PassingRays(sweep, around_cabs(p, to_front ? kCabFarthest : kCabNear)).packed(1));
   profile.finish();
   const double at_front = p.face(0, 1, true), at_rear = -p.face(0, -1, true);
   const double front = profile.beyond(at_front, 1, 1.0, CabProfile::Returns::all), rear = profile.beyond(at_rear, -1, 1.0, CabProfile::Returns::all);
   i.cab_end = p.open_end != 0 ? -p.open_end : front >= rear ? 1 : -1;
   i.cab_seen = i.cab_end > 0 ? front : rear;
   i.cab = i.cab_end > 0 ? profile.beyond(at_front, 1, 1.0) : profile.beyond(at_rear, -1, 1.0);
-  i.cab_to_front = profile.to_front(i.cab_end > 0 ? at_front : at_rear, i.cab_end, 1.0);
+  if (to_front) i.cab_to_front = profile.to_front(i.cab_end > 0 ? at_front : at_rear, i.cab_end, 1.0);
 }
 
 double longer_length(const FanSweep& sweep, const BedPose& pose, const TruckRangeSet& ranges, double cab) {

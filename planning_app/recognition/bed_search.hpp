@@ -19,7 +19,7 @@ struct BedInterpretation {
   std::vector<Ray> rays;  // that come near the bed
   double cab = 0.0;       // evidence of the cab, not in that of the bed; half of what longer sides of the bed would explain
   double cab_seen = 0.0;  // the same of all that a cab explains
-  double cab_to_front = 0.0;  // as cab, of a cab of any length
+  double cab_to_front = 0.0;  // as cab, of a cab of any length; where it was asked for
   int cab_end = 0;        // 1: at +u
   [[nodiscard]] double whole() const;
 };
@@ -40,7 +40,8 @@ void move_walls(const FanSweep& sweep, BedInterpretation& interpretation, const 
 bool alike(const BedPose& a, const BedPose& b);
 
 // The evidence for the pose as it is: of the bed, and of a cab beyond the end where there is more of it, or opposite an open end.
-void weigh_whole(const FanSweep& sweep, BedInterpretation& interpretation);
+// to_front: of a cab of any length as well, which takes more rays.
+void weigh_whole(const FanSweep& sweep, BedInterpretation& interpretation, bool to_front = false);
 
 // Returns that lie where the sides would go on beyond the ends: in the plane of the far side's inner face beyond either end, of the near side's outer face
 // beyond the end without a cab. A truck has none there, a container that is taken for a shorter bed has.

@@ -14,7 +14,7 @@ namespace berm::app {
 inline double with_cab(double bed, double cab) { return bed + std::min({cab, kCabEnough, kCabShare * std::max(0.0, bed)}); }
 
 // What lies so far beyond an end wall's outer face, and so far from the bed's axis, says nothing of a cab. Metres.
-constexpr double kCabFarthest = 2.6, kCabAside = 1.4;
+constexpr double kCabNear = 1.7, kCabFarthest = 2.6, kCabAside = 1.4;  // near: of a cab of the least length
 
 class CabProfile {
  public:

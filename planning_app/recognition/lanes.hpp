@@ -53,9 +53,10 @@ BERM_APP_INLINE Eight magnitude8(Eight a) { return floats8(bits8(a) & 0x7FFFFFFF
 BERM_APP_INLINE Eight where8(EightInt mask, Eight a) { return floats8(bits8(a) & mask); }
 BERM_APP_INLINE Eight choose8(EightInt mask, Eight then, Eight otherwise) { return floats8((bits8(then) & mask) | (bits8(otherwise) & ~mask)); }
 BERM_APP_INLINE bool any8(EightInt mask) {
-  std::int64_t quarter[4];
-  std::memcpy(quarter, &mask, sizeof quarter);
-  return ((quarter[0] | quarter[1]) | (quarter[2] | quarter[3])) != 0;
+  std::int64_t __attribute__((vector_size(16))) half[2];  // one to the other, and only then from the registers
+  std::memcpy(half, &mask, sizeof half);
+  const auto both = half[0] | half[1];
+  return (both[0] | both[1]) != 0;
 }
 BERM_APP_INLINE float sum8(Eight a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
 BERM_APP_INLINE int sum8(EightInt a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }

@@ -50,7 +50,16 @@ struct Steps {
 // Which of a pair's ends have a wall: both, the front one alone, the rear one alone; the fourth makes it a vector register.
 using Ways = float __attribute__((vector_size(16)));
 constexpr Ways kAnyWay{1.0F, 1.0F, 1.0F, 0.0F}, kWithRearWall{1.0F, 0.0F, 1.0F, 0.0F}, kWithFrontWall{1.0F, 1.0F, 0.0F, 0.0F};
+constexpr Ways kNoWay{-kNever, -kNever, -kNever, -kNever};
+constexpr float kRounding = 1e-3F;  // rays, of sums that are added up in another order
 constexpr Ways kOpenRear{0.0F, 1.0F, 0.0F, 0.0F}, kOpenFront{0.0F, 0.0F, 1.0F, 0.0F};
+
+inline bool any_positive(const Ways& w) {
+  const auto mask = w > 0.0F;
+  std::int64_t half[2];
+  std::memcpy(half, &mask, sizeof half);
+  return (half[0] | half[1]) != 0;
+}
 
 // Sums of weights, of each way, over pairs of ends (rear, front) that are a bed's length apart: a band beside the table's diagonal. A corner of a rectangle stands for
 // all pairs at or beyond it at both ends, so it may as well lie where the first of these lie in the band.
@@ -70,19 +79,31 @@ class PairSums {
   void about(float low, float high, float weight) { add(0, first_end(low), first_end(high), kEnds, weight * kAnyWay); }
   // For those that have u between them, by so much at least (less than 0: beyond them).
   void between(float u, float margin, float weight) { about(u - margin, u + margin, weight); }
-  // Hands on each pair's sums, once all is added.
+  // Hands on the sums of each pair of which, with what its ends add, one at least is more than 0, once all is added. of_rear, of_front: what each end adds. Of most rear ends the
+  // best front end for each way tells that no pair comes to that.
   template <typename Take>
-  void visit(const Take& take) const {
+  void visit(const std::array<Ways, kEnds>& of_rear, const std::array<Ways, kEnds>& of_front, const Take& take) const {
     std::vector<Ways> column(static_cast<std::size_t>(kEnds + longest_ + 1));  // of each front end, of the rear ends until now
     Ways before{};                                                             // all front ends nearer than the shortest
     for (int rear = 0; rear + shortest_ < kEnds; ++rear) {
-      Ways row = before;
+      Ways row = before, most = kNoWay;
+      const int fronts = std::min(width_, kEnds - rear - shortest_);
+      const Ways adds = of_rear[static_cast<std::size_t>(rear)];
       const Ways* const here = &corners_[static_cast<std::size_t>(rear * width_)];
+      const Ways* const front_adds = &of_front[static_cast<std::size_t>(rear + shortest_)];
       Ways* const ends = &column[static_cast<std::size_t>(rear + shortest_)];
-      for (int k = 0; k < width_; ++k) {
+      for (int k = 0; k < fronts; ++k) {
         ends[k] += here[k];
         row += ends[k];
-        take(rear, rear + shortest_ + k, row);
+        const Ways with_front = row + front_adds[k];
+        most = with_front > most ? with_front : most;
+      }
+      if (any_positive(most + adds + kRounding)) {
+        row = before;
+        for (int k = 0; k < fronts; ++k) {
+          row += ends[k];
+          if (any_positive(row + adds + front_adds[k])) take(rear, rear + shortest_ + k, row);
+        }
       }
       before += ends[0];
     }
@@ -96,12 +117,5 @@ class PairSums {
   int shortest_, longest_, width_;
   std::vector<Ways> corners_;
 };
-
-inline bool any_positive(const Ways& w) {
-  const auto mask = w > 0.0F;
-  std::int64_t half[2];
-  std::memcpy(half, &mask, sizeof half);
-  return (half[0] | half[1]) != 0;
-}
 
 }  // namespace berm::app

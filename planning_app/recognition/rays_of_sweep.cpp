@@ -76,8 +76,8 @@ Surroundings near_bed(const BedPose& pose, double below) {
 
 Surroundings around_bed(const Eigen::Vector3d& middle) { return {middle.head<2>(), kAround, middle.z() - kAroundBelow, middle.z() + kAroundAbove}; }
 
-Surroundings around_cabs(const BedPose& pose) {
-  return {pose.middle.head<2>(), std::hypot(pose.length / 2 + pose.thickness + kCabFarthest, kCabAside), pose.middle.z() - kAroundBelow, pose.middle.z() + kAroundAbove};
+Surroundings around_cabs(const BedPose& pose, double farthest) {
+  return {pose.middle.head<2>(), std::hypot(pose.length / 2 + pose.thickness + farthest, kCabAside), pose.middle.z() - kAroundBelow, pose.middle.z() + kAroundAbove};
 }
 
 std::vector<Ray> rays_near(const FanSweep& sweep, const BedPose& pose, double below, std::size_t stride) {

@@ -57,8 +57,8 @@ constexpr double kNearBelow = 1.1;
 Surroundings near_bed(const BedPose& pose, double below = kNearBelow);
 // Where rays may come to the bed, to what stands beyond its ends, or below it: within 7 m.
 Surroundings around_bed(const Eigen::Vector3d& middle);
-// Where they may come to a cab beyond either end of the bed.
-Surroundings around_cabs(const BedPose& pose);
+// Where they may come to a cab beyond either end of the bed, as far as so many metres from the end wall.
+Surroundings around_cabs(const BedPose& pose, double farthest);
 
 // Every stride-th of the rays near a bed.
 std::vector<Ray> rays_near(const FanSweep& sweep, const BedPose& pose, double below = kNearBelow, std::size_t stride = 1);

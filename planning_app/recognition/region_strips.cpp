@@ -16,6 +16,7 @@ constexpr double kTiltMost = 0.07;      // rad
 constexpr double kHeightSlack = 0.12;   // m; a bed may tilt where a region does not show it
 constexpr double kExtentSlack = 0.25;   // m
 constexpr double kInnerEnd = 1.0;       // m, of an end's inner face, to be tried as one
+constexpr double kFromBehind = 0.9;     // cosine, of the way to the sensor from the normal of an end that is seen between the sides
 constexpr double kEdgeUnseen = 0.1;     // m, from its last return to the side
 constexpr double kParallel = 0.05;      // rad, of two sides
 constexpr double kApartSlack = 0.10;    // m
@@ -93,7 +94,7 @@ std::vector<BedStrip> strips_of(const UprightRegion& region, const TruckRangeSet
   const Vector2d along(region.normal.y(), -region.normal.x());  // along x normal = up
   const Vector2d middle = 0.5 * (region.first + region.last);
   BedStrip strip = usual_strip(ranges);
-  const double outer = strip.width / 2 + strip.thickness, widest = ranges.hull(&TruckRanges::inside_width)[1];
+  const double outer = strip.width / 2 + strip.thickness;
   std::vector<BedStrip> out;
   for (const TopLine& top : top_lines(region, along, middle)) {
     const auto offer = [&](const Vector2d& axis, double x, double depth) {
@@ -113,20 +114,29 @@ std::vector<BedStrip> strips_of(const UprightRegion& region, const TruckRangeSet
     // As an end: the region shows all of it, or its left or right part.
     const double slack = outer - 0.5 * extent;
     offer(region.normal, centre, 0.0);
-    // As an end's inner face, between the sides: from behind an open end rays graze those, and sides too near together would let many through.
-    if (extent > kInnerEnd && extent < widest) {
-      const double usual = strip.width;
-      strip.width = widest;
-      offer(region.normal, centre, 0.0);
-      if (const double aside = 0.5 * (widest - extent) - kEdgeUnseen; aside > kEdgeUnseen) {
-        offer(region.normal, centre - aside, 0.0);
-        offer(region.normal, centre + aside, 0.0);
-      }
-      strip.width = usual;
-    }
     if (slack < 0.25) continue;
     offer(region.normal, centre - slack, 0.0);
     offer(region.normal, centre + slack, 0.0);
+  }
+  return out;
+}
+
+std::vector<BedStrip> strips_within(const UprightRegion& region, const TruckRangeSet& ranges, const Vector2d& sensor) {
+  const Vector2d along(region.normal.y(), -region.normal.x()), middle = 0.5 * (region.first + region.last);
+  if (region.normal.dot((sensor - middle).normalized()) < kFromBehind) return {};
+  BedStrip strip = usual_strip(ranges);
+  strip.width = ranges.hull(&TruckRanges::inside_width)[1];
+  strip.yaw = std::atan2(region.normal.y(), region.normal.x());
+  std::vector<BedStrip> out;
+  for (const TopLine& top : top_lines(region, along, middle)) {
+    const double centre = 0.5 * (top.first + top.last), extent = top.last - top.first, aside = 0.5 * (strip.width - extent) - kEdgeUnseen;
+    if (extent < kInnerEnd || extent > strip.width) continue;
+    strip.roll = -std::atan(top.slope);  // v is against `along`
+    for (const double x : {centre, centre - aside, centre + aside}) {
+      if (x != centre && aside < kEdgeUnseen) continue;
+      strip.middle << middle + x * along, top.z + top.slope * x + kTopOverSegment;
+      out.push_back(strip);
+    }
   }
   return out;
 }

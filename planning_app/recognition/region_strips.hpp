@@ -12,6 +12,10 @@ namespace berm::app {
 
 std::vector<BedStrip> strips_of(const UprightRegion& region, const TruckRangeSet& ranges);
 
+// Strips as wide as the widest bed that end on the region, taken for the inner face of an end of which no more than a strip's breadth at either side is out of sight: from behind an open end rays graze
+// the sides, and sides too near together would let many of them through. sensor: in plan, m; none of a region that is seen aslant, from where the sides hide an end.
+std::vector<BedStrip> strips_within(const UprightRegion& region, const TruckRangeSet& ranges, const Eigen::Vector2d& sensor);
+
 // Strips behind the region, taken for the front of a cab, of several heights: from there the cab hides the bed's end wall, and as that end it agrees with more rays
 // than a bed of which little is seen.
 std::vector<BedStrip> strips_behind(const UprightRegion& region, const TruckRangeSet& ranges);

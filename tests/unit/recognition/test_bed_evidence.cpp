@@ -180,6 +180,9 @@ TEST(BedEvidence, TellsWhatOfItAnEndsOuterFaceMakes) {
   EXPECT_NEAR(end.score, 30.0, 0.1);
   EXPECT_NEAR(side.score, 30.0, 0.1);
   EXPECT_EQ(side.end_face, 0.0);
+  const BedScore uncounted = score_with_ends(pose, PackedRays(std::vector<Ray>(30, ray_in(pose, {9.0, 0.0, 1.0}, {pose.face(0, 1, true), 0.3, -0.3}, true))));
+  EXPECT_EQ(uncounted.score, end.score);
+  EXPECT_EQ(uncounted.end_face, end.end_face);
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 namespace berm::app {
 namespace {
 
+constexpr double kWorth = 0.7;
+
 BedPose pose_of(const DrawnBed& bed) {
   BedPose p;
   p.middle = {bed.x, bed.y, bed.top};
@@ -35,7 +37,7 @@ TEST(BedOtherEnds, TheTrueEndIsAmongThem) {
   for (const int end : {1, -1})
     for (const double by : {-0.6, 0.5}) {
       const BedPose off = with_end(bed, end, by);
-      EXPECT_TRUE(among(other_ends(sweep, off, {4.0, 6.4}), pose_of(bed))) << end << ' ' << by;
+      EXPECT_TRUE(among(other_ends(sweep, off, {4.0, 6.4}, kWorth), pose_of(bed))) << end << ' ' << by;
     }
 }
 
@@ -43,14 +45,24 @@ TEST(BedOtherEnds, NoneIsOfALengthThatTrucksDoNotHave) {
   const DrawnBed bed;
   const FanSweep sweep = make_fans(sweep_of(bed), drawn_viewpoint);
   const BedPose off = with_end(bed, 1, 0.5);
-  EXPECT_FALSE(among(other_ends(sweep, off, {5.2, 6.4}), pose_of(bed)));
-  for (const BedPose& p : other_ends(sweep, off, {5.2, 6.4})) EXPECT_TRUE(p.length >= 5.2 && p.length <= 6.4) << p.length;
+  EXPECT_FALSE(among(other_ends(sweep, off, {5.2, 6.4}, kWorth), pose_of(bed)));
+  for (const BedPose& p : other_ends(sweep, off, {5.2, 6.4}, kWorth)) EXPECT_TRUE(p.length >= 5.2 && p.length <= 6.4) << p.length;
 }
 
 TEST(BedOtherEnds, NoneIsNearTheGivenOne) {
   const DrawnBed bed;
   const FanSweep sweep = make_fans(sweep_of(bed), drawn_viewpoint);
-  for (const BedPose& p : other_ends(sweep, pose_of(bed), {4.0, 6.4})) EXPECT_GT(std::abs(p.length - bed.length), 0.15);
+  for (const BedPose& p : other_ends(sweep, pose_of(bed), {4.0, 6.4}, kWorth)) EXPECT_GT(std::abs(p.length - bed.length), 0.15);
+}
+
+// The true bed is worth more than every other, so that none comes to as much.
+TEST(BedOtherEnds, NoneIsWorthLessThanWasAskedFor) {
+  const DrawnBed bed;
+  const FanSweep sweep = make_fans(sweep_of(bed), drawn_viewpoint);
+  EXPECT_TRUE(other_ends(sweep, pose_of(bed), {4.0, 6.4}, 1.0).empty());
+  const BedPose off = with_end(bed, 1, 0.5);
+  EXPECT_TRUE(among(other_ends(sweep, off, {4.0, 6.4}, 1.0), pose_of(bed)));
+  EXPECT_TRUE(other_ends(sweep, off, {4.0, 6.4}, 10.0).empty());
 }
 
 }  // namespace

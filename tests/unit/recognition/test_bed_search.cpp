@@ -49,5 +49,23 @@ TEST(BedSearch, ACabsRoofIsNoSideThatGoesOn) {
   EXPECT_EQ(with(true), before + 20);
 }
 
+// From before the truck most of its cab's returns are its front's, 2.1 m from the bed.
+TEST(BedSearch, ACabIsWeighedToItsFrontWhereItIsAskedFor) {
+  DrawnBed bed;
+  bed.x = 2.0, bed.yaw = -1.5707963;
+  const FanSweep sweep = make_fans(sweep_of(bed), drawn_viewpoint);
+  BedInterpretation i;
+  i.pose.middle = {bed.x, bed.y, bed.top};
+  i.pose.yaw = bed.yaw, i.pose.length = bed.length, i.pose.width = bed.width, i.pose.thickness = bed.thickness;
+  weigh_whole(sweep, i);
+  EXPECT_EQ(i.cab_to_front, 0.0);
+  const double cab = i.cab, seen = i.cab_seen;
+  weigh_whole(sweep, i, true);
+  EXPECT_GT(i.cab_to_front, cab + 20.0);
+  EXPECT_EQ(i.cab, cab);
+  EXPECT_EQ(i.cab_seen, seen);
+  EXPECT_EQ(i.cab_end, 1);
+}
+
 }  // namespace
 }  // namespace berm::app

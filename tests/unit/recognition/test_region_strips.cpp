@@ -62,21 +62,43 @@ TEST(RegionStrips, BehindWhatIsAsWideAsACabBeginStripsOfSeveralHeights) {
 }
 
 // From behind an open end the front wall's inside is in sight, and rays graze the sides: a strip of the widest bed lets none of them through.
-TEST(RegionStrips, OfAnEndsInnerFaceOneIsAsWideAsTheWidestBed) {
-  const double widest = ranges().hull(&TruckRanges::inside_width)[1];
-  const auto widest_of = [&](double extent) {
-    std::vector<BedStrip> strips = strips_of(face({-0.5 * extent, 6.0}, {0.5 * extent, 6.0}, {0.0, -1.0}, 1.6), ranges());
-    std::erase_if(strips, [&](const BedStrip& s) { return s.width != widest; });
-    return strips;
-  };
-  const std::vector<BedStrip> whole = widest_of(2.4), part = widest_of(1.5);
+TEST(RegionStrips, OfAnEndsInnerFaceStripsAreAsWideAsTheWidestBed) {
+  const Vector2d behind(0.0, -3.0);
+  const auto within = [&](double extent) { return strips_within(face({-0.5 * extent, 6.0}, {0.5 * extent, 6.0}, {0.0, -1.0}, 1.6), ranges(), behind); };
+  const std::vector<BedStrip> whole = within(2.4), part = within(1.5);
   ASSERT_EQ(whole.size(), 1u);
+  EXPECT_EQ(whole[0].width, ranges().hull(&TruckRanges::inside_width)[1]);
   EXPECT_NEAR(whole[0].middle.x(), 0.0, 1e-6);
+  EXPECT_NEAR(whole[0].middle.y(), 6.0, 1e-6);
+  EXPECT_NEAR(whole[0].middle.z(), 1.63, 1e-6);
   EXPECT_NEAR(std::abs(std::cos(whole[0].yaw)), 0.0, 1e-6) << "along the face's normal";
   ASSERT_EQ(part.size(), 3u) << "the middle of it, its left or its right part";
-  EXPECT_LT(part[1].middle.x() * part[2].middle.x(), 0.0);
-  EXPECT_TRUE(widest_of(0.6).empty());
-  EXPECT_TRUE(widest_of(2.7).empty());
+  EXPECT_NEAR(part[1].middle.x(), -part[2].middle.x(), 1e-6);
+  EXPECT_NEAR(std::abs(part[1].middle.x()), 0.5 * (part[1].width - 1.5) - 0.1, 0.06);
+  EXPECT_TRUE(within(0.9).empty());
+  EXPECT_TRUE(within(2.7).empty());
+}
+
+TEST(RegionStrips, AnEndsInnerFaceIsSeenFromBehindNotAslant) {
+  const auto from = [](double degrees) {
+    const double angle = degrees * 3.14159265358979 / 180.0;
+    return strips_within(face({-1.2, 6.0}, {1.2, 6.0}, {0.0, -1.0}, 1.6), ranges(), {9.0 * std::sin(angle), 6.0 - 9.0 * std::cos(angle)}).size();
+  };
+  EXPECT_EQ(from(24.0), 1u);
+  EXPECT_EQ(from(-24.0), 1u);
+  EXPECT_EQ(from(28.0), 0u);
+}
+
+// The left part of the end lies higher: so does the bed's left.
+TEST(RegionStrips, AnEndsInnerFaceGivesTheRoll) {
+  UprightRegion end = face({-1.2, 6.0}, {1.2, 6.0}, {0.0, -1.0}, 1.6);
+  for (UprightSegment& s : end.segments) s.high += 0.03 * s.at.x();
+  const std::vector<BedStrip> strips = strips_within(end, ranges(), {0.0, -3.0});
+  ASSERT_EQ(strips.size(), 1u);
+  BedPose pose;
+  pose.yaw = strips[0].yaw, pose.roll = strips[0].roll;
+  const Eigen::Vector3d v = pose.rotation().col(1);
+  EXPECT_NEAR(v.z() / v.x(), 0.03, 1e-3);
 }
 
 }  // namespace
