@@ -118,7 +118,7 @@ void Sequencer::book_pass(const Observation& o) {
   const double unpoured_kg = !emptied_ && o.payload_kg >= 0.0 ? recent_.kg() : 0.0;
   const double before = carried > 0.0 ? carried : unweighed_kg, after = after_.known() ? after_.kg() : std::max(unpoured_kg, sticking_.stays_kg(carried));
   // Before a bucket came back empty from over a bed, what the implements weigh out there is extrapolated.
-  const double beside_kg = filled_.known() ? pour_.beside_kg() : 0.0;
+  const double beside_kg = filled_.known() ? pour_.booked_beside_kg() : 0.0;
   const double had = fill_.loaded_kg();
   fill_.add_pass(before - beside_kg, after);
   const double payload = fill_.loaded_kg() - had;
