@@ -5,6 +5,8 @@
 
 #include "drawn_bed.hpp"
 #include "recognition/bed_search.hpp"
+#include "recognition/cab_profile.hpp"
+#include "recognition/rays_of_sweep.hpp"
 
 namespace berm::app {
 namespace {
@@ -65,6 +67,10 @@ TEST(BedSearch, ACabIsWeighedToItsFrontWhereItIsAskedFor) {
   EXPECT_EQ(i.cab, cab);
   EXPECT_EQ(i.cab_seen, seen);
   EXPECT_EQ(i.cab_end, 1);
+  CabProfile all(i.pose.width / 2, i.pose.face(1, 1, true));
+  all.take(i.pose, PassingRays(sweep, around_cabs(i.pose, 8.0)).packed(1));
+  all.finish();
+  EXPECT_NEAR(i.cab_to_front, all.to_front(i.pose.face(0, 1, true), 1, 1.0), 1e-6) << "as from all rays, however far its front";
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ TEST(PairSums, HandsOnThePairsThatAreWorthSomething) {
     }
     std::array<Ways, kEnds> of_rear, of_front;
     for (int k = 0; k < kEnds; ++k) {
-      of_rear[static_cast<std::size_t>(k)] = static_cast<float>(whole(-9, -1)) * kAnyWay;
+      of_rear[static_cast<std::size_t>(k)] = static_cast<float>(whole(-9, 4)) * kAnyWay;
       of_front[static_cast<std::size_t>(k)] = static_cast<float>(whole(-3, 3)) * kAnyWay + Ways{0.0F, 0.0F, 0.0F, -1.0F};
     }
     std::map<std::pair<int, int>, Ways> handed;
