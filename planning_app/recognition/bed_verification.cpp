@@ -77,7 +77,7 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, FittedBed
   const double ground = share_of_ground(sweep, p, over_ground);
   if (ground < kGroundLeast && !own_cab)
     return fmt::format("{:.1f} % of the returns beside it lie {:.2f} to {:.2f} m below the walls' tops, where the ground would be", 100 * ground, over_ground[0], over_ground[1]);
-  if (!own_cab && lies_in_level_ground(sweep, p, i.cab_end)) return "the ground beyond it lies level with its walls' tops: a pit";
+  if (lies_in_level_ground(sweep, p, i.cab_end)) return "the ground beyond it lies level with its walls' tops: a pit";
   if (i.cab_seen < kCabSeen && !(own_cab && i.cab >= kCabOwn)) {
     // Without a cab, what goes on beyond the lengths of trucks' beds is a container.
     const double further = longer_length(sweep, p, ranges, i.cab_seen);
