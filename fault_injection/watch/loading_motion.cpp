@@ -82,6 +82,8 @@ void LoadingMotion::go_on(const berm_state& state) {
 
 berm_request LoadingMotion::answer(const berm_state& state) {
   go_on(state);
+  // While the kernel learns the ground it lets motions out slowly, and ground grows old on which the looks of their phases do not fall: as the app does then.
+  if (!looking_ && (state.sight & (BERM_SIGHT_LEARNS | BERM_SIGHT_LEARNS_LANE)) != 0) scheduler_.begin_full_sweep();
   berm_request r{};
   r.phase = legs[leg_].phase;
   const std::array<double, 4> to = goal();

@@ -75,7 +75,7 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, FittedBed
   if (beyond > kBeyondMost) return fmt::format("{} returns lie where its sides would go on beyond its ends", beyond);
   const SizeRange over_ground = ranges.hull(&TruckRanges::top_over_ground);
   const double ground = share_of_ground(sweep, p, over_ground);
-  if (ground < kGroundLeast && !own_cab)
+  if (ground < kGroundLeast)
     return fmt::format("{:.1f} % of the returns beside it lie {:.2f} to {:.2f} m below the walls' tops, where the ground would be", 100 * ground, over_ground[0], over_ground[1]);
   if (lies_in_level_ground(sweep, p, i.cab_end)) return "the ground beyond it lies level with its walls' tops: a pit";
   if (i.cab_seen < kCabSeen && !(own_cab && i.cab >= kCabOwn)) {
