@@ -43,7 +43,7 @@ bool is_bed_with_cab(const BedPose& longer, const BedInterpretation& i) {
 
 double decides(const VerifiedBed& v) {
   const BedEvidence& e = v.interpretation.evidence;
-  return std::max(v.agreed, e.score) - e.end_face + std::min(e.end_face + v.interpretation.cab_to_front, kCabEnough);
+  return std::max(v.agreed, e.score) - e.end_face + closed_by(e.end_face, v.interpretation.cab_to_front);
 }
 
 const VerifiedBed& choose(const std::vector<VerifiedBed>& all, const TruckRangeSet& ranges) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "recognition/bed_evidence.hpp"
+#include "recognition/cab_profile.hpp"
 #include "recognition/rays_of_sweep.hpp"
 
 namespace berm::app {
@@ -24,7 +25,7 @@ BedPose with_end_moved(const BedPose& from, int end, double by) {
 // What an end's outer face, or a cab, says beyond there being one does not tell where it is.
 double worth_of(const BedPose& pose, const PackedRays& rays) {
   const BedScore e = score_with_ends(pose, rays);
-  return e.score - e.end_face + std::min(e.end_face, kCabEnough);
+  return e.score - e.end_face + closed_by(e.end_face, 0.0);
 }
 
 struct Place {

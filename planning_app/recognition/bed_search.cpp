@@ -76,16 +76,16 @@ BedStrip strip_of(const BedPose& p) { return {p.middle, p.yaw, p.pitch, p.roll, 
 std::vector<BedEnds> interpret_region(const FanSweep& sweep, const UprightRegion& region, const TruckRangeSet& ranges, const SizeRange& lengths) {
   const Vector2d middle = 0.5 * (region.first + region.last);
   const SomeRays some = about(sweep, around_bed({middle.x(), middle.y(), region.high}), kCoarseRays, kCoarseStride);
-  std::vector<BedEnds> found;
-  for (const BedStrip& strip : strips_of(region, ranges))
-    for (BedEnds& e : best_ends(strip, some.rays, lengths, some.share, kEndsOfStrip)) found.push_back(std::move(e));
-  for (const BedStrip& strip : strips_within(region, ranges, sweep.heads[sweep.heads.size() / 2].head<2>()))
-    for (BedEnds& e : best_ends(strip, some.rays, lengths, some.share, kEndsOfStrip)) found.push_back(std::move(e));
+  const auto add = [&](std::vector<BedEnds>& to, const std::vector<BedStrip>& strips, std::size_t of_each) {
+    for (const BedStrip& strip : strips)
+      for (BedEnds& e : best_ends(strip, some.rays, lengths, some.share, of_each)) to.push_back(std::move(e));
+  };
+  std::vector<BedEnds> found, behind;
+  add(found, strips_of(region, ranges), kEndsOfStrip);
+  add(found, strips_within(region, ranges, sweep.heads[sweep.heads.size() / 2].head<2>()), kEndsOfStrip);
   found = distinct(std::move(found), kOfRegion);
   // What the region agrees with as a bed's end must not keep out beds of which it is the cab's front.
-  std::vector<BedEnds> behind;
-  for (const BedStrip& strip : strips_behind(region, ranges))
-    for (BedEnds& e : best_ends(strip, some.rays, lengths, some.share, 1)) behind.push_back(std::move(e));
+  add(behind, strips_behind(region, ranges), 1);
   for (BedEnds& e : distinct(std::move(behind), kBehindCab)) found.push_back(std::move(e));
   return found;
 }

@@ -14,7 +14,7 @@ constexpr double kScoreLeast = 80.0, kScoreFromBehind = 60.0;  // evidence of a 
 constexpr int kInnerBehindHeap = 11, kInnerWithCab = 90, kInnerFromBehind = 40;  // returns on inner faces where a cab is seen: at least; to do without outer ones; with little evidence
 constexpr int kOuterLeast = 12, kInnerLeast = 17;  // returns on outer faces of its walls, on inner faces of its far ones (of 781 found beds: 19 at least)
 constexpr double kCabSeen = 100.0;     // evidence of a cab that leaves little doubt
-constexpr double kCabLikely = 28.0;     // evidence of a cab: a pit, a container show 21 at most that is not of their sides
+constexpr double kCabLikely = 28.0;     // evidence of a cab; two drawn pits and a container had 43 to 134, and only the ground told them
 constexpr double kScoreOfCab = 110.0;   // evidence of the bed before such a cab
 constexpr double kCabAsideShare = 0.62; // of a cab's evidence with returns in the planes of the bed's sides halved; of a container's walls 0.5
 constexpr double kCabFaint = 2.0;      // evidence of anything at all where the cab would stand
@@ -31,12 +31,13 @@ bool has_own_cab(const BedInterpretation& i) { return i.cab >= kCabLikely && i.c
 
 }  // namespace
 
-const TruckRanges* class_of(FittedBed& fit, const TruckRangeSet& ranges) {
+const TruckRanges* class_of(const FittedBed& fit, const TruckRangeSet& ranges) {
   const BedPose& p = fit.pose;
   const TruckRanges* found = ranges.find(p.length, p.width, p.open_end != 0);
   if (found != nullptr || !fit.converged) return found;
-  find_covariance(fit, ranges.bed_sizes());
-  const double open = std::min(kLengthOpen, 2 * std::sqrt(fit.covariance(6, 6)));
+  FittedBed known = fit;
+  find_covariance(known, ranges.bed_sizes());
+  const double open = std::min(kLengthOpen, 2 * std::sqrt(known.covariance(6, 6)));
   for (const double by : {open, -open})
     if (found == nullptr) found = ranges.find(p.length + by, p.width, p.open_end != 0);
   return found;

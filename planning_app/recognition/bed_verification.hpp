@@ -16,6 +16,6 @@ constexpr double kCabOwn = 40.0;  // evidence of a cab that the bed's sides, wer
 std::string refusal(const FanSweep& sweep, const BedInterpretation& i, FittedBed& fit, const TruckRangeSet& ranges, bool of_refused = false);
 
 // The class that takes in its sizes, or would with a length that its deviation leaves open; nullptr when none does.
-const TruckRanges* class_of(FittedBed& fit, const TruckRangeSet& ranges);
+const TruckRanges* class_of(const FittedBed& fit, const TruckRangeSet& ranges);
 
 }  // namespace berm::app

@@ -13,6 +13,9 @@ namespace berm::app {
 // A cab counts for no more than a share of the bed before it.
 inline double with_cab(double bed, double cab) { return bed + std::min({cab, kCabEnough, kCabShare * std::max(0.0, bed)}); }
 
+// What closes a bed, an end's outer face and a cab, counts for no more than there being one: a cab's front has as many returns as all of the bed, and does not tell where it ends.
+inline double closed_by(double end_face, double cab) { return std::min(end_face + cab, kCabEnough); }
+
 // What lies so far beyond an end wall's outer face, and so far from the bed's axis, says nothing of a cab. Metres.
 constexpr double kCabNear = 1.7, kCabFarthest = 2.6, kCabAside = 1.4;  // near: of a cab of the least length
 

@@ -53,8 +53,9 @@ void judge(const FanSweep& sweep, VerifiedBed& v, const TruckRangeSet& ranges) {
   v.refusal = refusal(sweep, v.interpretation, v.fit, ranges, v.of_refused);
 }
 
-VerifiedBed verify(const FanSweep& sweep, BedInterpretation interpretation, const TruckRangeSet& ranges) {
+VerifiedBed verify(const FanSweep& sweep, BedInterpretation interpretation, const TruckRangeSet& ranges, bool of_refused = false) {
   VerifiedBed v;
+  v.of_refused = of_refused;
   v.interpretation = std::move(interpretation);
   v.fit = fit_pose(v.interpretation.pose, v.interpretation.rays, PackedRays(v.interpretation.rays), kLastRounds, ranges.bed_sizes());
   judge(sweep, v, ranges);
@@ -100,11 +101,10 @@ void move_ends_of_chosen(const FanSweep& sweep, std::vector<VerifiedBed>& all, c
       BedInterpretation i;
       i.pose = p;
       i.rays = rays_near(sweep, p);
-      VerifiedBed v = verify(sweep, std::move(i), ranges);
-      v.ends_moved = true, v.of_refused = refused;
+      VerifiedBed v = verify(sweep, std::move(i), ranges, refused);
+      v.ends_moved = true;
       if (comes_back(v.fit.pose, from)) continue;
       if (decides(v) > kEndsNearly * decides(choose(all, ranges))) polish(sweep, v, ranges);
-      else if (refused) judge(sweep, v, ranges);
       all.push_back(std::move(v));
     }
     polish_chosen(sweep, all, ranges);
@@ -152,8 +152,8 @@ RecognisedTruck recognise(ArrivingSweep& scanlines, const TruckRangeSet& ranges)
   const BedInterpretation& best = chosen.interpretation;
   FittedBed fit = chosen.fit;
   if (chosen.refusal.empty()) {  // with every ray
-    const FittedBed last = fit_bed(fit.pose, rays_near(whole, fit.pose), kPolishRounds, ranges.bed_sizes(), BedSolver::ceres);
-    if (FittedBed l = last; last.converged && class_of(l, ranges) != nullptr) fit = last;
+    FittedBed last = fit_bed(fit.pose, rays_near(whole, fit.pose), kPolishRounds, ranges.bed_sizes(), BedSolver::ceres);
+    if (last.converged && class_of(last, ranges) != nullptr) fit = std::move(last);
     else find_covariance(fit, ranges.bed_sizes());
   }
   out.evidence = best.evidence;
@@ -162,6 +162,7 @@ RecognisedTruck recognise(ArrivingSweep& scanlines, const TruckRangeSet& ranges)
   out.reason = chosen.refusal;
   if (!out.reason.empty()) return out;
 
+  out.truck_class = class_of(fit, ranges)->name;
   if (best.cab_end < 0) {
     turn_round(fit.pose);
     const Eigen::Matrix<double, 8, 1> sign{1, 1, 1, 1, -1, -1, 1, 1};
@@ -169,7 +170,6 @@ RecognisedTruck recognise(ArrivingSweep& scanlines, const TruckRangeSet& ranges)
   }
   out.found = true;
   out.pose = fit.pose;
-  out.truck_class = class_of(fit, ranges)->name;
   out.corners = opening_corners(fit.pose);
   out.yaw = fit.pose.yaw;
   out.length = fit.pose.length;

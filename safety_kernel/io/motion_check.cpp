@@ -230,9 +230,11 @@ void MotionCheck::certify(const MotionQuery& query, const sk_height_map& map, Mo
   }
 }
 
-bool MotionCheck::sweeps_near_lane() const {
-  const sk_slice* const end = request_slices_.slice + request_slices_.count;
-  return request_slices_.count == 0 || !std::all_of(request_slices_.slice, end, [this](const sk_slice& slice) { return sk_away_from_lanes(&parameters_, &slice); });
+bool MotionCheck::sweeps_near_lane(const MotionQuery& query) {
+  sk_reach_box box{};
+  if (!reach(query, commands(query, 100, false), box) || !build_slices(shape_, box, other_slices_)) return true;
+  const sk_slice* const first = other_slices_.slice;
+  return !std::all_of(first, first + other_slices_.count, [this](const sk_slice& slice) { return sk_away_from_lanes(&parameters_, &slice); });
 }
 
 void MotionCheck::cut_to_share(MotionQuery& query, std::int32_t permille) const {
@@ -288,18 +290,9 @@ void MotionCheck::check(const MotionQuery& query, const sk_height_map& map, Moti
   }
   MotionQuery cut = query;
   cut_to_share(cut, query.speed_permille);
+  if (query.lane_speed_permille < query.speed_permille && sweeps_near_lane(cut)) cut_to_share(cut, query.lane_speed_permille);
   const bool may_move = separate(cut, verdict);
   certify(cut, map, verdict);
-  if (query.lane_speed_permille < query.speed_permille && sweeps_near_lane()) {
-    const MotionVerdict elsewhere = verdict;
-    verdict = MotionVerdict{};
-    verdict.separation_known = elsewhere.separation_known;
-    verdict.separation = elsewhere.separation;
-    verdict.slices = elsewhere.slices;
-    verdict.cells = elsewhere.cells;
-    cut_to_share(cut, query.lane_speed_permille);
-    certify(cut, map, verdict);
-  }
   if (verdict.permission == Permission::kHeld) return;
   if (query.sectors != nullptr && query.sectors->enforced() && !(may_move && stands_in_time(query, verdict))) {
     verdict.permission = Permission::kHeld;

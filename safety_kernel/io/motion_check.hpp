@@ -4,7 +4,7 @@
 // were read, and until the machine would brake by itself if no other command came (a kernel that is late, or dead). Clear: the request goes
 // out, its swing cut to the speed for which there is room ahead. Else the same with the request slowed. Else recovery: a machine slower than
 // the creep speeds may creep, by the same rule. Else the machine is held, with what blocked.
-// Where it is slower near a truck's lane, what is asked for at the speed elsewhere is swept first; if that comes near, it is asked for more slowly.
+// Where it is slower near a truck's lane, a request at the speed elsewhere that would come near one is cut to the speed there.
 // Where ISO 13855's distance is enforced, the request is cut to the speeds from which the machine stands in the time left, and nothing goes out from
 // which it does not.
 #pragma once
@@ -84,8 +84,8 @@ class MotionCheck {
   std::int64_t room_ahead(const MotionQuery& query, const sk_height_map& map, std::int64_t wanted_urad, MotionVerdict& verdict);
   void govern_swing(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
   void cut_to_share(MotionQuery& query, std::int32_t permille) const;
-  // Something that the newest box of the request sweeps is near a lane, or nothing is known of what it sweeps.
-  bool sweeps_near_lane() const;
+  // Something that the request sweeps before standstill is near a lane, or nothing is known of what it sweeps.
+  bool sweeps_near_lane(const MotionQuery& query);
   // What the separation leaves of the request; false where no joint may move at all.
   bool separate(MotionQuery& query, MotionVerdict& verdict) const;
   // Whether everything that moves, or may by the verdict's commands, stands in the time that the separation leaves over the verdict's box.
@@ -102,7 +102,7 @@ class MotionCheck {
   sk_clearance_rules rules_{};
   bool limited_ = false, truck_admitted_ = false;  // what the overpass limits of the rules are made for
   SliceSet request_slices_;
-  SliceSet other_slices_;  // of the room ahead, or of a slower request
+  SliceSet other_slices_;  // of the room ahead, of a slower request, or of what may come near a lane
   sk_columns columns_;
   sk_columns tail_columns_;  // by the tail's own freshness; made only where it is watched
   sk_choice choice_;
