@@ -104,8 +104,8 @@ constexpr const char* kDrawn = "# A shift of ";  // how the text of one begins
 
 std::string scenario_text(const DrawnShift& shift) {
   constexpr double kFar = 19.0;  // m behind and to the right: where people wait
-  // The bench is as long as the machine may move back in the time: 68 moves of 84 m were made in 7.8 h.
-  constexpr double kLeastBack_m = 84.0, kBack_m_h = 12.0, kBehind_m = 12.0;
+  // The bench is as long as the machine may move back in the time: seven or eight moves an hour were made, of 1 to 1.5 m, and more where each truck has its own.
+  constexpr double kLeastBack_m = 84.0, kBack_m_h = 18.0, kBehind_m = 12.0;
   const double back = std::max(kLeastBack_m, kBack_m_h * shift.seconds / 3600.0);
   std::string out = fmt::format("{}{:.2f} h, drawn from seed {}. Format: FORMAT.md.\n", kDrawn, shift.seconds / 3600, shift.seed);
   const auto add = [&out]<typename... Values>(fmt::format_string<Values...> format, Values&&... values) { out += fmt::format(format, std::forward<Values>(values)...); };

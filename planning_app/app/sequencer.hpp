@@ -24,6 +24,7 @@
 #include "motion/swing_braking.hpp"
 #include "perception/kernel_map.hpp"
 #include "planning/bed_map.hpp"
+#include "planning/dig_floor.hpp"
 #include "planning/dig_regions.hpp"
 #include "planning/dump_point.hpp"
 #include "planning/face_reserve.hpp"
@@ -144,6 +145,7 @@ private:
   double heaped_kg_;                          // what the bucket holds
   double full_bucket_kg_;                     // what a pass is planned to bring at most
   SiteModel site_;
+  DigFloor dig_floor_;
   ProgressLog log_;
   int trucks_;
 

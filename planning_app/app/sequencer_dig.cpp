@@ -16,6 +16,7 @@ constexpr double cut_reserve = 1.05;              // the cut is planned larger t
 constexpr double air_speed = 3.0, soil_speed = 1.8, curl_speed = 2.2;  // m/s of the tip
 constexpr double least_share_of_speed = 0.4;      // in soil, of digs for little
 constexpr double stall_patience = 1.0;            // s
+constexpr double least_share = 0.05;              // of a request that the kernel lets out; less is a stop
 constexpr double near_truck = radians(20.0);      // either side of the dump's bearing
 constexpr double bed_points_age = 12.0;           // s, for the bed map
 
@@ -61,7 +62,7 @@ void Sequencer::tell_region(const Observation& o, const RegionDig& next) const {
 void Sequencer::plan_next_dig(const Observation& o) {
   const auto began = std::chrono::steady_clock::now();
   ground_.observe(terrain_);
-  RegionDig next = next_dig(machine_, site_, ground_, needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg_), region_);
+  RegionDig next = next_dig(machine_, site_, dig_floor_, ground_, needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg_), region_);
   const double plan_ms = milliseconds_since(began);
   tell_region(o, next);
   dig_ = std::move(next.plan);
@@ -76,7 +77,7 @@ void Sequencer::begin_dig(const Observation& o) {
   ground_.observe(terrain_);
   cut_.emplace(machine_, SurfaceProfile(ground_, o.angle[swing], needs.bucket_width), needs.bucket_width);
   region_.bounds.bearing = o.angle[swing];
-  dig_ = plan_dig(machine_, site_, ground_, needs, region_.bounds);
+  dig_ = plan_dig(machine_, site_, dig_floor_, ground_, needs, region_.bounds);
   const ArmPoints now = forward(machine_, arm_.predicted(o.angle, o.velocity));  // it may still be lowered
   std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}};
   way.insert(way.end(), dig_.drag.begin(), dig_.drag.end());
@@ -152,8 +153,10 @@ void Sequencer::hold_fill(double in_bucket_kg) {
   const double planned = total > 0.0 ? planned_fill_[static_cast<std::size_t>(follower_.progress() * static_cast<double>(planned_fill_.size() - 1))] / total : 0.0;
   if (planned > 0.0 && follower_.stalled_s() == 0.0) {    // in the soil
     const double rate = std::clamp(gain * (share - planned), -fastest, fastest);
-    const double to_floor = lowest_tip(site_, DigNeeds{}.floor_guard) - forward(machine_, follower_.on_path()).tip.z;
-    departure.lift = std::clamp(departure.lift + rate * machine_.cycle, std::clamp(to_floor, -deepest, 0.0), 0.0);
+    // Over the floor at the attitude that it has: curled sooner than planned its shell lies lower.
+    const ArmPoints planned_arm = forward(machine_, follower_.on_path());
+    const double to_floor = dig_floor_.at(planned_arm.tip.r, std::min(planned_arm.bucket_attitude, departure.curl)) - planned_arm.tip.z;
+    departure.lift = std::clamp(departure.lift + rate * machine_.cycle, std::max(to_floor, -deepest), std::max(to_floor, 0.0));
   }
   follower_.depart(departure);
 }
@@ -168,7 +171,10 @@ Joints Sequencer::dig(const Observation& o) {
   const double in_bucket_kg = filled_.known() ? felt_kg : filled_.impulse() > 0.0 ? std::min(modelled_kg, felt_kg) : modelled_kg;
   const bool heavy = in_bucket_kg >= goal_kg_;
   if (filled_.known()) hold_fill(in_bucket_kg);
-  const bool stalled = follower_.stalled_s() > stall_patience;
+  // A bucket that the kernel slows, as while the ground is learned, comes after the path the later for it.
+  const Joints let_out = arm_.shares();
+  const double slowest = std::min({let_out[boom], let_out[stick], let_out[bucket]});
+  const bool stalled = follower_.stalled_s() * std::max(least_share, slowest) > stall_patience;
   if (follower_.finished() || heavy || stalled) {
     begin_curl(o);
   }

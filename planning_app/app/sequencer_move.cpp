@@ -9,7 +9,7 @@ namespace berm::app {
 namespace {
 
 constexpr double bank_kg_m3 = 1474.0;
-constexpr double reserve_share = 1.75;       // of a truck's soil: with less within reach the last passes of a truck find little
+constexpr double reserve_share = 2.2;        // of a truck's soil: with less within reach the last passes of a truck find little
 constexpr double raising_patience = 20.0;    // s
 constexpr double worth_a_move_kg = 3000.0;   // two buckets
 constexpr int vain_moves = 2;
@@ -19,8 +19,7 @@ constexpr int vain_moves = 2;
 // Between two trucks nobody waits for a bucket: the face is left before a truck would be filled from its rest.
 bool Sequencer::face_too_poor_for_a_truck() {
   ground_.observe(terrain_);
-  const DigNeeds needs = needs_for(full_bucket_kg_);
-  const FaceReserve face = face_reserve(site_, ground_, needs.floor_guard, needs.bucket_width);
+  const FaceReserve face = face_reserve(site_, ground_, dig_floor_.lowest(), bucket_width(machine_));
   log_.event("face", {{"truck", truck_}, {"volume_m3", face.volume}, {"crest_m", face.crest}});
   return face.volume < reserve_share * site_.place.target_kg / bank_kg_m3;
 }
@@ -36,8 +35,7 @@ void Sequencer::begin_move_back(const Observation& o, const char* why) {
     return;
   }
   ground_.observe(terrain_);
-  const DigNeeds needs = needs_for(full_bucket_kg_);
-  const FaceReserve face = face_reserve(site_, ground_, needs.floor_guard, needs.bucket_width);
+  const FaceReserve face = face_reserve(site_, ground_, dig_floor_.lowest(), bucket_width(machine_));
   back_m_ = back_distance(site_, face, BERM_HORN_MOVE_BACK_STEP_M, BERM_HORN_MOVE_BACK_STEPS);
   log_.event("move_back", {{"time_s", o.time_s}, {"truck", truck_}, {"distance_m", back_m_}, {"why", why}, {"face_m3", face.volume}, {"crest_m", face.crest}});
   log_.event("operator_needed", {{"time_s", o.time_s}, {"reason", "move back"},
@@ -68,12 +66,12 @@ void Sequencer::await_move(const Observation& o) {
   else if (stage_ == Stage::being_moved && o.running()) begin_anew(o);
 }
 
-// The machine stands elsewhere: nothing that was known of the ground holds, but what is in the truck does.
+// The machine stands elsewhere: what was known of the ground holds no more, but where the face was dug to, and what is in the truck.
 void Sequencer::begin_anew(const Observation& o) {
   log_.event("moved", {{"time_s", o.time_s}, {"truck", truck_}, {"distance_m", back_m_}});
   presence_.begin();  // the truck made way, and comes back
   terrain_ = TerrainMap();
-  ground_ = DigGround(site_);
+  ground_ = DigGround(site_, ground_, back_m_);
   kernel_map_ = KernelMap();
   skyline_.reset();
   cut_.reset();

@@ -13,7 +13,9 @@ constexpr double error_full_stop = radians(14.0);   // the reference waits when 
 
 constexpr double guard = radians(7.5);              // keeps a standing joint's stop travel inside its range
 
-std::optional<Joints> solve_near(const MachineModel& machine, const DigWaypoint& w) {
+}  // namespace
+
+std::optional<Joints> pose_at(const MachineModel& machine, const DigWaypoint& w) {
   for (int step = 0; step <= 80; ++step)
     for (const double sign : {1.0, -1.0}) {
       const double attitude = w.attitude + sign * radians(step);
@@ -22,8 +24,6 @@ std::optional<Joints> solve_near(const MachineModel& machine, const DigWaypoint&
     }
   return std::nullopt;
 }
-
-}  // namespace
 
 std::optional<DigPath> DigPath::solve(const MachineModel& machine, const std::vector<DigWaypoint>& waypoints) {
   DigPath path;
@@ -34,7 +34,7 @@ std::optional<DigPath> DigPath::solve(const MachineModel& machine, const std::ve
     const int pieces = i == 0 ? 1 : std::max(1, static_cast<int>(std::ceil(way / sample_spacing)));
     for (int k = 1; k <= pieces; ++k) {
       const double t = static_cast<double>(k) / pieces;
-      const auto q = solve_near(machine, {from.r + t * (to.r - from.r), from.z + t * (to.z - from.z), from.attitude + t * (to.attitude - from.attitude)});
+      const auto q = pose_at(machine, {from.r + t * (to.r - from.r), from.z + t * (to.z - from.z), from.attitude + t * (to.attitude - from.attitude)});
       if (!q) return std::nullopt;
       if (i > 0) path.length_ += way / pieces;
       path.samples_.push_back({path.length_, *q});
@@ -68,7 +68,7 @@ Joints DigPath::slope(double s) const {
 Joints DigFollower::departed(const MachineModel& machine, const Joints& on_path, const Departure& departure) {
   const ArmPoints arm = forward(machine, on_path);
   if (departure.lift == 0.0 && departure.curl >= arm.bucket_attitude) return on_path;
-  return solve_near(machine, {arm.tip.r, arm.tip.z + departure.lift, std::min(arm.bucket_attitude, departure.curl)}).value_or(on_path);
+  return pose_at(machine, {arm.tip.r, arm.tip.z + departure.lift, std::min(arm.bucket_attitude, departure.curl)}).value_or(on_path);
 }
 
 Joints DigFollower::step(const MachineModel& machine, ArmController& arm, double held_swing, double speed, const Joints& angle, const Joints& velocity) {

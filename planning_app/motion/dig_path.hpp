@@ -14,10 +14,13 @@ struct DigWaypoint {
   double attitude = 0.0;     // absolute bucket angle
 };
 
+// The pose of a waypoint (swing 0), as paths have it: where a joint's range forbids the attitude, with the nearest that is possible. Nothing when the tip
+// itself is out of reach.
+std::optional<Joints> pose_at(const MachineModel& machine, const DigWaypoint& waypoint);
+
 class DigPath {
 public:
-  // Waypoints are joined by straight lines, sampled at a few centimetres and solved by inverse kinematics. Where a joint's range forbids the
-  // attitude, the nearest attitude that is possible takes its place; nothing when the tip itself is out of reach.
+  // Waypoints are joined by straight lines, sampled at a few centimetres and solved by pose_at. Nothing when that gives none.
   static std::optional<DigPath> solve(const MachineModel& machine, const std::vector<DigWaypoint>& waypoints);
 
   double length() const { return length_; }       // m, of the tip's way (a turn on the spot counts by its arc at the tip)

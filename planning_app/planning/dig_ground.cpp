@@ -31,7 +31,13 @@ DigGround::DigGround(const SiteModel& site) {
   ny_ = std::max(1, static_cast<int>(std::ceil((y_high - y_low_) / cell)));
   height_.assign(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_), NAN);
   bank_ = height_;
+  no_higher_ = height_;
   seen_s_.assign(height_.size(), -1.0);
+}
+
+DigGround::DigGround(const SiteModel& site, const DigGround& before, double back) : DigGround(site) {
+  for (int iy = 0; iy < ny_; ++iy)
+    for (int ix = 0; ix < nx_; ++ix) no_higher_[index(ix, iy)] = before.believed(centre_x(ix) - back, centre_y(iy));
 }
 
 double DigGround::guess(const TerrainMap& terrain, double x, double y) const {
@@ -61,10 +67,15 @@ void DigGround::observe(const TerrainMap& terrain) {
         height_[i] = terrain.height_or(x, y, height_[i]);
         seen_s_[i] = seen_s;
       } else if (std::isnan(height_[i])) {
-        height_[i] = guess(terrain, x, y);
+        height_[i] = std::fmin(guess(terrain, x, y), no_higher_[i]);
       }
       if (!(bank_[i] <= height_[i])) bank_[i] = height_[i];
     }
+}
+
+double DigGround::believed(double x, double y) const {
+  const int ix = static_cast<int>(std::floor((x - x_low_) / cell)), iy = static_cast<int>(std::floor((y - y_low_) / cell));
+  return ix < 0 || iy < 0 || ix >= nx_ || iy >= ny_ ? NAN : height_[index(ix, iy)];
 }
 
 void DigGround::lower_to(double x, double y, double z) {

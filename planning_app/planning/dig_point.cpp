@@ -36,18 +36,19 @@ double tip_height(const Profile& p, std::size_t i, double depth, double lowest) 
   return std::max(std::min(lowest, p.z[i] + entry_height), p.z[i] - depth * shape(i, p.z.size()));
 }
 
-std::vector<DigWaypoint> drag_of(const Profile& p, double depth, double lowest) {
+std::vector<DigWaypoint> drag_of(const Profile& p, double depth, const DigBounds& bounds, const DigFloor& floor) {
   std::vector<DigWaypoint> w;
   const std::size_t n = p.r.size();
-  const auto floor_limited = [&](double z) { return std::max(z, lowest); };
-  w.push_back({p.r[0], floor_limited(p.z[0] + entry_height), attitude_entry});
+  const auto lowest = [&](double r, double attitude) { return std::max(bounds.floor, floor.at(r, attitude)); };
+  w.push_back({p.r[0], std::max(p.z[0] + entry_height, lowest(p.r[0], attitude_entry)), attitude_entry});
   for (std::size_t i = 0; i < n; ++i) {
     const double u = static_cast<double>(i) / static_cast<double>(n - 1);
     // Teeth down at first; most of the curl comes late, when the bucket fills.
     const double attitude = attitude_entry + (attitude_end - attitude_entry) * u * u * (3.0 - 2.0 * u) * 0.85;
-    w.push_back({p.r[i], floor_limited(tip_height(p, i, depth, lowest)), attitude});
+    const double least = lowest(p.r[i], attitude);
+    w.push_back({p.r[i], std::max(tip_height(p, i, depth, least), least), attitude});
   }
-  w.push_back({p.r[n - 1], floor_limited(p.z[n - 1]) + 0.25, attitude_end});
+  w.push_back({p.r[n - 1], std::max(p.z[n - 1], lowest(p.r[n - 1], attitude_end)) + 0.25, attitude_end});
   return w;
 }
 
@@ -62,18 +63,12 @@ double cost_of(const DigNeeds& needs, const DigPlan& plan) {
 
 }  // namespace
 
-double lowest_tip(const SiteModel& site, double guard) {
-  double lowest = site.dig_floor;
-  for (const DigZone& z : site.dig_zones) lowest = std::max(lowest, z.floor + guard);
-  return lowest;
-}
-
-DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const DigGround& ground, const DigNeeds& needs, const DigBounds& bounds) {
+DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const DigFloor& floor, const DigGround& ground, const DigNeeds& needs, const DigBounds& bounds) {
   const SurfaceProfile surface(ground, bounds.bearing, needs.bucket_width);
   const Profile profile = drag_profile(site, surface, bounds.end_radius);
   DigPlan plan;
   const auto volume = [&](double depth) {
-    const auto path = DigPath::solve(machine, drag_of(profile, depth, bounds.floor));
+    const auto path = DigPath::solve(machine, drag_of(profile, depth, bounds, floor));
     return path ? cut_volume(machine, surface, needs.bucket_width, *path) : 0.0;
   };
   double low = 0.0, high = needs.deepest;
@@ -86,7 +81,7 @@ DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const DigGr
   plan.depth = high;
   plan.volume = volume(high);
   plan.start_height = profile.z.front();
-  plan.drag = drag_of(profile, high, bounds.floor);
+  plan.drag = drag_of(profile, high, bounds, floor);
   plan.cost = cost_of(needs, plan);
   return plan;
 }

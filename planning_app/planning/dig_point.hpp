@@ -6,6 +6,7 @@
 
 #include "motion/dig_path.hpp"
 #include "planning/cut_model.hpp"
+#include "planning/dig_floor.hpp"
 #include "planning/dig_ground.hpp"
 #include "planning/site_model.hpp"
 
@@ -24,7 +25,6 @@ struct DigNeeds {
   double volume = 1.1;              // bank m3 wanted
   double bucket_width = 1.1;        // m
   double deepest = 1.0;             // most vertical depth under the surface, m
-  double floor_guard = 0.75;        // the tip stays this far above the dig zone's floor
   double effort = 135e3;            // J that cutting a bucket takes half a metre under the surface
 };
 
@@ -35,10 +35,7 @@ struct DigBounds {
   double end_radius = 0.0;          // of the tip: the drag goes no farther inward
 };
 
-// The tip stays above this height: the highest floor of the dig zones and the guard over it, or the site's floor of the digs.
-double lowest_tip(const SiteModel& site, double floor_guard);
-
 // The dig within the bounds that brings the wanted volume, or what there is.
-DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const DigGround& ground, const DigNeeds& needs, const DigBounds& bounds);
+DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const DigFloor& floor, const DigGround& ground, const DigNeeds& needs, const DigBounds& bounds);
 
 }  // namespace berm::app

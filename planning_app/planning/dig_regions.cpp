@@ -52,8 +52,8 @@ const char* reach_name(RegionReach reach) {
   return names[static_cast<std::size_t>(reach)];
 }
 
-std::vector<DigRegion> dig_regions(const SiteModel& site, const DigNeeds& needs) {
-  const double lowest = lowest_tip(site, needs.floor_guard);
+std::vector<DigRegion> dig_regions(const SiteModel& site, const DigFloor& floor, const DigNeeds& needs) {
+  const double lowest = floor.lowest();
   const int benches = std::max(1, static_cast<int>(std::ceil(-lowest / site.bench_height - 1e-9)));
   const std::vector<double> bearings = column_bearings(site);
   std::vector<DigRegion> regions;
@@ -69,14 +69,14 @@ std::vector<DigRegion> dig_regions(const SiteModel& site, const DigNeeds& needs)
   return regions;
 }
 
-RegionDig next_dig(const MachineModel& machine, const SiteModel& site, const DigGround& ground, const DigNeeds& needs, const DigRegion& last) {
+RegionDig next_dig(const MachineModel& machine, const SiteModel& site, const DigFloor& floor, const DigGround& ground, const DigNeeds& needs, const DigRegion& last) {
   RegionDig best;
   double best_cost = INFINITY;
-  const std::vector<DigRegion> regions = dig_regions(site, needs);
+  const std::vector<DigRegion> regions = dig_regions(site, floor, needs);
   for (std::size_t k = 0; k < regions.size(); ++k) {
     const bool new_group = k > 0 && (regions[k].bench != regions[k - 1].bench || regions[k].reach != regions[k - 1].reach);
     if (new_group && best.plan.volume >= enough * needs.volume) break;
-    DigPlan plan = plan_dig(machine, site, ground, needs, regions[k].bounds);
+    DigPlan plan = plan_dig(machine, site, floor, ground, needs, regions[k].bounds);
     if (plan.volume < enough * needs.volume) ++best.left;
     const double cost = plan.cost + order_cost(regions[k], last);
     if (cost >= best_cost) continue;

@@ -27,11 +27,11 @@ struct RegionDig {
 
 // All regions of a site in the order in which they are worked: of every reach the upper bench first. The benches are equally high, none higher than the
 // site's bench_height, from the ground that the machine stands on down to the floor of the digs.
-std::vector<DigRegion> dig_regions(const SiteModel& site, const DigNeeds& needs);
+std::vector<DigRegion> dig_regions(const SiteModel& site, const DigFloor& floor, const DigNeeds& needs);
 
 // The next dig after one in the region `last`. A lower bench, and another reach, is worked when no column before yields three quarters of the wanted
 // volume; of a bench the column that costs least: by the refined planner, and by the order, for to the left costs, and beside the last cut. Always
 // gives a plan; where nothing yields enough, the cheapest there is.
-RegionDig next_dig(const MachineModel& machine, const SiteModel& site, const DigGround& ground, const DigNeeds& needs, const DigRegion& last);
+RegionDig next_dig(const MachineModel& machine, const SiteModel& site, const DigFloor& floor, const DigGround& ground, const DigNeeds& needs, const DigRegion& last);
 
 }  // namespace berm::app

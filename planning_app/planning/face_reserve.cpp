@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "planning/cut_model.hpp"
-#include "planning/dig_point.hpp"
 #include "planning/skyline.hpp"
 
 namespace berm::app {
@@ -18,8 +17,7 @@ constexpr double fallen = 0.6;                // m under the ground that the mac
 constexpr double crest_beyond_end = 0.9;      // m
 }  // namespace
 
-FaceReserve face_reserve(const SiteModel& site, const DigGround& ground, double floor_guard, double width) {
-  const double lowest = lowest_tip(site, floor_guard);
+FaceReserve face_reserve(const SiteModel& site, const DigGround& ground, double lowest, double width) {
   FaceReserve face;
   int bearings = 0;
   for (double b = site.dig_swing_right - widened; b <= site.dig_swing_left + widened; b += sector_step) {

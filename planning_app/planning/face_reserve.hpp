@@ -12,8 +12,8 @@ struct FaceReserve {
   double crest = 0.0;   // where the ground begins to fall, distance from the swing axis, mean over the site's bearings
 };
 
-// ground: what is known of it. floor_guard: what a dig leaves over the dig zone's floor, m; width: of the bucket, m.
-FaceReserve face_reserve(const SiteModel& site, const DigGround& ground, double floor_guard, double width);
+// ground: what is known of it. lowest: z below which no dig goes; width: of the bucket, m.
+FaceReserve face_reserve(const SiteModel& site, const DigGround& ground, double lowest, double width);
 
 // How far back, in steps of step, at least one and at most most steps: the crest shall lie a little beyond where a drag ends.
 double back_distance(const SiteModel& site, const FaceReserve& face, double step, int most);

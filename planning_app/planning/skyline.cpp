@@ -202,7 +202,7 @@ std::optional<Skyline::Blocking> Skyline::blocking(const ReachIntervals& box) co
     if (box.low[j] < machine_->joint[j].low || box.high[j] > machine_->joint[j].high) return Blocking{Blocking::What::joint_range};
   const LowerEdge edge(*machine_, box);
   if (edge.nearest() < machine_->own_body_radius + own_rim) return Blocking{Blocking::What::own_body};
-  const bool contact_allowed = box.swing_speed < machine_->dig_swing_limit && edge.lowest() > floor_ + 0.1;
+  const bool contact_allowed = box.swing_speed < machine_->dig_swing_limit && edge.lowest() > floor_ + over_floor;
   const std::vector<double>& top = contact_allowed ? outside_dig_zone_ : all_;
   const double margin = machine_->margin + own_slack;
   constexpr double step = 2.0 * std::numbers::pi / bearings;

@@ -34,6 +34,8 @@ public:
   Skyline(const MachineModel& machine, const SiteModel& site, const Height& ground, OverHigh over_high = OverHigh::ignored)
       : Skyline(machine, site, by_rows(ground), over_high, Rows{}) {}
 
+  static constexpr double over_floor = 0.1;  // m: so far over a dig zone's floor contact is asked for at the lowest
+
   // Whether the implements stay clear, by the kernel's margin and a little more, of everything under the intervals. In the dig zone contact is
   // allowed while the swing is slow and the lower edge above the zone's floor.
   bool clear(const ReachIntervals& box) const { return !blocking(box); }

@@ -14,6 +14,8 @@ constexpr double loose_density = 1340.0;
 
 double fall(double v, double crest, double toe) { return std::clamp((v - crest) / (toe - crest), 0.0, 1.0) * lower_z; }
 
+bool in_dig_zone(double x, double y) { return x > 3.9 && x < 10.5 && y > -4.2 && y < 4.2; }
+
 }  // namespace
 
 int BenchSite::index(double v) { return std::clamp(static_cast<int>(std::floor((v + half_side) / cell)), 0, side - 1); }
@@ -82,6 +84,7 @@ void BenchSite::slump() {
 }
 
 void BenchSite::dump(double x, double y, double mass_kg) {
+  if (in_dig_zone(x, y)) return;  // a bucket that keeps what the truck has no room for empties where it digs
   if (!in_bed(x, y)) {
     spilled_mass_ += mass_kg;
     return;

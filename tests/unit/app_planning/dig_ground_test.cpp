@@ -40,6 +40,22 @@ TEST(DigGround, AHiddenFaceFallsFromTheCrestToTheFoot) {
   EXPECT_EQ(ground.height(8.5, 0.0), lower);
 }
 
+// The machine went back by a metre: the face that it had cut to 5.2 m stands a metre farther out.
+TEST(DigGround, AfterAMoveAHiddenFaceIsNoHigherThanItWasDug) {
+  DigGround before = seen();
+  for (double x = 5.2; x < 9.0; x += 0.1)
+    for (double y = -1.0; y < 1.0; y += 0.1) before.lower_to(x, y, -2.4);
+  DigGround after(berm::app_bench::bench(), before, 1.0), fresh(berm::app_bench::bench());
+  after.observe(seen_bench());
+  fresh.observe(seen_bench());
+  EXPECT_EQ(after.height(5.5, 0.0), 0.0) << "seen";
+  EXPECT_NEAR(fresh.height(6.5, 0.0), -0.75, 0.2);
+  EXPECT_EQ(after.height(6.5, 0.0), -2.4);
+  EXPECT_EQ(after.height(6.5, 3.0), fresh.height(6.5, 3.0)) << "nobody dug there";
+  after.observe(seen_bench(9.0));
+  EXPECT_EQ(after.height(5.5, 0.0), 0.0);
+}
+
 TEST(DigGround, WhatIsSeenCountsWhenItIsNewer) {
   DigGround ground = seen();
   ground.lower_to(5.5, 0.0, -0.6);

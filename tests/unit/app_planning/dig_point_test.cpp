@@ -57,7 +57,7 @@ TEST(CutModel, TakesWhatLiesAboveTheBucketOnce) {
 TEST(CutModel, FillGrowsAlongAPath) {
   const MachineModel m = berm::app_bench::zx200();
   const SurfaceProfile surface(ground_of(seen_bench()), 0.0, 1.1);
-  const DigPlan plan = plan_dig(m, berm::app_bench::bench(), ground_of(seen_bench()), {1.1, 1.1, 1.0, 0.75}, {0.0, -2.65, 5.6});
+  const DigPlan plan = plan_dig(m, berm::app_bench::bench(), DigFloor(m, berm::app_bench::bench()), ground_of(seen_bench()), {1.1, 1.1, 1.0}, {0.0, -2.65, 5.6});
   const auto path = DigPath::solve(m, plan.drag);
   ASSERT_TRUE(path);
   const std::vector<double> fill = fill_along(m, surface, 1.1, *path);
@@ -68,8 +68,8 @@ TEST(CutModel, FillGrowsAlongAPath) {
 
 TEST(DigPoint, CutsTheWantedVolumeAndStaysAboveTheFloor) {
   const SiteModel site = berm::app_bench::bench();
-  const DigNeeds needs{1.1, 1.1, 1.0, 0.75};
-  const DigPlan plan = plan_dig(berm::app_bench::zx200(), site, ground_of(seen_bench()), needs, {0.0, -2.4, 5.8});
+  const DigNeeds needs{1.1, 1.1, 1.0};
+  const DigPlan plan = plan_dig(berm::app_bench::zx200(), site, DigFloor(berm::app_bench::zx200(), site), ground_of(seen_bench()), needs, {0.0, -2.4, 5.8});
   EXPECT_NEAR(plan.volume, 1.1, 0.06);
   EXPECT_GT(plan.depth, 0.2);
   EXPECT_LT(plan.depth, 1.0);
@@ -85,8 +85,8 @@ TEST(DigPoint, CostsWhatItLacksAndItsEnergy) {
   const MachineModel machine = berm::app_bench::zx200();
   const SiteModel site = berm::app_bench::bench();
   const TerrainMap map = seen_bench();
-  const DigNeeds needs{1.1, 1.1, 1.0, 0.75};
-  const auto cost = [&](const DigNeeds& n) { return plan_dig(machine, site, ground_of(map), n, {0.0, -2.65, 5.6}).cost; };
+  const DigNeeds needs{1.1, 1.1, 1.0};
+  const auto cost = [&](const DigNeeds& n) { return plan_dig(machine, site, DigFloor(machine, site), ground_of(map), n, {0.0, -2.65, 5.6}).cost; };
   const double usual = cost(needs);
   DigNeeds hard = needs, more = needs;
   hard.effort = 2.0 * needs.effort;

@@ -11,7 +11,7 @@ namespace {
 
 using namespace berm::app;
 
-const DigNeeds needs{1.1, 1.1, 1.0, 0.75};
+const DigNeeds needs{1.1, 1.1, 1.0};
 
 // The bench as a scanner over the cab sees it: the face beyond the crest stays hidden.
 TerrainMap seen_bench() {
@@ -28,16 +28,18 @@ void dig_out(TerrainMap& map, double bearing, double z) {
     for (double across = -0.9; across < 0.9; across += 0.1) map.insert(r * c - across * s, r * s + across * c, z, 50.0);
 }
 
+DigFloor floor_of(const SiteModel& site) { return {berm::app_bench::zx200(), site}; }
+
 RegionDig next(const SiteModel& site, const TerrainMap& map, const DigRegion& last) {
   DigGround ground(site);
   ground.observe(map);
-  return next_dig(berm::app_bench::zx200(), site, ground, needs, last);
+  return next_dig(berm::app_bench::zx200(), site, floor_of(site), ground, needs, last);
 }
 
 TEST(DigRegions, GoFromLeftToRightAndFromTheTopDown) {
   SiteModel site = berm::app_bench::bench();
   site.bench_height = 1.4;  // of 2.65 m
-  const auto regions = dig_regions(site, needs);
+  const auto regions = dig_regions(site, floor_of(site), needs);
   ASSERT_GE(regions.size(), 10u);
   EXPECT_EQ(regions[0].bench, 1);
   EXPECT_EQ(regions[0].bounds.bearing, site.dig_swing_left);
@@ -54,7 +56,7 @@ TEST(DigRegions, ABenchIsNoHigherThanTheSiteWantsAndNoneLowerThanItsFloor) {
     site.bench_height = height;
     site.dig_floor = -2.0;
     double upper = 0.0;
-    for (const DigRegion& region : dig_regions(site, needs)) {
+    for (const DigRegion& region : dig_regions(site, floor_of(site), needs)) {
       if (region.column == 4) {
         EXPECT_LE(region.bench == 1 ? -region.bounds.floor : upper - region.bounds.floor, height + 1e-9);
         upper = region.bounds.floor;
@@ -68,11 +70,11 @@ TEST(DigRegions, TheUpperBenchIsDugFirstAndLeftWhenItYieldsTooLittle) {
   SiteModel site = berm::app_bench::bench();
   site.bench_height = 1.4;
   TerrainMap map = seen_bench();
-  const DigNeeds little{0.4, 1.1, 1.0, 0.75};
+  const DigNeeds little{0.4, 1.1, 1.0};
   const auto planned = [&](const TerrainMap& seen) {
     DigGround ground(site);
     ground.observe(seen);
-    return next_dig(berm::app_bench::zx200(), site, ground, little, {});
+    return next_dig(berm::app_bench::zx200(), site, floor_of(site), ground, little, {});
   };
   const RegionDig first = planned(map);
   EXPECT_EQ(first.region.bench, 1);

@@ -30,7 +30,8 @@ struct Drag {
 };
 
 Drag drag_through(const DigGround& ground) {
-  Drag drag{plan_dig(berm::app_bench::zx200(), berm::app_bench::bench(), ground, {1.1, width, 1.0, 0.75}, {0.0, -2.65, 5.6}), std::nullopt};
+  const DigFloor floor(berm::app_bench::zx200(), berm::app_bench::bench());
+  Drag drag{plan_dig(berm::app_bench::zx200(), berm::app_bench::bench(), floor, ground, {1.1, width, 1.0}, {0.0, -2.65, 5.6}), std::nullopt};
   drag.path = DigPath::solve(berm::app_bench::zx200(), drag.plan.drag);
   return drag;
 }
