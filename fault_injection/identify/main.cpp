@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
   app.add_option("--scenario", options.scenario, "site with the heaviest payload: a name or a TOML file")->capture_default_str();
   app.add_option("--scenario-empty", options.scenario_empty, "the same with an empty bucket")->capture_default_str();
   berm::config::output(app.add_option("--json", options.json, "write every entry with what was measured as one JSON object"));
-  auto* picture = berm::config::output(app.add_option("--picture", options.picture, "where the picture goes (SVG; default: braking_table.svg or step_responses.svg); \"\" for none"));
+  auto* picture = berm::config::output_or_none(app.add_option("--picture", options.picture, "where the picture goes (SVG; default: braking_table.svg or step_responses.svg); \"\" for none"));
   app.add_option("--plant-out", options.plant_out,
                  "folder in which the simulated machine leaves what was true (trace.csv, truth.json), for others to judge by; not read here");
   app.add_flag("--steps", steps,

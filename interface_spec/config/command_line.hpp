@@ -1,5 +1,6 @@
 // One way for all commands to read their options: --help to standard output and status 0; anything wrong is one line and status 2. Numbers are finite and
-// of the type they go to; files that a command writes are none that it reads, and none twice; what does not reach standard output is told of.
+// of the type they go to; names are not empty; files that a command writes are none that it reads, and none twice; what does not reach standard output is
+// told of.
 #pragma once
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ namespace berm::config {
 
 namespace command_line {
 
-inline constexpr const char* kOutput = "OUTPUT";
+inline constexpr const char *kOutput = "OUTPUT", *kOutputOrNone = "OUTPUT or \"\"";
 
 inline bool of_type(const CLI::Option& option, const char* type) { return option.get_type_name().find(type) == 0; }
 
@@ -44,11 +45,19 @@ inline std::string wrong_number(const CLI::Option& option, const std::string& te
   return errno == ERANGE ? fmt::format("{}: {} is beyond {}", name, text, value) : "";
 }
 
+// An empty text is a shell variable that was never set: taken for "not given", the result that it should have named is lost after the work.
+inline std::string wrong_text(const CLI::Option& option, const std::string& text) {
+  const bool named = of_type(option, "TEXT") || (of_type(option, kOutput) && !of_type(option, kOutputOrNone));
+  return named && text.empty() ? option.get_name() + ": must not be empty" : "";
+}
+
 inline std::string wrong_values(const CLI::App& app) {
   std::vector<NamedFile> read, written;
   for (const CLI::Option* option : app.get_options()) {
     const bool is_output = of_type(*option, kOutput);
     std::vector<std::string> texts = option->results();
+    for (const std::string& text : texts)
+      if (std::string wrong = wrong_text(*option, text); !wrong.empty()) return wrong;
     if (texts.empty() && is_output) texts.push_back(option->get_default_str());
     for (const std::string& text : texts) {
       if (std::string wrong = wrong_number(*option, text); !wrong.empty()) return wrong;
@@ -64,6 +73,9 @@ inline std::string wrong_values(const CLI::App& app) {
 
 // Of an option: the file that the command writes.
 inline CLI::Option* output(CLI::Option* option) { return option->type_name(command_line::kOutput); }
+
+// The same, where the help gives empty text a meaning: that it is not written.
+inline CLI::Option* output_or_none(CLI::Option* option) { return option->type_name(command_line::kOutputOrNone); }
 
 // Of a number that counts from 0: why it is none of so many; empty when it is one.
 inline std::string not_below(const char* option, int number, const char* of, int count) {

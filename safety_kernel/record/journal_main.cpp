@@ -65,9 +65,12 @@ int read_options(int argc, char** argv, Options& options) {
     if (name != "--socket" && name != "--out" && name != "--file-fd" && name != "--pace-fd") return fail("unknown option " + name + "; --help lists them");
     const std::string value = i + 1 < argc ? argv[++i] : "";
     if (value.empty()) return fail(name + " must not be empty");
-    if (name == "--socket") options.socket = value;
-    if (name == "--out") options.out = value;
-    if (name == "--socket" || name == "--out") continue;
+    if (name == "--socket" || name == "--out") {
+      std::string& path = name == "--socket" ? options.socket : options.out;
+      if (!path.empty()) return fail(name + " is given twice");
+      path = value;
+      continue;
+    }
     if (!read_descriptor(value, name == "--file-fd" ? options.fd : options.pace))
       return fail(name + " must be a file descriptor from 0 to 9999, not \"" + value + "\"");
   }

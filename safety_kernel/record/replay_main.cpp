@@ -50,9 +50,13 @@ int read_options(int argc, char** argv, Options& options) {
     if (word == "--json" || word == "--parameters") {
       const std::string value = i + 1 < argc ? argv[++i] : "";
       if (value.empty()) return fail(word + " wants a file (see --help)");
-      (word == "--json" ? options.json : options.parameters) = value;
+      std::string& file = word == "--json" ? options.json : options.parameters;
+      if (!file.empty()) return fail(word + " is given twice (see --help)");
+      file = value;
     } else if (word.size() > 1 && word[0] == '-') {
       return fail("unknown option " + word + " (see --help)");
+    } else if (word.empty()) {
+      return fail("FILE must not be empty (see --help)");
     } else if (!options.file.empty()) {
       return fail("one file at a time, not \"" + word + "\" as well (see --help)");
     } else {

@@ -2,6 +2,7 @@
 import json
 import os
 import pathlib
+import re
 import shutil
 import stat
 import struct
@@ -23,6 +24,30 @@ def unknown_options():
                            "--scripts", ROOT / "planning_app/scripts", "--socket", "x")}
     for program, options in needed.items():
         one_clear_line(run(program, *options, "--no-such-option"), "no-such-option")
+
+
+def names_are_not_empty():
+    """A shell variable that was never set. Each option whose type in the help is a text or an output; empty text that has a meaning there says so in its type."""
+    wanted = {"berm_load": {}, "berm_params": {"MACHINE": MACHINE, "SITE": SITE}, "berm_scripts": {}, "berm_echoes": {}, "berm_identify": {}, "berm_validate": {"--runs": 1}, "berm_watch": {"--intrusions": 1},
+              "berm_soak": {"--hours": 0.01}, "berm_truck_world": {"--scenes": 1, "--out": scratch / "none"}, "berm_trucks": {"--scenes": 1}, "berm_map": {"FILE": scratch / "none.pcap"},
+              "berm_gather": {"FILE": scratch / "none.pcd"}, "berm_recognize": {"FILE": scratch / "none.pcd"},
+              "berm_plant": {"--scenario": ROOT / "fault_injection/scenarios/bench.toml", "--can": "udp:239.255.66.250:1", "--scan-port": 1, "--out": scratch / "none"},
+              "berm_app": {"--machine": MACHINE, "--site": SITE, "--truck-classes": ROOT / "interface_spec/config/truck_classes.toml", "--scripts": ROOT / "planning_app/scripts", "--socket": "x"}}
+    for program, options in wanted.items():
+        named = re.findall(r"^  (?:-\w,)?(--[a-z-]+|[A-Za-z]+) (?:TEXT|OUTPUT)\b(?! or)", run(program, "--help").stdout, re.MULTILINE)
+        assert named, f"{program}: no option with a text"
+        for name in named:
+            words = {**options, name: ""}.items()
+            one_clear_line(run(program, *(word for option, value in words for word in ((option, value) if option.startswith("--") else (value,))), cwd=scratch, timeout=60), name)
+    for program, name in (("berm_kernel", "--parameters"), ("berm_kernel", "--can"), ("berm_kernel", "--socket"), ("berm_journal", "--socket"), ("berm_journal", "--out"),
+                          ("berm_replay", "--json"), ("berm_replay", "--parameters"), ("berm_params", "--show")):
+        one_clear_line(run(program, name, ""), name, "must not be empty" if program != "berm_replay" else "wants a file")
+    one_clear_line(run("berm_replay", "", scratch / "none.mcap"), "FILE")
+
+
+def an_option_is_given_once():
+    for program, name in (("berm_journal", "--socket"), ("berm_journal", "--out"), ("berm_replay", "--json"), ("berm_replay", "--parameters"), ("berm_load", "--json"), ("berm_load", "--seed")):
+        one_clear_line(run(program, name, 1, name, 2, cwd=scratch), name)
 
 
 def help_is_no_error():
@@ -214,6 +239,6 @@ def no_room_for_its_files():
 
 
 try:
-    main([unknown_options, help_is_no_error, a_full_standard_output_is_no_success, a_standard_error_that_takes_nothing_changes_no_status, scenarios, files_nested_too_deep, scenario_fields, ground_without_its_recording, no_result_goes_over_what_is_read_or_another, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures, no_room_for_its_files])
+    main([unknown_options, names_are_not_empty, an_option_is_given_once, help_is_no_error, a_full_standard_output_is_no_success, a_standard_error_that_takes_nothing_changes_no_status, scenarios, files_nested_too_deep, scenario_fields, ground_without_its_recording, no_result_goes_over_what_is_read_or_another, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures, no_room_for_its_files])
 finally:
     shutil.rmtree(scratch)

@@ -79,6 +79,24 @@ TEST_F(CommandLine, ANumberIsTheDecimalThatItLooksLike) {
   EXPECT_EQ(runs, -10);
 }
 
+TEST_F(CommandLine, ANameIsNotEmpty) {
+  EXPECT_EQ(refusal({""}), "berm try: FILE: must not be empty (see --help)\n");
+  EXPECT_EQ(refusal({"--other", ""}), "berm try: --other: must not be empty (see --help)\n");
+  EXPECT_EQ(refusal({"--json", ""}), "berm try: --json: must not be empty (see --help)\n");
+  EXPECT_EQ(refusal({"--picture", ""}), "berm try: --picture: must not be empty (see --help)\n") << "nor where there is a default";
+  std::vector<std::string> several;
+  app.add_option("--several", several, "names");
+  EXPECT_EQ(refusal({"--several", "a", ""}), "berm try: --several: must not be empty (see --help)\n");
+  EXPECT_NE(refusal({"--json="}).find("--json"), std::string::npos);
+}
+
+TEST_F(CommandLine, AnEmptyNameIsTakenWhereItMeansNone) {
+  output_or_none(app.add_option("--map", map, "written"));
+  EXPECT_EQ(refusal({"--map", ""}), "");
+  EXPECT_EQ(map, "");
+  EXPECT_EQ(refusal({sweep, "--map", sweep}), "berm try: --map: " + sweep + " is FILE too, and would be overwritten (see --help)\n") << "otherwise it is written";
+}
+
 TEST_F(CommandLine, WhatIsReadIsNotOverwritten) {
   EXPECT_EQ(refusal({sweep, "--json", sweep}), "berm try: --json: " + sweep + " is FILE too, and would be overwritten (see --help)\n");
   EXPECT_NE(refusal({sweep, "--json", scratch.path("./sweep.pcd")}), "") << "by another name";
