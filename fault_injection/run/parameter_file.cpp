@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "config/one_line.hpp"
 #include "run/child_process.hpp"
 #include "run/kernel_session.hpp"
 
@@ -18,15 +19,15 @@ std::string find_file(const std::string& kind, const std::string& folder, const 
   if (name.find('/') != std::string::npos || name.ends_with(".toml")) return name;
   const std::filesystem::path shelf = std::filesystem::path(BERM_DATA_DIR) / folder;
   const auto path = shelf / (name + ".toml");
-  if (std::filesystem::exists(path)) return path.string();
-  std::vector<std::string> known;
   std::error_code ignored;
+  if (std::filesystem::exists(path, ignored)) return path.string();  // too long a name is none of ours
+  std::vector<std::string> known;
   for (const auto& entry : std::filesystem::directory_iterator(shelf, ignored))
     if (entry.path().extension() == ".toml") known.push_back(entry.path().stem().string());
   std::sort(known.begin(), known.end());
   std::string list;
   for (const auto& one : known) list += (list.empty() ? "" : ", ") + one;
-  throw std::runtime_error(kind + " '" + name + "': there is none of that name (there are: " + list + ")");
+  throw std::runtime_error(kind + " '" + config::excerpt(name) + "': there is none of that name (there are: " + list + ")");
 }
 
 }  // namespace

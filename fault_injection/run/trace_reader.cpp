@@ -4,6 +4,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "config/one_line.hpp"
+
 namespace berm::run {
 
 namespace {
@@ -28,7 +30,7 @@ bool TraceReader::next(double from_s) {
     const char* at = line.c_str();
     for (char* end = nullptr; row_.size() < names_.size(); at = *end == ',' ? end + 1 : end) {
       row_.push_back(std::strtod(at, &end));
-      if (end == at) throw std::runtime_error(path_ + ": a row that is not of numbers: " + line.substr(0, 60));
+      if (end == at) throw std::runtime_error(path_ + ": a row that is not of numbers: " + config::excerpt(line));
     }
     return true;
   }

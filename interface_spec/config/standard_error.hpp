@@ -7,13 +7,16 @@
 #include <string>
 #include <utility>
 
+#include "config/one_line.hpp"
+
 namespace berm::config {
 
-// As fmt::print to it, which throws when standard error is closed or full, from a catch handler as well.
+// As fmt::print to it, which throws when standard error is closed or full, from a catch handler as well. One line,
+// whatever the values hold.
 template <class... Values>
 void print_error(fmt::format_string<Values...> words, Values&&... values) noexcept {
   try {
-    const std::string line = fmt::format(words, std::forward<Values>(values)...);
+    const std::string line = one_line(fmt::format(words, std::forward<Values>(values)...));
     std::fwrite(line.data(), 1, line.size(), stderr);
   } catch (...) {  // no memory for a line: there is nobody to tell
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/one_line.hpp"
 #include "config/toml_file.hpp"
 
 namespace berm::config {
@@ -26,7 +27,7 @@ StrictTable StrictTable::parse_file(const std::string& file) {
 }
 
 void StrictTable::fail(const std::string& key, const std::string& reason) const {
-  throw ConfigError(fmt::format("{}: {}{}: {}", file_, path_, key, reason));
+  throw ConfigError(fmt::format("{}: {}{}: {}", file_, path_, excerpt(key), reason));
 }
 
 bool StrictTable::has(const std::string& key) const { return node_->value.contains(key); }
@@ -82,7 +83,7 @@ std::string StrictTable::text(const std::string& key) {
 
 std::string StrictTable::choice(const std::string& key, const std::vector<std::string>& allowed) {
   std::string s = text(key);
-  if (std::find(allowed.begin(), allowed.end(), s) == allowed.end()) fail(key, fmt::format("'{}' is not one of {}", s, fmt::join(allowed, ", ")));
+  if (std::find(allowed.begin(), allowed.end(), s) == allowed.end()) fail(key, fmt::format("'{}' is not one of {}", excerpt(s), fmt::join(allowed, ", ")));
   return s;
 }
 

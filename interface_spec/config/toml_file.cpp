@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "config/one_line.hpp"
 #include "config/strict_table.hpp"
 
 namespace berm::config {
@@ -108,7 +109,7 @@ std::string key_defined_again(const std::string& error) {
   std::string_view key = line.substr(open + 1, close - open - 1);
   if (key.size() > 2 && key.front() == '"' && key.back() == '"') key = key.substr(1, key.size() - 2);
   if (std::any_of(key.begin(), key.end(), [](unsigned char c) { return std::iscntrl(c) != 0; })) return "";
-  return std::string(key);
+  return excerpt(key);
 }
 
 // toml11 takes the nearest that fits for a number that does not, and of a binary one what is left of it.
@@ -142,11 +143,12 @@ class Fit {
   using Integer = std::numeric_limits<std::int64_t>;
   using Floating = std::numeric_limits<double>;
   static constexpr std::size_t kBits = 64;
+  static constexpr std::size_t kQuoted = 80;  // a path of keys, and a number of so many bits
   static constexpr int kMostLookedUp = 200;  // toml11 counts the text's lines for each: a megabyte of them would be minutes
 
   // Only those are looked up in the text that may be another's stand-in.
   void look_up(const std::string& field) {
-    if (++looked_up_ > kMostLookedUp) throw ConfigError(fmt::format("{}: {}: more than {} numbers that may not fit into 64 bits", file_, field, kMostLookedUp));
+    if (++looked_up_ > kMostLookedUp) throw ConfigError(fmt::format("{}: {}: more than {} numbers that may not fit into 64 bits", file_, excerpt(field, kQuoted), kMostLookedUp));
   }
 
   // As the file has it, without the underscores.
@@ -167,7 +169,7 @@ class Fit {
 
   template <typename Number>
   [[noreturn]] void refuse(const std::string& field, const std::string& text, Number low, Number high) const {
-    throw ConfigError(fmt::format("{}: {}: {} is outside {} .. {}", file_, field, text, low, high));
+    throw ConfigError(fmt::format("{}: {}: {} is outside {} .. {}", file_, excerpt(field, kQuoted), excerpt(text, kQuoted), low, high));
   }
 
   const std::string& file_;

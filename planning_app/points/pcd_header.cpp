@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "config/one_line.hpp"
 #include "points/point_cloud.hpp"
 
 namespace berm::app {
@@ -66,7 +67,7 @@ public:
   }
 
 private:
-  [[noreturn]] void fail(const std::string& field, const std::string& why) const { throw PointFileError(fmt::format("{}: {}: {}", name_, field, why)); }
+  [[noreturn]] void fail(const std::string& field, const std::string& why) const { throw PointFileError(fmt::format("{}: {}: {}", name_, config::excerpt(field), why)); }
 
   const Words& line(const std::string& key, std::size_t count) const {
     const auto found = lines_.find(key);
@@ -104,7 +105,7 @@ private:
       out.point_bytes += field.size * field.count;
       out.point_words += field.count;
       if (out.point_words > kElements) fail("COUNT", fmt::format("gives a point more than {} elements", kElements));
-      if (field.name != "_" && out.find(field.name) != nullptr) fail("FIELDS", fmt::format("{} is given twice", field.name.substr(0, 40)));
+      if (field.name != "_" && out.find(field.name) != nullptr) fail("FIELDS", fmt::format("{} is given twice", config::excerpt(field.name)));
       out.fields.push_back(field);
     }
     for (const char* wanted : {"x", "y", "z"})

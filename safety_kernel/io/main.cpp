@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "config/one_line.hpp"
 #include "config/standard_output.hpp"
 #include "io/options.hpp"
 #include "io/parameter_loader.hpp"
@@ -23,7 +24,7 @@ void install_handlers() {
 }
 
 int fail(const std::string& error) {
-  std::fprintf(stderr, "berm_kernel: %s\n", error.c_str());
+  std::fputs(berm::config::one_line("berm_kernel: " + error + "\n").c_str(), stderr);
   return EXIT_FAILURE;
 }
 

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "config/one_line.hpp"
 #include "config/standard_output.hpp"
 #include "record/journal_file.hpp"
 #include "record/kernel_link.hpp"
@@ -38,7 +39,7 @@ constexpr const char* kHelp =
     "At the kernel's end it prints one line of JSON: cycles, lost, bytes. Status 0 when the file is complete (lost records do not change that).\n";
 
 int fail(const std::string& error) {
-  std::fprintf(stderr, "berm_journal: %s\n", error.c_str());
+  std::fputs(berm::config::one_line("berm_journal: " + error + "\n").c_str(), stderr);
   return EXIT_FAILURE;
 }
 

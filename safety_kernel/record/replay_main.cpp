@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "config/one_line.hpp"
 #include "config/output_file.hpp"
 #include "config/standard_output.hpp"
 #include "config/whole_file.hpp"
@@ -31,7 +32,7 @@ constexpr const char* kHelp =
     "Exit status 0: every decision was reproduced and nothing was lost. 1: not so. 2: the file cannot be used.\n";
 
 int fail(const std::string& error) {
-  std::fprintf(stderr, "berm replay: %s\n", error.c_str());
+  std::fputs(berm::config::one_line("berm replay: " + error + "\n").c_str(), stderr);
   return kUnusable;
 }
 

@@ -82,7 +82,7 @@ int run(int argc, char** argv) {
     check_start(scenario_file, scenario, profile);
     if (!check_only) PlantRun(scenario, profile, options).run();
   } catch (const ConfigError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    std::fputs(berm::config::one_line(std::string(error.what()) + "\n").c_str(), stderr);
     return kBadInput;
   }
   return 0;
@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "berm_plant: %s\n", error.what());
+    std::fputs(berm::config::one_line("berm_plant: " + std::string(error.what()) + "\n").c_str(), stderr);
     return 1;
   }
 }

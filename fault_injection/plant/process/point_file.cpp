@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "config/one_line.hpp"
 #include "plant/machine/strict_table.hpp"
 
 namespace berm::plant {
@@ -48,14 +49,14 @@ std::size_t read_header(std::ifstream& file, const std::string& path) {
   static constexpr std::array<std::pair<const char*, const char*>, 3> kWanted{{{"FIELDS", "x y z"}, {"TYPE", "F F F"}, {"DATA", "ascii"}}};
   for (const auto& [key, value] : kWanted) {
     if (!header.contains(key)) refuse(path, key, "is missing: no PCD file");
-    if (header[key] != value) refuse(path, key, fmt::format("'{}' is not '{}', the one kind of PCD that ground is read from", header[key], value));
+    if (header[key] != value) refuse(path, key, fmt::format("'{}' is not '{}', the one kind of PCD that ground is read from", config::excerpt(header[key]), value));
   }
-  if (header.contains("COUNT") && header["COUNT"] != "1 1 1") refuse(path, "COUNT", fmt::format("'{}' is not '1 1 1'", header["COUNT"]));
+  if (header.contains("COUNT") && header["COUNT"] != "1 1 1") refuse(path, "COUNT", fmt::format("'{}' is not '1 1 1'", config::excerpt(header["COUNT"])));
   const std::string& words = header["POINTS"];
   std::size_t points = 0;
   const auto [stop, error] = std::from_chars(words.data(), words.data() + words.size(), points);
   if (error != std::errc{} || stop != words.data() + words.size() || points < 3 || points > kMostPoints)
-    refuse(path, "POINTS", fmt::format("'{}' is no number from 3 to {}", words, kMostPoints));
+    refuse(path, "POINTS", fmt::format("'{}' is no number from 3 to {}", config::excerpt(words), kMostPoints));
   return points;
 }
 

@@ -50,6 +50,34 @@ def an_option_is_given_once():
         one_clear_line(run(program, name, 1, name, 2, cwd=scratch), name)
 
 
+def a_message_is_one_line_whatever_a_name_holds():
+    name = "none\n\x1b[0mhere"
+    for program in (("berm_recognize", scratch / name), ("berm_gather", scratch / name), ("berm_map", scratch / name), ("berm_load", "--scenario", scratch / name), ("berm_load", "--scenario", name),
+                    ("berm_params", scratch / name, SITE, "-o", scratch / "x"), ("berm_scripts", scratch / name), ("berm_replay", scratch / name),
+                    ("berm_kernel", "--parameters", scratch / name, "--can", "x", "--scan-port", 1, "--socket", "x"), ("berm_journal", "--socket", scratch / name, "--out", scratch / "x.mcap"),
+                    ("berm_plant", "--scenario", scratch / name, "--can", "x", "--scan-port", 1, "--out", scratch / "x")):
+        done = run(*program)
+        one_clear_line(done, "none??[0mhere")
+        assert "\x1b" not in done.stderr, program
+    one_clear_line(run("berm_load", "--scenario", "x" * 300), "there is none of that name")
+
+
+def a_message_quotes_little_of_a_file():
+    big = scratch / "big.pcd"
+    for head in ("", "VERSION 0.7\nFIELDS ", "VERSION 0.7\nFIELDS x y z\nTYPE F F F\nDATA "):
+        big.write_text(head + "k" * 3_000_000 + "\n")
+        for program in ("berm_recognize", "berm_gather"):
+            done = run(program, big)
+            one_clear_line(done, "big.pcd: ")
+            assert len(done.stderr) < 400, (program, len(done.stderr))
+    measured = scratch / "measured.toml"
+    measured.write_text((ROOT / "fault_injection/scenarios/measured.toml").read_text().replace("site_terrain/terrain_xyz.pcd", str(big)))
+    for command in (("berm_load", "--scenario", measured), ("berm_load", "--soil", big)):
+        done = run(*command)
+        one_clear_line(done, "big.pcd: ")
+        assert len(done.stderr) < 400, (command, len(done.stderr))
+
+
 def help_is_no_error():
     for program in ("berm_load", "berm_journal", "berm_replay", "berm_map", "berm_params", "berm_plant", "berm_app", "berm_kernel"):
         done = run(program, "--help")
@@ -239,6 +267,6 @@ def no_room_for_its_files():
 
 
 try:
-    main([unknown_options, names_are_not_empty, an_option_is_given_once, help_is_no_error, a_full_standard_output_is_no_success, a_standard_error_that_takes_nothing_changes_no_status, scenarios, files_nested_too_deep, scenario_fields, ground_without_its_recording, no_result_goes_over_what_is_read_or_another, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures, no_room_for_its_files])
+    main([unknown_options, names_are_not_empty, an_option_is_given_once, a_message_is_one_line_whatever_a_name_holds, a_message_quotes_little_of_a_file, help_is_no_error, a_full_standard_output_is_no_success, a_standard_error_that_takes_nothing_changes_no_status, scenarios, files_nested_too_deep, scenario_fields, ground_without_its_recording, no_result_goes_over_what_is_read_or_another, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures, no_room_for_its_files])
 finally:
     shutil.rmtree(scratch)

@@ -102,6 +102,13 @@ TEST(TomlFile, AKeyThatIsDefinedAgainIsNamed) {
   EXPECT_EQ(verdict("\"a\\nb\" = 1\n\"a\\nb\" = 1\n"), ": line 2: not valid TOML") << "its error would be two lines";
 }
 
+TEST(TomlFile, AKeyOrANumberOfThousandsIsQuotedInPart) {
+  const std::string key(3000, 'k'), number(3000, '9');
+  EXPECT_EQ(verdict(key + " = 1\n" + key + " = 1\n"), ": line 2: not valid TOML: " + key.substr(0, 60) + "... is defined already");
+  const std::string refusal = verdict("a." + key + " = " + number + "\n");
+  EXPECT_EQ(refusal.rfind(": a." + key.substr(0, 78) + "...: " + number.substr(0, 80) + "... is outside ", 0), 0U) << refusal;
+}
+
 // verifies: IF-CF-1
 // toml11 makes 9223372036854775807 of it, and of a binary one its last 64 digits.
 TEST(TomlFile, ANumberThatFitsNowhereIsNamedAsItStands) {

@@ -61,6 +61,10 @@ TEST(PointFile, IsReadWholeOrRefusedByField) {
   EXPECT_EQ(refusal_of_points(edited(good, "7 8 9", "7 8 nan")), "DATA: point 3 is no three numbers within 1000000 m");
   EXPECT_EQ(refusal_of_points(edited(good, "7 8 9", "7 8")), "DATA: point 3 is no three numbers within 1000000 m");
   EXPECT_EQ(refusal_of_points(edited(good, "7 8 9", "7 8 9 10")), "DATA: point 3 has more than three numbers");
+  const std::string endless(3'000'000, '7');
+  EXPECT_EQ(refusal_of_points(edited(good, "DATA ascii", "DATA " + endless)), "DATA: '" + endless.substr(0, 60) + "...' is not 'ascii'" + kind);
+  EXPECT_EQ(refusal_of_points(edited(good, "POINTS 3", "POINTS " + endless)), "POINTS: '" + endless.substr(0, 60) + "...' is no number from 3 to 20000000");
+  EXPECT_EQ(refusal_of_points(edited(good, "x y z", "x \x1b[2J z")), "FIELDS: 'x ?[2J z' is not 'x y z'" + kind);
   EXPECT_EQ(refusal_of_points("[package]\n"), "FIELDS: is missing: no PCD file");
   EXPECT_EQ(refusal_of_points(""), "FIELDS: is missing: no PCD file");
   EXPECT_THROW(read_point_file(scratch.path("none.pcd")), ConfigError);

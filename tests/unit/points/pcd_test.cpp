@@ -106,6 +106,16 @@ TEST(Pcd, CompressedIsFieldByField) {
   expect_refused(head + data + "x", "DATA");
 }
 
+TEST(Pcd, ARefusalQuotesLittleOfTheFile) {
+  const std::string word(5000, 'k'), most = std::string(60, 'k') + "...";
+  EXPECT_EQ(refusal(word + " 1\n" + word + " 2\n"), "file.pcd: " + most + ": is given twice");
+  EXPECT_EQ(refusal("\x1b[2J 1\n\x1b[2J 2\n"), "file.pcd: ?[2J: is given twice");
+  const std::string name(3000, 'k'), rest = "\nSIZE 4 4 4 4 4\nTYPE F F F F F\nWIDTH 0\nHEIGHT 0\nDATA ascii\n";
+  EXPECT_EQ(refusal("FIELDS x y z " + name + " " + name + rest), "file.pcd: FIELDS: " + most + " is given twice");
+  EXPECT_EQ(refusal("FIELDS x y z a\x1b a\x1b" + rest), "file.pcd: FIELDS: a? is given twice");
+  expect_refused("FIELDS " + std::string(3'000'000, 'x') + rest, "header: ends before its DATA line, or a line is longer than 8192 bytes");
+}
+
 TEST(Pcd, RefusalsNameFileFieldAndLimit) {
   expect_refused("", "header");
   expect_refused("VERSION 0.7\n", "header");
