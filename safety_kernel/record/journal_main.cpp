@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "config/one_line.hpp"
+#include "config/output_file.hpp"
 #include "config/standard_output.hpp"
 #include "record/journal_file.hpp"
 #include "record/kernel_link.hpp"
@@ -23,6 +25,7 @@ namespace {
 
 using namespace berm::record;
 
+constexpr const char* kPart = ".part";  // of a file that is not complete
 constexpr int kPollMs = 5;  // the ring holds more than a hundred times what the kernel makes in that time
 
 constexpr const char* kHelp =
@@ -55,6 +58,15 @@ bool read_descriptor(const std::string& text, int& fd) {
   return true;
 }
 
+// Why the journal cannot be written there, before the kernel's ring is taken: at its end it would be too late. Empty when it can.
+std::string why_not_out(const std::string& out) {
+  if (const std::string why = berm::config::why_not_written(out); !why.empty()) return why;
+  struct stat status {};
+  if (stat(out.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) return "is no regular file, and would be replaced by one";
+  const std::string part = berm::config::why_not_written(out + kPart);
+  return part.empty() ? "" : "its " + std::string(kPart) + " file " + part;
+}
+
 // Exit status when the program should end now, otherwise -1.
 int read_options(int argc, char** argv, Options& options) {
   for (int i = 1; i < argc; ++i) {
@@ -77,6 +89,8 @@ int read_options(int argc, char** argv, Options& options) {
   }
   if (options.socket.empty()) return fail("--socket is required");
   if (options.out.empty() == (options.fd < 0)) return fail("either --out or --file-fd is required");
+  if (options.out.empty()) return -1;
+  if (const std::string why = why_not_out(options.out); !why.empty()) return fail("--out: " + options.out + ": " + why);
   return -1;
 }
 
@@ -133,7 +147,7 @@ int main(int argc, char** argv) {
   KernelLink link;
   std::string error;
   if (!link.connect(options.socket, error)) return fail(error);
-  const std::string part = options.out + ".part";
+  const std::string part = options.out + kPart;
   const std::string shown = options.fd >= 0 ? name_of(options.fd) : part;
   if (options.fd < 0) options.fd = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (options.fd < 0) return fail(part + ": " + std::strerror(errno));

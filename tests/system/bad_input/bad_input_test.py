@@ -78,6 +78,20 @@ def a_message_quotes_little_of_a_file():
         assert len(done.stderr) < 400, (command, len(done.stderr))
 
 
+def a_journal_that_cannot_be_written():
+    """Told of before the kernel's ring is taken: there is no kernel here, and that would be the next to be told of."""
+    folder = scratch / "journals"
+    (folder / "begun.mcap.part").mkdir(parents=True)
+    (folder / "file").write_text("x")
+    os.mkfifo(folder / "pipe")
+    for out, why in ((folder, "is a folder"), (folder / "none" / "x.mcap", "its folder does not exist"), (folder / "file" / "x.mcap", "its folder does not exist"),
+                     (folder / "begun.mcap", "its .part file is a folder"), (folder / "pipe", "is no regular file, and would be replaced by one")):
+        done = run("berm_journal", "--socket", scratch / "none.sock", "--out", out)
+        one_clear_line(done, f"berm_journal: --out: {out}: {why}")
+    one_clear_line(run("berm_journal", "--socket", scratch / "none.sock", "--out", folder / "x.mcap"), "none.sock")
+    assert {path.name for path in folder.iterdir()} == {"begun.mcap.part", "file", "pipe"}, "left behind"
+
+
 def help_is_no_error():
     for program in ("berm_load", "berm_journal", "berm_replay", "berm_map", "berm_params", "berm_plant", "berm_app", "berm_kernel"):
         done = run(program, "--help")
@@ -267,6 +281,6 @@ def no_room_for_its_files():
 
 
 try:
-    main([unknown_options, names_are_not_empty, an_option_is_given_once, a_message_is_one_line_whatever_a_name_holds, a_message_quotes_little_of_a_file, help_is_no_error, a_full_standard_output_is_no_success, a_standard_error_that_takes_nothing_changes_no_status, scenarios, files_nested_too_deep, scenario_fields, ground_without_its_recording, no_result_goes_over_what_is_read_or_another, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures, no_room_for_its_files])
+    main([unknown_options, names_are_not_empty, an_option_is_given_once, a_message_is_one_line_whatever_a_name_holds, a_message_quotes_little_of_a_file, a_journal_that_cannot_be_written, help_is_no_error, a_full_standard_output_is_no_success, a_standard_error_that_takes_nothing_changes_no_status, scenarios, files_nested_too_deep, scenario_fields, ground_without_its_recording, no_result_goes_over_what_is_read_or_another, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures, no_room_for_its_files])
 finally:
     shutil.rmtree(scratch)
