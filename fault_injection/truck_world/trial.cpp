@@ -8,11 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "config/csv_field.hpp"
 #include "run/percentile_json.hpp"
 
 namespace berm::truck_world {
 namespace {
 
+using config::csv_field;
 using Json = nlohmann::ordered_json;
 constexpr double kNormal95 = 1.96;  // standard deviations
 
@@ -130,12 +132,13 @@ std::string table(const std::vector<Trial>& trials) {
     for (const char* of : {"x_m", "y_m", "z_m", "yaw_rad", "pitch_rad", "roll_rad", "length_m", "width_m"}) out += fmt::format(",{}_{}", what, of);
   out += ",height_error_m,height_deviation_m,nees,evidence,cab,true_evidence,true_cab,milliseconds,reason\n";
   for (const Trial& t : trials) {
-    out += fmt::format("{},{:d},{:d},{:d},{},{},{},{},{},{:.3f},{:.3f}", t.scene, t.truck, t.found, t.recognised, t.truck_class, t.tailgate, t.fill, t.wall_hidden, t.look_alike,
-                       t.hidden_share, t.occluded_share);
+    out += fmt::format("{},{:d},{:d},{:d},{},{},{},{},{},{:.3f},{:.3f}", t.scene, t.truck, t.found, t.recognised, csv_field(t.truck_class),
+                       csv_field(t.tailgate), csv_field(t.fill), csv_field(t.wall_hidden), csv_field(t.look_alike), t.hidden_share, t.occluded_share);
     for (const double e : t.corner_errors) out += fmt::format(",{:.4f}", e);
     for (const auto& all : {t.error, t.deviation})
       for (const double e : all) out += fmt::format(",{:.5f}", e);
-    out += fmt::format(",{:.3f},{:.3f},{:.2f},{:.1f},{:.1f},{:.1f},{:.1f},{:.2f},\"{}\"\n", t.height_error, t.height_deviation, t.nees, t.evidence.score, t.cab, t.true_score, t.true_cab, t.milliseconds, t.reason);
+    out += fmt::format(",{:.3f},{:.3f},{:.2f},{:.1f},{:.1f},{:.1f},{:.1f},{:.2f},{}\n", t.height_error, t.height_deviation, t.nees, t.evidence.score, t.cab, t.true_score, t.true_cab, t.milliseconds,
+                       csv_field(t.reason));
   }
   return out;
 }

@@ -1,6 +1,7 @@
-// Words of others in our lines: a message stays one short line.
+// Words of others in our lines and tables: a message stays one short line, a table keeps its columns.
 #include <gtest/gtest.h>
 
+#include "config/csv_field.hpp"
 #include "config/one_line.hpp"
 #include "config/standard_error.hpp"
 
@@ -26,6 +27,14 @@ TEST(Texts, WhatAFileHoldsIsQuotedInPart) {
   EXPECT_EQ(excerpt(std::string(3'000'000, 'x')), std::string(60, 'x') + "...");
   EXPECT_EQ(excerpt("a\nb\x1b\xFF\0c"), "a?b??");
   EXPECT_EQ(excerpt("abcdef", 3), "abc...");
+}
+
+TEST(Texts, AFieldOfATableKeepsItsColumn) {
+  EXPECT_EQ(csv_field(""), "");
+  EXPECT_EQ(csv_field("six_wheels up"), "six_wheels up");
+  EXPECT_EQ(csv_field("no bed, but a cab"), "\"no bed, but a cab\"");
+  EXPECT_EQ(csv_field("the \"long\" one"), "\"the \"\"long\"\" one\"");
+  EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
 }
 
 }  // namespace
