@@ -155,7 +155,7 @@ int main(int argc, char** argv) {
   berm::config::output(app.add_option("--json", options.json, "write packets, rejected, points, cell_m, cells (x_m, y_m, height_m, status)"));
   berm::config::output(app.add_option("--picture", options.picture, "where the picture goes (SVG)"))->capture_default_str();
   app.add_option("--mount", options.mount, "the lidar's place in the base frame: x,y,z in metres, yaw in degrees")->capture_default_str();
-  app.add_option("--port", options.port, "UDP port of the packets in the capture")->capture_default_str();
+  app.add_option("--port", options.port, "UDP port of the packets in the capture")->capture_default_str()->check(CLI::Range(1, 65535));
   app.add_option("--speed", options.speed, "times the recorded rhythm")->capture_default_str()->check(CLI::Range(0.01, 100.0));
   app.add_option("--machine", options.machine, "machine profile: a name or a TOML file")->capture_default_str();
   app.add_option("--site", options.site, "site: a name or a TOML file")->capture_default_str();

@@ -1,5 +1,8 @@
 #include "run/run_options.hpp"
 
+#include <cmath>
+#include <cstdlib>
+
 #include "config/command_line.hpp"
 #include "config/standard_error.hpp"
 
@@ -19,7 +22,7 @@ ProcessFault parse_fault(const std::string& text) {
   char* end = nullptr;
   const std::string seconds = at == std::string::npos ? "" : text.substr(at + 1);
   fault.at_s = std::strtod(seconds.c_str(), &end);
-  if (seconds.empty() || *end != '\0' || !(fault.at_s >= 0.0)) throw CLI::ValidationError("--fault", "'" + text + "' wants a time: e.g. kill-app@12.5");
+  if (seconds.empty() || *end != '\0' || !std::isfinite(fault.at_s) || fault.at_s < 0.0) throw CLI::ValidationError("--fault", "'" + text + "' wants a time: e.g. kill-app@12.5");
   return fault;
 }
 

@@ -195,7 +195,8 @@ def load_numbers():
     one_clear_line(run("berm_load", "--soil", soil), "soil.toml", "soil.swell", "0.5")
     one_clear_line(run("berm_load", "--seed", "many"), "seed")
     one_clear_line(run("berm_load", "--fault", "kill-all@3"), "kill-all")
-    one_clear_line(run("berm_load", "--fault", "kill-app"), "kill-app")
+    for never in ("kill-app", "kill-app@inf", "kill-app@nan", "kill-app@-1", "kill-app@1e400", "kill-app@5x"):
+        one_clear_line(run("berm_load", "--fault", never, timeout=60), f"'{never}' wants a time")
 
 
 def scripts():
@@ -238,6 +239,8 @@ def captures():
     foreign = scratch / "foreign.pcap"
     ethernet_udp = bytes(12) + b"\x08\x00" + b"\x45\x00" + struct.pack(">HHHBBH", 20 + 8 + 4, 0, 0, 64, 17, 0) + bytes(8) + struct.pack(">HHHH", 1, 2368, 12, 0) + b"none"
     foreign.write_bytes(struct.pack("<IHHiIII", 0xA1B2C3D4, 2, 4, 0, 0, 65535, 1) + struct.pack("<IIII", 1, 0, len(ethernet_udp), len(ethernet_udp)) + ethernet_udp)
+    for port in ("0", "-1", "65536", "99999", "1.5"):
+        one_clear_line(run("berm_map", foreign, "--port", port), "--port", port)
     noise = scratch / "noise.pcap"
     noise.write_bytes(os.urandom(4000))
     for path in (foreign, noise, scratch / "missing.pcap"):
