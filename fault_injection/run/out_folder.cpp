@@ -19,9 +19,13 @@ OutFolder::OutFolder(const std::string& path) {
   if (error) throw std::runtime_error(fmt::format("{}: {}", path, error.message()));
   fd_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (fd_ < 0) throw std::runtime_error(fmt::format("{}: {}", path, strerror(errno)));
+  const auto refuse = [&](const std::string& why) {
+    close(fd_);
+    throw std::runtime_error(fmt::format("{}: {}", path, why));
+  };
+  if (faccessat(fd_, ".", W_OK | X_OK, AT_EACCESS) != 0) refuse(fmt::format("cannot be written: {}", strerror(errno)));
   if (flock(fd_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;  // a file system that knows no locks must not keep a run from it
-  close(fd_);
-  throw std::runtime_error(fmt::format("{}: in use: another run is writing to this folder", path));
+  refuse("in use: another run is writing to this folder");
 }
 
 OutFolder::~OutFolder() { close(fd_); }

@@ -12,7 +12,7 @@ namespace berm::run {
 // Makes the folder where there is none, and holds a lock on it, of which a killed run leaves nothing.
 class OutFolder {
  public:
-  explicit OutFolder(const std::string& path);  // throws std::runtime_error naming it: it cannot be made, or another run is at work in it
+  explicit OutFolder(const std::string& path);  // throws std::runtime_error naming it: it cannot be made or written, or another run is at work in it
   ~OutFolder();
   OutFolder(const OutFolder&) = delete;
   OutFolder& operator=(const OutFolder&) = delete;

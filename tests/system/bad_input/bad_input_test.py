@@ -258,6 +258,24 @@ def captures():
     assert not (scratch / "map.json").exists() and not (scratch / "map.svg").exists(), "a map of a bad capture"
 
 
+def a_folder_that_cannot_be_written():
+    sealed = scratch / "sealed"
+    sealed.mkdir(mode=0o555)
+    mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "ro,size=64k", "tmpfs", str(sealed)], capture_output=True, check=False).returncode == 0
+    if not mounted and os.geteuid() == 0:
+        print("SKIPPED part: root writes everywhere but on a disk that is read-only, and none can be mounted")
+        return
+    try:
+        for command in (("berm_load", "--scenario", "short"), ("berm_watch", "--scenario", "short", "--max-time", 5), ("berm_soak", "--hours", 0.01), ("berm_truck_world", "--scenes", 1)):
+            one_clear_line(run(*command, "--out", sealed, timeout=60), f"{sealed}: cannot be written: ")
+        for command in (("berm_load", "--json"), ("berm_trucks", "--scenes", 1, "--table"), ("berm_echoes", "--picture"), ("berm_replay", scratch / "none.mcap", "--json"),
+                        ("berm_journal", "--socket", scratch / "none.sock", "--out")):
+            one_clear_line(run(*command, sealed / "x", timeout=60), f"{command[-1]}: {sealed / 'x'}: cannot be written: ")
+    finally:
+        if mounted:
+            subprocess.run(["umount", str(sealed)], check=True)
+
+
 def no_room_for_its_files():
     """A full disk: what fails is named with the reason, nothing half-written has a final name, and what can be read on is kept and told of."""
     for size, kept, missing in (("64k", {"app.jsonl.part"}, {"terrain_start.csv", "terrain_start.csv.truck"}), ("2m", {"journal.mcap.part", "terrain_start.csv"}, {"journal.mcap"})):
@@ -284,6 +302,6 @@ def no_room_for_its_files():
 
 
 try:
-    main([unknown_options, names_are_not_empty, an_option_is_given_once, a_message_is_one_line_whatever_a_name_holds, a_message_quotes_little_of_a_file, a_journal_that_cannot_be_written, help_is_no_error, a_full_standard_output_is_no_success, a_standard_error_that_takes_nothing_changes_no_status, scenarios, files_nested_too_deep, scenario_fields, ground_without_its_recording, no_result_goes_over_what_is_read_or_another, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures, no_room_for_its_files])
+    main([unknown_options, names_are_not_empty, an_option_is_given_once, a_message_is_one_line_whatever_a_name_holds, a_message_quotes_little_of_a_file, a_journal_that_cannot_be_written, help_is_no_error, a_full_standard_output_is_no_success, a_standard_error_that_takes_nothing_changes_no_status, scenarios, files_nested_too_deep, scenario_fields, ground_without_its_recording, no_result_goes_over_what_is_read_or_another, load_numbers, scripts, parameter_block, compile_leaves_nothing, captures, a_folder_that_cannot_be_written, no_room_for_its_files])
 finally:
     shutil.rmtree(scratch)
