@@ -54,6 +54,12 @@ TEST(WholeFile, APipeIsWrittenToAndStaysAPipe) {
   EXPECT_TRUE(fs::is_fifo(path));
 }
 
+TEST(WholeFile, WhatKeepsNothingIsWrittenToDurablyAsWell) {
+  EXPECT_NO_THROW(write_whole_file("/dev/null", "new", true));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_THROW(write_whole_file("/dev/full", "new", true), std::runtime_error);
+}
+
 TEST(WholeFile, ThroughALinkTheFileIsReplacedThatItPointsTo) {
   const Scratch scratch;
   fs::create_directory(scratch.path("far"));
