@@ -5,14 +5,21 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 
 #include "kernel_process.hpp"
+#include "scan/scan_packet.h"
+#include "scratch.hpp"
 
 namespace berm::test {
 namespace {
 
 constexpr int kStartLimit = 400;
+constexpr int kTimedOut = 124;  // what timeout(1) ends with
 constexpr std::int32_t kStill[4] = {};
 constexpr std::int32_t kBoomUp[4] = {0, 50000, 0, 0};
 
@@ -212,6 +219,22 @@ TEST(KernelMapOnly, FillsTheMapWithoutAMachineAndRefusesTheApp) {
   EXPECT_EQ(json_number(report, "vlp16_points"), 384);
 }
 
+// What a command says and how it ends; one that goes on is ended after 10 s.
+struct Told {
+  std::string said;
+  bool failed = false;
+};
+Told told(const std::string& arguments) {
+  Told out;
+  std::FILE* pipe = popen(("timeout 10 " + std::string(BERM_KERNEL) + " " + arguments + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) return out;
+  char buffer[512];
+  while (std::fgets(buffer, sizeof buffer, pipe) != nullptr) out.said += buffer;
+  const int status = pclose(pipe);
+  out.failed = WIFEXITED(status) && WEXITSTATUS(status) != 0 && WEXITSTATUS(status) != kTimedOut;
+  return out;
+}
+
 // verifies: SK-CY-55, SK-CY-60, SK-CY-91
 TEST(KernelStart, BadInputIsOneLineAndAFailure) {
   const struct {
@@ -225,15 +248,39 @@ TEST(KernelStart, BadInputIsOneLineAndAFailure) {
       {"--parameters p --can udp:239.255.66.1:4000 --scan-port 5000 --socket /tmp/x --vlp16-port 5001", "--vlp16-port goes with --map-only"},
   };
   for (const auto& c : cases) {
-    std::FILE* pipe = popen((std::string(BERM_KERNEL) + " " + c.arguments + " 2>&1").c_str(), "r");
-    ASSERT_NE(pipe, nullptr);
-    std::string said;
-    char buffer[512];
-    while (std::fgets(buffer, sizeof buffer, pipe) != nullptr) said += buffer;
-    const int status = pclose(pipe);
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) != 0) << c.arguments;
+    const auto [said, failed] = told(c.arguments);
+    EXPECT_TRUE(failed) << c.arguments;
     EXPECT_NE(said.find(c.says), std::string::npos) << said;
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  }
+}
+
+// verifies: SK-CY-60
+TEST(KernelStart, ABlockThatIsWrongInOnePointIsRefusedBeforeAnythingIsOpened) {
+  const struct {
+    const char* says;
+    void (*spoil)(berm_parameters&);
+    bool crc_made_right;
+  } cases[] = {
+      {"magic", [](berm_parameters& p) { p.magic += 1; }, true},
+      {"version", [](berm_parameters& p) { p.version += 1; }, true},
+      {"CRC", [](berm_parameters& p) { p.margin_mm += 1; }, false},
+      {"rule", [](berm_parameters& p) { p.margin_mm = 0; }, true},
+  };
+  const Scratch scratch;
+  const std::string file = scratch.path("block"), socket = scratch.path("kernel.sock");
+  for (const auto& c : cases) {
+    berm_parameters block = demo_parameters();
+    c.spoil(block);
+    if (c.crc_made_right)
+      block.crc32 = static_cast<std::int32_t>(berm_crc32(reinterpret_cast<const std::uint8_t*>(&block), offsetof(berm_parameters, crc32)));
+    std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(&block), sizeof block);
+    const auto [said, failed] = told("--parameters " + file + " --can udp:239.255.66.1:4000 --scan-port 5000 --socket " + socket);
+    EXPECT_TRUE(failed) << c.says;
+    EXPECT_EQ(said.find("berm_kernel: " + file + ": "), 0U) << said;
+    EXPECT_NE(said.find(c.says), std::string::npos) << said;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+    EXPECT_FALSE(std::filesystem::exists(socket)) << c.says;
   }
 }
 

@@ -97,6 +97,42 @@ TEST_F(RequestCheck, FirstRequestMayHaveAnySequence) {
   }
 }
 
+// Only a few bits of the difference would be enough for gaps as small as those above.
+// verifies: SK-RQ-3, IF-CT-10 (the sequence)
+TEST_F(RequestCheck, NoFarSequenceIsTakenForANearOne) {
+  constexpr std::uint32_t last = 0x9ABCDEF0u;
+  for (int bit = 10; bit < 32; ++bit) {
+    for (const std::uint32_t beside : {0u, 1u, 2u, 500u, 1000u}) {
+      for (const std::uint32_t gap : {(1u << bit) + beside, (1u << bit) - beside, 0u - (1u << bit) + beside, 0u - (1u << bit) - beside}) {
+        berm_request r = valid_request();
+        r.sequence = last + gap;
+        state = {true, last, 0};
+        ASSERT_EQ(check(sealed(r)), gap >= 1 && gap <= SK_REQUEST_GAP_MAX ? BERM_REQUEST_ACCEPTED : BERM_REQUEST_SEQUENCE) << "gap " << gap;
+      }
+    }
+  }
+}
+
+// An app that has just connected: its first request may have any sequence, and from then on each counts from the last that was accepted.
+// verifies: SK-RQ-3, SK-RQ-4, IF-CT-10 (the sequence, the first sequence)
+TEST_F(RequestCheck, EachCountsFromTheLastThatWasAccepted) {
+  const auto send = [this](std::uint32_t sequence) {
+    berm_request r = valid_request();
+    r.sequence = sequence;
+    return check(sealed(r));
+  };
+  constexpr std::uint32_t first = 0xFFFFFE00u;
+  state = {};
+  EXPECT_EQ(send(first), BERM_REQUEST_ACCEPTED);
+  EXPECT_EQ(send(first), BERM_REQUEST_NONE);
+  EXPECT_EQ(send(first - 1), BERM_REQUEST_SEQUENCE);
+  EXPECT_EQ(send(first + 1001), BERM_REQUEST_SEQUENCE);
+  EXPECT_EQ(send(first + 1000), BERM_REQUEST_ACCEPTED) << "beyond 2^32, and what was refused counts for nothing";
+  EXPECT_EQ(send(first), BERM_REQUEST_SEQUENCE) << "an earlier one";
+  EXPECT_EQ(send(first + 2001), BERM_REQUEST_SEQUENCE);
+  EXPECT_EQ(send(first + 1001), BERM_REQUEST_ACCEPTED);
+}
+
 // verifies: SK-RQ-5, IF-CT-10 (the stamp)
 TEST_F(RequestCheck, Age) {
   const std::int64_t limit = parameters.request_age_us;
@@ -153,21 +189,33 @@ TEST_F(RequestCheck, PhaseFlagsReserved) {
     EXPECT_EQ(check_changed([&](berm_request& r) { r.reserved_tail = 1u << bit; }), BERM_REQUEST_RANGE) << "reserved bit " << bit;
 }
 
-// Breaks every suffix of the list of checks at once: the earliest is named.
-// verifies: SK-RQ-11, IF-CT-11 (the order)
-TEST_F(RequestCheck, TheFirstThatFailsIsReturned) {
-  const std::int32_t order[] = {BERM_REQUEST_MAGIC, BERM_REQUEST_VERSION, BERM_REQUEST_CRC, BERM_REQUEST_SEQUENCE, BERM_REQUEST_AGE, BERM_REQUEST_RANGE};
-  for (int first = 0; first < 6; ++first) {
-    berm_request r = valid_request();
-    if (first <= 5) r.joint_velocity_urad_s[2] = kMax32;
-    if (first <= 4) r.stamp_us = kNow + 1;
-    if (first <= 3) r.sequence += 5000;
-    if (first <= 1) r.version = 9;
-    if (first <= 0) r.magic = 9;
-    RequestBytes raw = sealed(r);
-    if (first <= 2) raw[63] ^= 0x80;
-    state = state_before();
-    EXPECT_EQ(check(raw), order[first]) << "broken from " << first;
+// Breaks every selection of the six checks, the sequence and the ranges in each of their ways.
+// verifies: SK-RQ-11, IF-CT-11 (the order), SK-RQ-4 (after the CRC, before the age)
+TEST_F(RequestCheck, OfWhateverFailsTheFirstInTheOrderIsReturned) {
+  enum : unsigned { kMagic = 1, kVersion = 2, kCrc = 4, kSequence = 8, kAge = 16, kRange = 32, kAll = 63 };
+  for (unsigned broken = 0; broken <= kAll; ++broken) {
+    for (int way = 0; way < 6; ++way) {
+      const bool again = way % 2 != 0;
+      berm_request r = valid_request();
+      if ((broken & kMagic) != 0) r.magic = 9;
+      if ((broken & kVersion) != 0) r.version = 9;
+      if ((broken & kSequence) != 0) r.sequence = again ? state_before().last_sequence : r.sequence + 5000;
+      if ((broken & kAge) != 0) r.stamp_us = kNow + 1;
+      if ((broken & kRange) != 0 && way / 2 == 0) r.joint_velocity_urad_s[2] = kMax32;
+      if ((broken & kRange) != 0 && way / 2 == 1) r.pan_goal_urad[1] = kMin32;
+      if ((broken & kRange) != 0 && way / 2 == 2) r.phase = BERM_PHASE_COUNT;
+      RequestBytes raw = sealed(r);
+      if ((broken & kCrc) != 0) raw[63] ^= 0x80;
+      const std::int32_t expected = (broken & kMagic) != 0      ? BERM_REQUEST_MAGIC
+                                    : (broken & kVersion) != 0  ? BERM_REQUEST_VERSION
+                                    : (broken & kCrc) != 0      ? BERM_REQUEST_CRC
+                                    : (broken & kSequence) != 0 ? (again ? BERM_REQUEST_NONE : BERM_REQUEST_SEQUENCE)
+                                    : (broken & kAge) != 0      ? BERM_REQUEST_AGE
+                                    : (broken & kRange) != 0    ? BERM_REQUEST_RANGE
+                                                                : BERM_REQUEST_ACCEPTED;
+      state = state_before();
+      EXPECT_EQ(check(raw), expected) << "broken " << broken << ", way " << way;
+    }
   }
 }
 

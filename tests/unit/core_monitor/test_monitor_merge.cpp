@@ -48,6 +48,30 @@ TEST(MonitorMerge, HeightsFollowInTheContinuousVersionOnly) {
   }
 }
 
+// Every flag that an accumulated cell can hold, those that are none as well. The first height of an EMPTY cell raises none.
+// verifies: SK-WM-25
+TEST(MonitorMerge, AnInterpolatedHeightRaisesNoneWhateverTheCellHolds) {
+  const std::int32_t heights[] = {-20000, -600, 0, 249, 251, 499, 501, 900, 1199, 1201, 1700, 2900, 20000};
+  for (const bool continuous : {true, false}) {
+    MonitorScene scene(continuous);
+    int lowered = 0;
+    for (int flag = 0; flag < 256; ++flag)
+      for (const std::int32_t height : {-600, 0, 900})
+        for (const std::int32_t obstacle : {-20000, 900, 1700})
+          for (const std::int32_t z : heights) {
+            if (flag == SK_FLAG_EMPTY) continue;
+            scene.accumulated(50, 50, {flag, height, obstacle});
+            scene.temporary(50, 50, kBetween, z);
+            ASSERT_TRUE(sk_merge_cell(scene.monitor.get(), scene.rules.get(), 50, 50));
+            const MonitorCell after = scene.accumulated(50, 50);
+            ASSERT_LE(after.height_mm, height) << flag_name(flag) << ", obstacle " << obstacle << ", interpolated " << z << ", continuous " << continuous;
+            ASSERT_EQ(after.obstacle_height_mm, obstacle) << flag_name(flag) << ", interpolated " << z << ", continuous " << continuous;
+            lowered += after.height_mm < height;
+          }
+    EXPECT_GT(lowered, 0) << "the heights were merged";
+  }
+}
+
 // verifies: SK-WM-26
 TEST(MonitorMerge, AChangeIsMarkedAndGoesWithItsHeight) {
   const MonitorCell set{SK_FLAG_SET, 0, 5};

@@ -44,6 +44,12 @@ class ParameterLoader : public ::testing::Test {
     EXPECT_EQ(std::memcmp(&loaded, &before, sizeof loaded), 0);
   }
 
+  // What is told of a block with this byte damaged: magic and version are asked for before the CRC.
+  static const char* reason(std::size_t byte) {
+    if (byte < offsetof(berm_parameters, magic) + sizeof block.magic) return "magic";
+    return byte < offsetof(berm_parameters, version) + sizeof block.version ? "version" : "CRC";
+  }
+
   std::string path;
   berm_parameters block{};
 };
@@ -72,13 +78,17 @@ TEST_F(ParameterLoader, RefusesEverySingleBitFlip) {
   for (std::size_t bit = 0; bit < sizeof block * 8; bit += 7) {
     reinterpret_cast<std::uint8_t*>(&block)[bit / 8] ^= static_cast<std::uint8_t>(1U << (bit % 8));
     write_block(false);
-    expect_refused("");
+    expect_refused(reason(bit / 8));
     reinterpret_cast<std::uint8_t*>(&block)[bit / 8] ^= static_cast<std::uint8_t>(1U << (bit % 8));
   }
 }
 
 // verifies: SK-CY-60
-TEST_F(ParameterLoader, NamesTheRuleThatIsBroken) {
+TEST_F(ParameterLoader, NamesWhatIsWrongThoughTheCrcIsRight) {
+  block.magic += 1;
+  write_block(true);
+  expect_refused("magic");
+  block.magic = BERM_PARAMETERS_MAGIC;
   block.version = 2;
   write_block(true);
   expect_refused("version");
