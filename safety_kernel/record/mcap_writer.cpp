@@ -12,6 +12,8 @@ namespace berm::record {
 
 namespace {
 
+constexpr std::size_t kMessageHeadBytes = 22;
+
 void put_record(ByteWriter& to, std::uint8_t code, const ByteWriter& content) {
   to.u8(code);
   to.u64(content.size());
@@ -127,13 +129,14 @@ void McapWriter::count(std::uint16_t channel, std::uint64_t log_ns) {
 }
 
 bool McapWriter::message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t log_ns, const void* bytes, std::size_t size) {
+  const std::size_t length = kMessageHeadBytes + size;
   const bool late = chunk_.size() > 0 && log_ns > chunk_first_ns_ + kChunkNs;
-  if ((late || chunk_.size() >= kChunkBytes) && !close_chunk()) return false;
+  if ((late || chunk_.size() + 9 + length > kChunkBytes) && !close_chunk()) return false;
   chunk_first_ns_ = chunk_.size() == 0 ? log_ns : std::min(chunk_first_ns_, log_ns);
   chunk_last_ns_ = chunk_.size() == 0 ? log_ns : std::max(chunk_last_ns_, log_ns);
   chunk_index_[channel].emplace_back(log_ns, chunk_.size());
   chunk_.u8(op::kMessage);
-  chunk_.u64(22 + size);
+  chunk_.u64(length);
   chunk_.u16(channel);
   chunk_.u32(sequence);
   chunk_.u64(log_ns);

@@ -29,6 +29,8 @@ class Peer {
   int request_fd() const { return request_fd_; }
   const berm_state_segment* state() const { return state_; }
   void write_request(const berm_request& request);
+  // As one who died while it wrote; the next write goes on from there.
+  void leave_guard_odd() { __atomic_fetch_or(&request_->guard, 1U, __ATOMIC_RELEASE); }
   // Sends a byte with an open file, which the kernel does not want.
   bool hand_over(int fd);
 

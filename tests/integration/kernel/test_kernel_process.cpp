@@ -6,10 +6,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <numeric>
+#include <thread>
+#include <vector>
 
 #include "kernel_process.hpp"
 #include "scan/scan_packet.h"
@@ -167,6 +172,78 @@ TEST_F(KernelLockstep, TheAppCannotWriteTheStateSegmentNorResizeAny) {
   EXPECT_EQ(ftruncate(app->request_fd(), 1 << 20), -1);
   const char byte = 1;
   EXPECT_EQ(pwrite(app->state_fd(), &byte, 1, 0), -1);
+}
+
+// An app that died in its write leaves the guard odd, and perhaps half a request.
+// verifies: IF-CT-8 (the kernel waits for nobody, and the CRC alone decides)
+TEST_F(KernelLockstep, AnOddGuardHoldsTheKernelUpInNothing) {
+  run();
+  const auto write = [&](bool whole) {
+    berm_request request = make_request(app->state()->state.request_sequence + 1, app->state()->state.time_us, kBoomUp);
+    if (!whole) request.joint_velocity_urad_s[1] -= 1;
+    app->write_request(request);
+    app->leave_guard_odd();
+  };
+  write(true);
+  ASSERT_TRUE(kernel.step());
+  EXPECT_TRUE(commands_motion());
+  write(false);
+  ASSERT_TRUE(kernel.step());
+  steps(1);  // published behind the heartbeat
+  EXPECT_EQ(app->state()->decision[(app->state()->decision_head - 1) % BERM_DECISION_RING].request_result, BERM_REQUEST_CRC);
+}
+
+// The app writes two requests in turn, without end: whatever the kernel copies of them, it takes the one or the other whole, or nothing.
+// verifies: IF-CT-8 (once a cycle the kernel copies the 64 bytes), SK-CY-70 (copies each request once)
+TEST_F(KernelLockstep, ARequestThatIsWrittenMeanwhileIsTakenWholeOrNotAtAll) {
+  run();
+  constexpr std::int32_t kUp[4] = {0, 50000, 0, 0}, kDown[4] = {0, -50000, 0, 0};  // of even and of odd sequences
+  int taken = 0, torn = 0;
+  for (int i = 0; i < 200; ++i) {
+    const std::uint32_t even = (app->state()->state.request_sequence | 1U) + 1U;
+    const berm_request request[2] = {make_request(even, app->state()->state.time_us, kUp), make_request(even + 1, app->state()->state.time_us, kDown)};
+    std::atomic<bool> end = false;
+    std::thread writer([&] {
+      while (!end)
+        for (const berm_request& r : request) app->write_request(r);
+    });
+    const std::uint32_t next = app->state()->decision_head;
+    const bool stepped = kernel.step();
+    for (int wait = 0; wait < 5000 && __atomic_load_n(&app->state()->decision_head, __ATOMIC_ACQUIRE) == next; ++wait) usleep(1000);
+    end = true;
+    writer.join();
+    ASSERT_TRUE(stepped);
+    const berm_decision& decision = app->state()->decision[next % BERM_DECISION_RING];
+    taken += decision.request_result == BERM_REQUEST_ACCEPTED;
+    torn += decision.request_result == BERM_REQUEST_CRC;
+    if (decision.request_result != BERM_REQUEST_ACCEPTED) continue;
+    ASSERT_EQ(decision.requested_urad_s[1], decision.request_sequence % 2 == 0 ? kUp[1] : kDown[1]) << "a mixture, cycle " << i;
+  }
+  std::printf("%d taken, %d torn\n", taken, torn);
+  EXPECT_GT(taken, 0);
+}
+
+// Of the map only what is under the machine is known so early, and what is published cannot be undone: so the first round is looked at.
+// verifies: IF-CT-17 (all rows within 13 cycles)
+TEST(KernelMap, ThirteenCyclesPublishEveryRow) {
+  KernelProcess kernel;
+  ASSERT_TRUE(kernel.started());
+  Peer recorder(kernel.socket_path(), BERM_ROLE_RECORDER);
+  const auto own = [&] {
+    std::vector<int> rows;
+    for (const auto& row : recorder.state()->map_status) rows.push_back(static_cast<int>(std::count(std::begin(row), std::end(row), BERM_CELL_OWN_BODY)));
+    return rows;
+  };
+  const auto run_to = [&](std::uint32_t cycles) {
+    while (kernel.machine->cycle() < cycles) ASSERT_TRUE(kernel.step());
+    ASSERT_TRUE(recorder.state() != nullptr || recorder.receive_welcome());
+    for (int wait = 0; wait < 5000 && __atomic_load_n(&recorder.state()->wake, __ATOMIC_ACQUIRE) < cycles; ++wait) usleep(1000);
+  };
+  run_to(13);
+  const std::vector<int> first = own();
+  EXPECT_GT(std::accumulate(first.begin(), first.end(), 0), 100);
+  run_to(39);
+  EXPECT_EQ(own(), first);
 }
 
 // verifies: SK-CY-71, IF-CT-23 (a recorder)

@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "perception/kernel_map.hpp"
+#include "single_stepped.hpp"
 
 namespace {
 
 using namespace berm::app;
+namespace test = berm::test;
 
 struct Published {
   Published() : at(std::make_unique<berm_state_segment>()) {
@@ -43,6 +45,33 @@ TEST(KernelMap, SaysWhatTheKernelWillCheck) {
   EXPECT_DOUBLE_EQ(level(8.0, -3.0), 0.0);
   EXPECT_DOUBLE_EQ(blocked(1.0, 1.0), 0.0);
   EXPECT_TRUE(std::isinf(blocked(16.0, 0.0)));  // out of the map
+}
+
+// The kernel writes a height, of which every byte differs, before each instruction of the reader.
+// verifies: IF-CT-17 (a reader: each cell is one load)
+TEST(KernelMap, ACellThatIsWrittenMeanwhileIsReadAsOne) {
+  constexpr std::int32_t one = -0x01020304, other = 0x01020304;
+  struct Seen {
+    double level[2];
+  };
+  const auto segment = test::shared<berm_state_segment>();
+  const auto seen = test::shared<Seen>();
+  segment->cell_mm = 300;
+  segment->map_origin_mm = -15600;
+  std::int32_t* const written[2] = {&segment->map_height_mm[0][1], &segment->map_height_mm[1][0]};
+  segment->map_status[0][1] = segment->map_status[1][0] = BERM_CELL_OBSERVED;
+  KernelMap map;
+  test::single_stepped(
+      [&] {
+        map.take(*segment);
+        const Ground level = map.ground(KernelMap::Unseen::level);
+        seen->level[0] = level(-15.15, -15.45);
+        seen->level[1] = level(-15.45, -15.15);
+      },
+      [&](long step) {
+        for (std::int32_t* const cell : written) __atomic_store_n(cell, step % 2 == 0 ? one : other, __ATOMIC_RELAXED);
+      });
+  for (const double level : seen->level) EXPECT_TRUE(level == one * 1e-3 || level == other * 1e-3) << level;
 }
 
 TEST(KernelMap, BeforeAnythingIsPublishedNothingMayBePassed) {

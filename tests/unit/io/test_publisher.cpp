@@ -36,7 +36,7 @@ TEST_F(PublisherTest, TheHeadIsThereBeforeAnythingIsPublishedAndStays) {
   EXPECT_EQ(head(), before);
 }
 
-// verifies: IF-CT-14 (that the guards are even and have moved on after a write; the order of the writer's stores a test in one thread cannot show)
+// verifies: IF-CT-14 (that the guards are even and have moved on after a write)
 TEST_F(PublisherTest, StateAndSlicesStandUnderEvenGuardsThatMoveOn) {
   for (std::uint32_t n = 1; n <= 3; ++n) {
     berm_state state{};

@@ -20,6 +20,7 @@ struct Item {
   McapItem::Kind kind;
   std::string name, encoding, bytes;
   TextMap map;
+  std::uint64_t log_ns;
 };
 
 std::string bytes_of(const McapItem& item) {
@@ -68,7 +69,7 @@ class JournalFileTest : public ::testing::Test {
     EXPECT_TRUE(reader.open(path)) << reader.error();
     McapItem item;
     for (last = McapReader::Result::kItem; (last = reader.next(item)) == McapReader::Result::kItem;)
-      found.push_back({item.kind, item.name, item.encoding, bytes_of(item), item.map});
+      found.push_back({item.kind, item.name, item.encoding, bytes_of(item), item.map, item.log_ns});
     return found;
   }
   std::vector<Item> of(const std::vector<Item>& all, const std::string& name) {
@@ -120,6 +121,21 @@ TEST_F(JournalFileTest, EachRecordIsThereAsItWasWithItsDecision) {
     EXPECT_EQ(decisions[i].encoding, "json");
     EXPECT_EQ(decisions[i].bytes.front(), '{');
   }
+}
+
+// verifies: IF-JR-10 (log time is the kernel's)
+TEST_F(JournalFileTest, WhatIsToldOfACycleHasItsTime) {
+  written({0, 1, 5}, 9);
+  const std::vector<Item> all = items();
+  const auto times = [&](const char* name) {
+    std::vector<std::uint64_t> found;
+    for (const Item& item : of(all, name)) found.push_back(item.log_ns);
+    return found;
+  };
+  const std::vector<std::uint64_t> cycles{0, 10'000'000, 50'000'000};
+  EXPECT_EQ(times(names::kCycleTopic), cycles);
+  EXPECT_EQ(times(names::kDecisionTopic), cycles);
+  EXPECT_EQ(times(names::kLostTopic), (std::vector<std::uint64_t>{50'000'000, 50'000'000})) << "of the cycle after the gap, and of the last";
 }
 
 // verifies: IF-JR-14
