@@ -8,6 +8,7 @@
 #include "run/child_process.hpp"
 #include "run/kernel_session.hpp"
 #include "run/parameter_file.hpp"
+#include "run/reserved_port.hpp"
 
 namespace berm::identify {
 
@@ -22,7 +23,7 @@ class Plant {
     run::ChildOptions options;
     options.program = run::program_folder() + "/berm_plant";
     options.arguments = {"--scenario",  place.scenario, "--seed", std::to_string(place.seed), "--can", can,
-                         "--scan-port", std::to_string(run::free_udp_port()), "--out", out, "--lockstep"};
+                         "--scan-port", scan_port_.text(), "--out", out, "--lockstep"};
     child_.start(options);
   }
   // Its lines are read so that it never waits for a reader; true while it runs.
@@ -40,6 +41,7 @@ class Plant {
   bool wait_ended(double seconds) { return child_.wait_ended(seconds); }
 
  private:
+  const run::ReservedPort scan_port_;  // nobody listens there: reserved, so that no kernel of another run does
   run::ChildProcess child_;
 };
 
@@ -48,7 +50,8 @@ class Plant {
 void on_bench(const config::MachineFile& machine, const BenchPlace& place, const run::Interruption& interruption,
               const std::function<void(Driver&, MachineLink&)>& tests) {
   const run::RunFolder folder;
-  const std::string can = run::free_can_address();
+  const run::ReservedPort can_port;
+  const std::string can = can_port.can_address();
   MachineLink link(can);  // before the plant: its first cycle must not be missed
   Plant plant(place, can, place.plant_out.empty() ? folder.file("out") : place.plant_out);
   try {

@@ -23,6 +23,7 @@
 #include "run/map_picture.hpp"
 #include "run/parameter_file.hpp"
 #include "run/recorder.hpp"
+#include "run/reserved_port.hpp"
 
 namespace berm::run {
 namespace {
@@ -115,12 +116,12 @@ int run(const Options& options) {
   expect_reachable(folder, uids);
   const std::string parameters = folder.file("kernel.params");
   compile_parameter_file(machine, site, parameters);
-  const std::uint16_t port = free_udp_port();
+  const ReservedPort port;
   ChildProcess kernel;
-  start_kernel(kernel, folder, uids, parameters, {"--map-only", "--vlp16-port", std::to_string(port), "--vlp16-mount", options.mount});
+  start_kernel(kernel, folder, uids, parameters, {"--map-only", "--vlp16-port", port.text(), "--vlp16-mount", options.mount});
   Recorder recorder;
   recorder.connect(folder.file("kernel.sock"));
-  const std::size_t sent = play(datagrams, port, options.speed);
+  const std::size_t sent = play(datagrams, port.number(), options.speed);
   // Every row of the map is published again within this many cycles; then the picture is complete.
   const auto done = recorder.segment()->wake + 60;
   while (static_cast<std::int32_t>(__atomic_load_n(&recorder.segment()->wake, __ATOMIC_ACQUIRE) - done) < 0 && !kernel.ended()) recorder.poll(0.05);

@@ -1,12 +1,10 @@
 #include "run/kernel_session.hpp"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <string.h>
 #include <sys/file.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -105,21 +103,6 @@ void copy_for_children(const std::string& source, const std::string& target) {
   std::filesystem::copy_file(source, target);
   open_to_children(target);
 }
-
-std::uint16_t free_udp_port() {
-  const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  const bool good = fd >= 0 && bind(fd, reinterpret_cast<sockaddr*>(&address), size) == 0 && getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) == 0;
-  const int error = errno;
-  if (fd >= 0) close(fd);
-  if (!good) throw std::system_error(error, std::generic_category(), "no free UDP port on loopback");
-  return ntohs(address.sin_port);
-}
-
-std::string free_can_address() { return fmt::format("udp:239.255.66.{}:{}", 1 + getpid() % 250, free_udp_port()); }
 
 std::string program_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path().string(); }
 

@@ -1,4 +1,4 @@
-// A folder for one run and the kernel process in it: sockets, uids, ports. Used by berm_load and berm_map.
+// A folder for one run and the kernel process in it: sockets, uids. Used by berm_load and berm_map.
 #pragma once
 
 #include <cstdint>
@@ -38,11 +38,6 @@ void expect_reachable(const RunFolder& folder, const Uids& uids);
 // What the children read or enter, whatever the umask, and whatever mode it was copied with. Throw std::system_error naming the path.
 void open_to_children(const std::string& path);  // a file, or a folder with what is in it then
 void copy_for_children(const std::string& source, const std::string& target);
-
-// A UDP port on loopback that is free now.
-std::uint16_t free_udp_port();
-// A multicast address on loopback for one run: "udp:239.255.66.N:PORT".
-std::string free_can_address();
 
 // Folder of this program's siblings (berm_kernel, ...).
 std::string program_folder();

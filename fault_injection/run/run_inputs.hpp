@@ -1,10 +1,10 @@
 // The files that a run reads, found and looked at before anything starts or is written.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "run/kernel_session.hpp"
+#include "run/reserved_port.hpp"
 #include "run/run_options.hpp"
 
 namespace berm::run {
@@ -14,10 +14,10 @@ struct RunInputs {
   std::string soil;  // empty: the scenario's own
 };
 
-// Where the run's processes hear one another.
+// Where the run's processes hear one another, and no other run's.
 struct RunAddresses {
-  std::string can = free_can_address();
-  std::uint16_t scan_port = free_udp_port();
+  ReservedPort can_port, scan_port;
+  std::string can = can_port.can_address();
 };
 
 // Throws std::runtime_error with one line, or ToldAlready where plant or script checker has told what is wrong.

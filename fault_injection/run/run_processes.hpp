@@ -9,6 +9,7 @@
 #include "run/file_pair.hpp"
 #include "run/journal_writer.hpp"
 #include "run/kernel_session.hpp"
+#include "run/reserved_port.hpp"
 #include "run/run_inputs.hpp"
 #include "run/run_options.hpp"
 
@@ -37,6 +38,7 @@ class RunProcesses {
   const RunAddresses& addresses_;
   const RunFolder& folder_;
   const std::string& out_;
+  std::vector<ReservedPort> lidar_ports_;
   std::vector<std::string> lidar_options_;
   std::optional<FilePair> lifeline_;  // the kernel alone holds the write end: its death is a hang-up
   std::optional<FilePair> ticks_;     // app to plant, simulation only
