@@ -1,5 +1,6 @@
 #include "plant/process/peers.hpp"
 
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -8,13 +9,13 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <stdexcept>
 
 namespace berm::plant {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::seconds kFirstContact{30};  // a peer that is still starting
 constexpr std::uint32_t kKernelSource = 0x0A;
 constexpr std::uint32_t kFinishedFlag = 1;
 
@@ -125,8 +126,10 @@ void Peers::wait_for(std::uint64_t cycle, int stop_fd, Whom whom) {
     if (peer == nullptr) return;
     if (peer != waited_for) begin = Clock::now();  // each peer has its own time
     waited_for = peer;
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>((was_heard(peer) ? std::chrono::seconds(fd_.silence_s) : kFirstContact) - (Clock::now() - begin)).count();
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::seconds(was_heard(peer) ? fd_.silence_s : fd_.first_contact_s) - (Clock::now() - begin)).count();
     if (left <= 0) {
+      if (peer == &kernel_ && !was_heard(peer))
+        throw std::runtime_error(fmt::format("the kernel never answered: no heartbeat within {} s of the first clock frame (is the computer too busy?)", fd_.first_contact_s));
       *peer = PeerState::absent;
       continue;
     }

@@ -1,7 +1,7 @@
 // The other processes of a run as the plant sees them: the kernel on the CAN bus and by its lifeline pipe, the app by its tick socket, the
 // journal's writer by its pace socket. In lockstep the plant waits for kernel and app, and for the writer when it is so far behind that the
 // kernel's ring could overflow; a peer that answers nothing for 5 s of wall time is absent and is not waited for until heard again;
-// one whose descriptor hangs up is gone at once.
+// one whose descriptor hangs up is gone at once. Without a kernel that ever answered there is no run.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +21,7 @@ class Peers {
     int tick = -1;      // the app's ticks
     int journal = -1;   // the cycles that the journal's writer has taken
     int silence_s = 5;  // of wall clock: who was heard before and says nothing for so long is absent
+    int first_contact_s = 120;  // for who was never heard: it may still be starting, on a computer that has other things to do
   };
   // Cycles that the writer may be behind: with four lidars a cycle is 37 kB of journal, so this is a quarter of the kernel's ring.
   static constexpr std::uint64_t kUnreadMost = 100;
@@ -31,7 +32,7 @@ class Peers {
   // Takes all that has arrived; never waits.
   void drain();
   // Drains, then waits for the kernel's heartbeat of this cycle, for the app's tick of it, and for the journal's writer to be no more than
-  // kUnreadMost cycles behind. Returns early when stop_fd is readable.
+  // kUnreadMost cycles behind. Returns early when stop_fd is readable. Throws std::runtime_error when the kernel was never heard and its time is up.
   void wait_for(std::uint64_t cycle, int stop_fd) { wait_for(cycle, stop_fd, Whom::all); }
   // Takes its frames; never waits.
   bool kernel_has_answered(std::uint64_t cycle);

@@ -106,6 +106,19 @@ TEST_F(PeersTest, SilentKernelIsAbsentAfterFiveSecondsAndBackWhenHeard) {
   EXPECT_EQ(peers_->kernel(), PeerState::present);
 }
 
+// A run that goes on without it would look like one in which the kernel found nothing to say.
+TEST_F(PeersTest, AKernelThatNeverAnswersIsNoRun) {
+  Peers impatient(bus_, {life_[0], tick_[1], pace_[1], 5, 1}, [](const berm_can_frame&) {});
+  const auto begin = std::chrono::steady_clock::now();
+  try {
+    impatient.wait_for_kernel(1, -1);
+    FAIL() << "it goes on alone";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("the kernel never answered", 0), 0U) << error.what();
+  }
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
+}
+
 TEST_F(PeersTest, TheJournalsWriterIsWaitedForWhenTheRingCouldOverflow) {
   const std::uint16_t cycle = Peers::kUnreadMost + 11;
   heartbeat(cycle);
