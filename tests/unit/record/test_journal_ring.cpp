@@ -213,22 +213,32 @@ TEST_F(Ring, TheMapsRowIsHashedAsTheFormatSays) {
 }
 
 // verifies: IF-JR-8
-TEST_F(Ring, EachLidarsPacketIsFollowedByItsNumber) {
+TEST_F(Ring, BehindThePacketsOfTheVlp16EachLidarsIsFollowedByItsNumber) {
   offer(5, 0);
-  std::vector<std::uint8_t> packet(kernel::kVlp16PacketBytes, 0x5A);
-  for (const int lidar : {1, 0, 3}) ASSERT_TRUE(in->take_lidar(lidar, packet.data(), packet.size()));
+  constexpr std::size_t size = kernel::kVlp16PacketBytes, room = 1208;  // 1206 bytes, the number or none, filled up to 8 bytes
+  in->vlp16_count = 2;
+  for (const int i : {0, 1}) std::fill_n(in->vlp16[i], size, static_cast<std::uint8_t>(0xA0 + i));
+  const int number[] = {1, 0, 3};
+  for (int i = 0; i < 3; ++i) {
+    const std::vector<std::uint8_t> packet(size, static_cast<std::uint8_t>(0x50 + i));
+    ASSERT_TRUE(in->take_lidar(number[i], packet.data(), packet.size()));
+  }
   journal.offer(*in, *out, *map, true);
   RingReader reader(*ring, *tail);
   ASSERT_EQ(reader.next(record), RingReader::Result::kRecord);
   ASSERT_EQ(reader.next(record), RingReader::Result::kRecord);
-  const std::size_t room = 1208;  // 1206 bytes, the number, filled up to 8 bytes
-  ASSERT_EQ(record.size(), sizeof(berm_journal_cycle) + 3 * room);
-  const int number[] = {1, 0, 3};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::uint8_t* at = record.data() + sizeof(berm_journal_cycle) + i * room;
-    EXPECT_TRUE(std::equal(packet.begin(), packet.end(), at)) << i;
-    EXPECT_EQ(at[1206], number[i]);
-    EXPECT_EQ(at[1207], 0);
+  ASSERT_EQ(record.size(), sizeof(berm_journal_cycle) + 5 * room);
+  const std::uint8_t* at = record.data() + sizeof(berm_journal_cycle);
+  const auto holds = [&](int byte) { return std::all_of(at, at + size, [&](std::uint8_t b) { return b == byte; }); };
+  for (const int i : {0, 1}) {
+    EXPECT_TRUE(holds(0xA0 + i)) << "VLP-16 " << i;
+    at += room;
+  }
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(holds(0x50 + i)) << "lidar's packet " << i;
+    EXPECT_EQ(at[size], number[i]);
+    EXPECT_EQ(at[size + 1], 0);
+    at += room;
   }
 }
 
