@@ -122,7 +122,8 @@ private:
   bool carries_level(const Observation& o) const;
   double pressed_kg(const Observation& o) const;
   void watch_pour(const Observation& o, double kg);
-  double lifted_kg() const;                   // what the bucket carried to the truck; 0 when nothing has weighed it
+  std::optional<double> weighed_kg() const;   // what the bucket carried to the truck, which may be nothing
+  double lifted_kg() const { return weighed_kg().value_or(0.0); }
   void book_pass(const Observation& o);
   void end_pass(const Observation& o);
   void go_on_after_pass(const Observation& o, bool lowered);

@@ -70,9 +70,9 @@ void Sequencer::watch_pour(const Observation& o, double kg) {
 }
 
 // The on-board weighing is blind for a while after the soil, at times until the load slides, and then seen for a few readings only: the pressures say it too.
-double Sequencer::lifted_kg() const {
+std::optional<double> Sequencer::weighed_kg() const {
   if (!before_.known() && load_check_.lifted_kg() >= 0.0) return load_check_.lifted_kg();
-  if (!pour_.carried_known()) return before_.known() ? before_.kg() : 0.0;
+  if (!pour_.carried_known()) return before_.known() ? std::optional(before_.kg()) : std::nullopt;
   return before_.known() ? 0.5 * (before_.kg() + pour_.carried_kg()) : pour_.carried_kg();
 }
 
@@ -110,13 +110,14 @@ Joints Sequencer::pass(const Observation& o) {
 
 // What this pass brought, into the truck's books.
 void Sequencer::book_pass(const Observation& o) {
-  const double carried = lifted_kg();
+  const std::optional<double> seen = weighed_kg();
+  const double carried = seen.value_or(0.0);
   const bool weighed = carried > 0.0 && after_.known();
   // A bucket that nothing has weighed is taken for no less than the dig's force says: else the truck would be overloaded.
   const double unweighed_kg = filled_.known() ? std::max(goal_kg_, std::min(heaped_kg_, filled_.kg())) : goal_kg_;
   // Stops may have kept a bucket whose swing had turned round from opening on: what is in it then is not in the truck.
   const double unpoured_kg = !emptied_ && o.payload_kg >= 0.0 ? recent_.kg() : 0.0;
-  const double before = carried > 0.0 ? carried : unweighed_kg, after = after_.known() ? after_.kg() : std::max(unpoured_kg, sticking_.stays_kg(carried));
+  const double before = seen.value_or(unweighed_kg), after = after_.known() ? after_.kg() : std::max(unpoured_kg, sticking_.stays_kg(carried));
   // Before a bucket came back empty from over a bed, what the implements weigh out there is extrapolated.
   const double beside_kg = filled_.known() ? pour_.booked_beside_kg() : 0.0;
   const double had = fill_.loaded_kg();

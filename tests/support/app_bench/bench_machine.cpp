@@ -29,9 +29,11 @@ int kernel_index(double v) { return static_cast<int>(std::floor((v + kernel_half
 
 }  // namespace
 
-MachineModel zx200() { return machine_model(config::load_machine_file(BERM_CONFIG_DIR "/machines/zx200.toml")); }
+MachineModel shipped_machine(const std::string& name) { return machine_model(config::load_machine_file(BERM_CONFIG_DIR "/machines/" + name + ".toml")); }
+SiteModel shipped_site(const std::string& name) { return site_model(config::load_site_file(BERM_CONFIG_DIR "/sites/" + name + ".toml")); }
+MachineModel zx200() { return shipped_machine("zx200"); }
 ScriptSet shipped_scripts() { return read_scripts(BERM_SCRIPTS); }
-SiteModel bench() { return site_model(config::load_site_file(BERM_CONFIG_DIR "/sites/bench.toml")); }
+SiteModel bench() { return shipped_site("bench"); }
 
 TruckBed bench_bed() {
   TruckBed bed;
@@ -248,7 +250,7 @@ void BenchMachine::check() {
       continue;
     }
     const bool dig_zone = x > 3.9 && x < 10.5 && y > -4.2 && y < 4.2;
-    if (dig_zone && std::fabs(velocity_[swing]) < machine_.dig_swing_limit) floor = floor || z < -3.4;
+    if (dig_zone && std::fabs(velocity_[swing]) < machine_.dig_swing_limit) floor = floor || z < -3.8;
     else ground = ground || z < h + machine_.margin;
   }
   findings_.wall_contacts += wall;

@@ -18,6 +18,8 @@
 namespace berm::app_bench {
 
 // The ZX200 and the bench from their files in interface_spec/config; the truck that stands on the miniature bench, and a site where it was recognised.
+app::MachineModel shipped_machine(const std::string& name);
+app::SiteModel shipped_site(const std::string& name);
 app::MachineModel zx200();
 app::SiteModel bench();
 app::TruckBed bench_bed();

@@ -75,4 +75,23 @@ TEST(DigFloor, ADragAlongTheFloorIsOneThatTheGuardPermits) {
     EXPECT_GT(box_floor(machine, path->at(s)), zone_floor(site) + Skyline::over_floor) << "after " << s << " of " << path->length() << " m";
 }
 
+// Else digs are stopped over their floor, and the face is left too early.
+TEST(DigFloor, TheShippedSitesZonesAreDeepEnoughForTheirDigs) {
+  struct Pair { const char *site, *machine; };
+  for (const Pair& pair : {Pair{"bench", "zx200"}, {"bench_small", "zx200"}, {"shift", "zx200"}, {"measured", "zx200"}, {"measured_shift", "zx200"},
+                           {"bench_12t", "excavator_12t"}, {"bench_25t", "excavator_25t"}}) {
+    const MachineModel machine = berm::app_bench::shipped_machine(pair.machine);
+    const SiteModel site = berm::app_bench::shipped_site(pair.site);
+    const double bearing = 0.5 * (site.dig_swing_left + site.dig_swing_right);
+    TerrainMap map;  // flat, a little over the floor of the digs
+    for (double r = 3.0; r < 11.0; r += 0.1)
+      for (double across = -1.0; across <= 1.0; across += 0.1)
+        map.insert(r * std::cos(bearing) - across * std::sin(bearing), r * std::sin(bearing) + across * std::cos(bearing), site.dig_floor + 0.05, 1.0);
+    DigGround ground(site);
+    ground.observe(map);
+    const DigPlan plan = plan_dig(machine, site, DigFloor(machine, site), ground, {1.1, bucket_width(machine), 1.0}, {bearing, site.dig_floor, site.dig_radius_end});
+    for (std::size_t i = 2; i + 2 < plan.drag.size(); ++i) EXPECT_NEAR(plan.drag[i].z, site.dig_floor, 0.051) << pair.site << " at r " << plan.drag[i].r;
+  }
+}
+
 }  // namespace
