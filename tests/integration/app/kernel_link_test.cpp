@@ -14,6 +14,7 @@
 
 #include "app/kernel_link.hpp"
 #include "scratch.hpp"
+#include "send_descriptors.hpp"
 #include "single_stepped.hpp"
 
 namespace berm::app {
@@ -83,19 +84,7 @@ class Kernel {
     char role = 0;
     EXPECT_EQ(recv(peer_, &role, 1, 0), 1);
     berm_welcome welcome{BERM_CONTRACT_MAGIC, BERM_CONTRACT_VERSION, 1, sizeof(berm_state_segment), sizeof(berm_request_segment), ""};
-    iovec part{&welcome, sizeof welcome};
-    alignas(cmsghdr) char control[CMSG_SPACE(sizeof fd_)] = {};
-    msghdr message{};
-    message.msg_iov = &part;
-    message.msg_iovlen = 1;
-    message.msg_control = control;
-    message.msg_controllen = sizeof control;
-    cmsghdr* header = CMSG_FIRSTHDR(&message);
-    header->cmsg_level = SOL_SOCKET;
-    header->cmsg_type = SCM_RIGHTS;
-    header->cmsg_len = CMSG_LEN(sizeof fd_);
-    std::memcpy(CMSG_DATA(header), fd_, sizeof fd_);
-    EXPECT_EQ(sendmsg(peer_, &message, 0), static_cast<ssize_t>(sizeof welcome));
+    EXPECT_TRUE(test::send_descriptors(peer_, &welcome, sizeof welcome, fd_));
   }
 
   const test::Scratch scratch_;

@@ -20,6 +20,7 @@
 #include "app_bench/bench_machine.hpp"
 #include "scan/scan_packet.h"
 #include "scratch.hpp"
+#include "send_descriptors.hpp"
 
 namespace {
 
@@ -88,20 +89,8 @@ protected:
     state_->version = BERM_CONTRACT_VERSION;
     state_->size = sizeof(berm_state_segment);
     berm_welcome welcome{BERM_CONTRACT_MAGIC, BERM_CONTRACT_VERSION, accepted, state_size, sizeof(berm_request_segment), "not today"};
-    iovec io{&welcome, sizeof welcome};
-    alignas(cmsghdr) char control[CMSG_SPACE(2 * sizeof(int))] = {};
-    msghdr message{};
-    message.msg_iov = &io;
-    message.msg_iovlen = 1;
-    message.msg_control = control;
-    message.msg_controllen = sizeof control;
-    cmsghdr* header = CMSG_FIRSTHDR(&message);
-    header->cmsg_level = SOL_SOCKET;
-    header->cmsg_type = SCM_RIGHTS;
-    header->cmsg_len = CMSG_LEN(2 * sizeof(int));
     const int fds[2] = {state_fd_, request_fd_};
-    std::memcpy(CMSG_DATA(header), fds, sizeof fds);
-    ASSERT_EQ(::sendmsg(peer_, &message, 0), static_cast<ssize_t>(sizeof welcome));
+    ASSERT_TRUE(berm::test::send_descriptors(peer_, &welcome, sizeof welcome, fds));
   }
 
   void publish(const berm_state_segment& from) {

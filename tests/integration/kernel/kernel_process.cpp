@@ -15,6 +15,7 @@
 #include <filesystem>
 
 #include "config/compile_parameters.hpp"
+#include "send_descriptors.hpp"
 
 namespace berm::test {
 
@@ -83,20 +84,9 @@ bool Peer::receive_welcome() {
 }
 
 bool Peer::hand_over(int fd) {
-  char byte = 0;
-  iovec part{&byte, 1};
-  alignas(cmsghdr) char control[CMSG_SPACE(sizeof fd)] = {};
-  msghdr message{};
-  message.msg_iov = &part;
-  message.msg_iovlen = 1;
-  message.msg_control = control;
-  message.msg_controllen = sizeof control;
-  cmsghdr* header = CMSG_FIRSTHDR(&message);
-  header->cmsg_level = SOL_SOCKET;
-  header->cmsg_type = SCM_RIGHTS;
-  header->cmsg_len = CMSG_LEN(sizeof fd);
-  std::memcpy(CMSG_DATA(header), &fd, sizeof fd);
-  return sendmsg(socket_, &message, MSG_NOSIGNAL) == 1;
+  const char byte = 0;
+  const int fds[1] = {fd};
+  return berm::test::send_descriptors(socket_, &byte, 1, fds);
 }
 
 void Peer::write_request(const berm_request& request) {
