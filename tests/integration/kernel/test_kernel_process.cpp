@@ -198,18 +198,27 @@ TEST_F(KernelLockstep, AnOddGuardHoldsTheKernelUpInNothing) {
 TEST_F(KernelLockstep, ARequestThatIsWrittenMeanwhileIsTakenWholeOrNotAtAll) {
   run();
   constexpr std::int32_t kUp[4] = {0, 50000, 0, 0}, kDown[4] = {0, -50000, 0, 0};  // of even and of odd sequences
+  // The kernel answers the machine before it writes the decision.
+  const auto decided = [&] {
+    for (int wait = 0; wait < 5000 && __atomic_load_n(&app->state()->decision_head, __ATOMIC_ACQUIRE) != static_cast<std::uint32_t>(kernel.machine->cycle()); ++wait) usleep(1000);
+    ASSERT_EQ(app->state()->decision_head, static_cast<std::uint32_t>(kernel.machine->cycle()));
+  };
+  decided();
   int taken = 0, torn = 0;
   for (int i = 0; i < 200; ++i) {
     const std::uint32_t even = (app->state()->state.request_sequence | 1U) + 1U;
     const berm_request request[2] = {make_request(even, app->state()->state.time_us, kUp), make_request(even + 1, app->state()->state.time_us, kDown)};
-    std::atomic<bool> end = false;
+    std::atomic<bool> end = false, written = false;
     std::thread writer([&] {
-      while (!end)
+      while (!end) {
         for (const berm_request& r : request) app->write_request(r);
+        written = true;
+      }
     });
-    const std::uint32_t next = app->state()->decision_head;
+    while (!written) usleep(100);  // what was there before is gone: the kernel may not have taken it yet
+    const auto next = static_cast<std::uint32_t>(kernel.machine->cycle());
     const bool stepped = kernel.step();
-    for (int wait = 0; wait < 5000 && __atomic_load_n(&app->state()->decision_head, __ATOMIC_ACQUIRE) == next; ++wait) usleep(1000);
+    decided();
     end = true;
     writer.join();
     ASSERT_TRUE(stepped);
