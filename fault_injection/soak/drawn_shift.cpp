@@ -113,7 +113,7 @@ std::string scenario_text(const DrawnShift& shift) {
   add("[operator]\nreaction_s = [4.0, 12.0]\ntram_speed = 0.6\nfarthest_back_m = {:.1f}\nresets_after_s = [15.0, 60.0]\n\n", back);
   add("[start]\nswing_deg = 0.0\nboom_deg = 45.0\nstick_deg = -100.0\nbucket_deg = -100.0\n\n");
   add("[terrain]\nx = [{:.1f}, 16.0]\ny = [-16.0, 16.0]\ncell = 0.1\ncrest_x = 6.0\ntoe_x = 7.5\ncrest_y = 3.6\ntoe_y = 5.0\nlower_z = -2.2\nroughness = 0.02\n\n", -back - kBehind_m);
-  add("[[dig_zone]]\nx = [3.9, 10.5]\ny = [-4.2, 4.2]\nfloor = -3.8\n\n");
+  add("[[dig_zone]]\nx = [3.9, 10.5]\ny = [-4.2, 4.2]\nfloor = -3.4\n\n");
   add("[soil]\ndensity_bank_kg_m3 = 1474.0\nswell = 1.10\nrepose_deg = 36.0\nbank_slope_deg = 50.0\nresistance = 0.5\nstick_fraction = 0.0\n\n");
   for (const DrawnSoil& s : shift.soil)
     add("[[soil_change]]\nat_s = {:.1f}\nrepose_deg = {:.1f}\nbank_slope_deg = {:.1f}\nresistance = {:.2f}\nstick_fraction = {:.3f}\n\n", s.at_s, s.repose_deg, s.bank_slope_deg, s.resistance, s.stick_fraction);

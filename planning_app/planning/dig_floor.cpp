@@ -31,10 +31,9 @@ std::optional<double> room_under(const MachineModel& machine, const DigWaypoint&
 
 }  // namespace
 
-DigFloor::DigFloor(const MachineModel& machine, const SiteModel& site) : site_floor_(site.dig_floor), least_(radii * attitudes, nothing) {
+DigFloor::DigFloor(const MachineModel& machine, const SiteModel& site) : lowest_(site.dig_floor), least_(radii * attitudes, nothing) {
   double zone_floor = nothing;
   for (const DigZone& z : site.dig_zones) zone_floor = std::max(zone_floor, z.floor);
-  lowest_ = site_floor_;
   if (std::isinf(zone_floor)) return;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < radii; ++i)
@@ -55,7 +54,7 @@ DigFloor::DigFloor(const MachineModel& machine, const SiteModel& site) : site_fl
 // The highest of the four poses about it.
 double DigFloor::at(double r, double attitude) const {
   const double i = std::clamp((r - r_first) / r_step, 0.0, radii - 1.0), k = std::clamp((degrees(attitude) - attitude_first) / attitude_step, 0.0, attitudes - 1.0);
-  double z = std::max(site_floor_, lowest_);
+  double z = lowest_;
   for (const double row : {std::floor(i), std::ceil(i)})
     for (const double column : {std::floor(k), std::ceil(k)}) z = std::max(z, least_[static_cast<std::size_t>(row * attitudes + column)]);
   return z;

@@ -19,10 +19,11 @@ public:
   double at(double r, double attitude) const;
 
 private:
+  // The table reaches as far as a dig's surface is followed.
   static constexpr double r_first = 4.0, r_step = 0.25, attitude_first = -180.0, attitude_step = 8.0;  // m; degrees
-  static constexpr int radii = 20, attitudes = 13;
+  static constexpr int radii = 25, attitudes = 13;
 
-  double site_floor_ = 0.0, lowest_ = 0.0;
+  double lowest_;
   std::vector<double> least_;  // z by radius and attitude, the zones' floors alone
 };
 

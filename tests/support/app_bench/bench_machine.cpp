@@ -250,7 +250,7 @@ void BenchMachine::check() {
       continue;
     }
     const bool dig_zone = x > 3.9 && x < 10.5 && y > -4.2 && y < 4.2;
-    if (dig_zone && std::fabs(velocity_[swing]) < machine_.dig_swing_limit) floor = floor || z < -3.8;
+    if (dig_zone && std::fabs(velocity_[swing]) < machine_.dig_swing_limit) floor = floor || z < -3.4;
     else ground = ground || z < h + machine_.margin;
   }
   findings_.wall_contacts += wall;

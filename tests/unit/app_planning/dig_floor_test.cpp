@@ -75,11 +75,11 @@ TEST(DigFloor, ADragAlongTheFloorIsOneThatTheGuardPermits) {
     EXPECT_GT(box_floor(machine, path->at(s)), zone_floor(site) + Skyline::over_floor) << "after " << s << " of " << path->length() << " m";
 }
 
-// Else digs are stopped over their floor, and the face is left too early.
+// Where the face is small all of its soil is wanted, down to the floor of the digs; elsewhere a drag may end so far over it.
 TEST(DigFloor, TheShippedSitesZonesAreDeepEnoughForTheirDigs) {
-  struct Pair { const char *site, *machine; };
-  for (const Pair& pair : {Pair{"bench", "zx200"}, {"bench_small", "zx200"}, {"shift", "zx200"}, {"measured", "zx200"}, {"measured_shift", "zx200"},
-                           {"bench_12t", "excavator_12t"}, {"bench_25t", "excavator_25t"}}) {
+  struct Pair { const char *site, *machine; double over; };
+  for (const Pair& pair : {Pair{"measured", "zx200", 0.0}, {"measured_shift", "zx200", 0.0}, {"bench", "zx200", 0.5}, {"bench_small", "zx200", 0.5}, {"shift", "zx200", 0.5},
+                           {"bench_12t", "excavator_12t", 0.5}, {"bench_25t", "excavator_25t", 0.5}}) {
     const MachineModel machine = berm::app_bench::shipped_machine(pair.machine);
     const SiteModel site = berm::app_bench::shipped_site(pair.site);
     const double bearing = 0.5 * (site.dig_swing_left + site.dig_swing_right);
@@ -90,7 +90,10 @@ TEST(DigFloor, TheShippedSitesZonesAreDeepEnoughForTheirDigs) {
     DigGround ground(site);
     ground.observe(map);
     const DigPlan plan = plan_dig(machine, site, DigFloor(machine, site), ground, {1.1, bucket_width(machine), 1.0}, {bearing, site.dig_floor, site.dig_radius_end});
-    for (std::size_t i = 2; i + 2 < plan.drag.size(); ++i) EXPECT_NEAR(plan.drag[i].z, site.dig_floor, 0.051) << pair.site << " at r " << plan.drag[i].r;
+    for (std::size_t i = 2; i + 2 < plan.drag.size(); ++i) {
+      EXPECT_GE(plan.drag[i].z, site.dig_floor - 1e-9);
+      EXPECT_LE(plan.drag[i].z, site.dig_floor + 0.051 + pair.over) << pair.site << " at r " << plan.drag[i].r;
+    }
   }
 }
 

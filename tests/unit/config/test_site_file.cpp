@@ -17,7 +17,7 @@ TEST(SiteFileTest, TheDefaultInSiUnits) {
   EXPECT_DOUBLE_EQ(site.dig_zone[0].x_high, 10.5);
   EXPECT_DOUBLE_EQ(site.dig_zone[0].y_low, -4.2);
   EXPECT_DOUBLE_EQ(site.dig_zone[0].y_high, 4.2);
-  EXPECT_DOUBLE_EQ(site.dig_zone[0].floor, -3.8);
+  EXPECT_DOUBLE_EQ(site.dig_zone[0].floor, -3.4);
   EXPECT_DOUBLE_EQ(site.dig_zone[0].ceiling, 1.1);
   EXPECT_DOUBLE_EQ(site.pass_over, 0.8);
   ASSERT_EQ(site.ground_zone.size(), 3u);
