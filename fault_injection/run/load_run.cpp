@@ -82,7 +82,7 @@ class LoadRun {
     result_.pids[2] = app_.pid();
     result_.pids[3] = options_.journal ? processes_.journal.pid() : 0;
     memory_.watch(kernel_.pid(), app_.pid());
-    events_.say(fmt::format("plant {}, kernel {}, app {} on {}", plant_.pid(), kernel_.pid(), app_.pid(), addresses_.can));
+    events_.say(fmt::format("plant {}, kernel {}, app {} on {}", plant_.pid(), kernel_.pid(), app_.pid(), addresses_.can()));
     if (!uids_.separate) result_.notes.emplace_back("kernel and app share your uid; run as root to give each its own");
   }
 

@@ -26,7 +26,7 @@ void check_scenario(const RunInputs& inputs, const RunAddresses& addresses, cons
   ChildProcess plant;
   ChildOptions check;
   check.program = program_folder() + "/berm_plant";
-  check.arguments = {"--scenario", inputs.scenario, "--can", addresses.can, "--scan-port", addresses.scan_port.text(), "--out", folder.file("out"), "--check"};
+  check.arguments = {"--scenario", inputs.scenario, "--can", addresses.can(), "--scan-port", addresses.scan_port.text(), "--out", folder.file("out"), "--check"};
   if (!inputs.soil.empty()) check.arguments.insert(check.arguments.end(), {"--soil", inputs.soil});
   plant.start(check);
   if (!plant.wait_ended(kConnectPatience_s)) throw std::runtime_error("the plant does not end its check of the scenario");

@@ -17,7 +17,7 @@ struct RunInputs {
 // Where the run's processes hear one another, and no other run's.
 struct RunAddresses {
   ReservedPort can_port, scan_port;
-  std::string can = can_port.can_address();
+  std::string can() const { return can_port.can_address(); }
 };
 
 // Throws std::runtime_error with one line, or ToldAlready where plant or script checker has told what is wrong.

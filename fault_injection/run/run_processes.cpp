@@ -22,7 +22,7 @@ void RunProcesses::start_kernel_and_app(const Uids& uids) {
   ticks_.emplace(FilePair::packets());
   pace_.emplace(FilePair::packets());
 
-  std::vector<std::string> kernel_options{"--can", addresses_.can, "--scan-port", addresses_.scan_port.text()};
+  std::vector<std::string> kernel_options{"--can", addresses_.can(), "--scan-port", addresses_.scan_port.text()};
   for (std::size_t i = 0; i < lidar_count(inputs_.machine); ++i) lidar_options_.insert(lidar_options_.end(), {"--lidar-port", lidar_ports_.emplace_back().text()});
   kernel_options.insert(kernel_options.end(), lidar_options_.begin(), lidar_options_.end());
   if (!options_.realtime) kernel_options.push_back("--lockstep");
@@ -57,7 +57,7 @@ void RunProcesses::start_app(const Uids& uids) {
 void RunProcesses::start_plant() {
   ChildOptions child;
   child.program = program_folder() + "/berm_plant";
-  child.arguments = {"--scenario", inputs_.scenario, "--seed", std::to_string(options_.seed), "--trucks", std::to_string(options_.trucks), "--can", addresses_.can,
+  child.arguments = {"--scenario", inputs_.scenario, "--seed", std::to_string(options_.seed), "--trucks", std::to_string(options_.trucks), "--can", addresses_.can(),
                      "--scan-port", addresses_.scan_port.text(), "--out", out_, options_.realtime ? "--realtime" : "--lockstep",
                      "--tick-fd", std::to_string(kTickDescriptor), "--kernel-fd", std::to_string(kKernelDescriptor)};
   if (!inputs_.soil.empty()) child.arguments.insert(child.arguments.end(), {"--soil", inputs_.soil});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,9 @@ inline std::string one_line(std::string line) {
   }
   return line;
 }
+
+// To standard error, for programs that have no fmt (else print_error).
+inline void put_error(const std::string& words) { std::fputs(one_line(words + "\n").c_str(), stderr); }
 
 // As a message quotes what a file holds: its beginning, with a '?' for what is not printable ASCII, and "..." where more follows.
 inline std::string excerpt(std::string_view text, std::size_t most = 60) {

@@ -24,7 +24,7 @@ void install_handlers() {
 }
 
 int fail(const std::string& error) {
-  std::fputs(berm::config::one_line("berm_kernel: " + error + "\n").c_str(), stderr);
+  berm::config::put_error("berm_kernel: " + error);
   return EXIT_FAILURE;
 }
 

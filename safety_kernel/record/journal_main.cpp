@@ -42,7 +42,7 @@ constexpr const char* kHelp =
     "At the kernel's end it prints one line of JSON: cycles, lost, bytes. Status 0 when the file is complete (lost records do not change that).\n";
 
 int fail(const std::string& error) {
-  std::fputs(berm::config::one_line("berm_journal: " + error + "\n").c_str(), stderr);
+  berm::config::put_error("berm_journal: " + error);
   return EXIT_FAILURE;
 }
 

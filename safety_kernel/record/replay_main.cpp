@@ -32,7 +32,7 @@ constexpr const char* kHelp =
     "Exit status 0: every decision was reproduced and nothing was lost. 1: not so. 2: the file cannot be used.\n";
 
 int fail(const std::string& error) {
-  std::fputs(berm::config::one_line("berm replay: " + error + "\n").c_str(), stderr);
+  berm::config::put_error("berm replay: " + error);
   return kUnusable;
 }
 

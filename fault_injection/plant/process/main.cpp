@@ -10,6 +10,7 @@
 #include <exception>
 
 #include "config/command_line.hpp"
+#include "config/standard_error.hpp"
 #include "plant/machine/kinematics.hpp"
 #include "plant/machine/strict_table.hpp"
 #include "plant/process/plant_run.hpp"
@@ -82,7 +83,7 @@ int run(int argc, char** argv) {
     check_start(scenario_file, scenario, profile);
     if (!check_only) PlantRun(scenario, profile, options).run();
   } catch (const ConfigError& error) {
-    std::fputs(berm::config::one_line(std::string(error.what()) + "\n").c_str(), stderr);
+    berm::config::print_error("{}\n", error.what());
     return kBadInput;
   }
   return 0;
@@ -94,7 +95,7 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
-    std::fputs(berm::config::one_line("berm_plant: " + std::string(error.what()) + "\n").c_str(), stderr);
+    berm::config::print_error("berm_plant: {}\n", error.what());
     return 1;
   }
 }

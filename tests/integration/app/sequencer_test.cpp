@@ -392,6 +392,20 @@ TEST(Sequencer, ABucketThatTheWeighingHasNotSeenIsWeighedByThePressures) {
   expect_no_contact(run);
 }
 
+// Somebody else took the soil: the weighing shows nothing, and that is what is booked, not what was planned.
+TEST(Sequencer, ABucketThatWasWeighedToHoldNothingIsBookedEmpty) {
+  const app_bench::Events events;
+  Loading run(1, start_pose(), events.fd());
+  while (run.last.phase != BERM_PHASE_DIG && run.seconds < 60.0) run.step();
+  for (double r = 4.6; r < 8.4; r += 0.05) run.plant.site().cut(r, 0.0, 0.0, 1.6, -3.2);
+  while (events.named("pass").empty() && run.seconds < 120.0)
+    for (int k = 0; k < 10; ++k) run.step();
+  const auto passes = events.named("pass");
+  ASSERT_EQ(passes.size(), 1U);
+  ASSERT_EQ(run.plant.site().bed_mass(), 0.0) << "there was soil: the test shows nothing";
+  EXPECT_EQ(passes[0].at("payload_kg").get<double>(), 0.0);
+}
+
 // A bucket that stays low hides the ground round it until that is too old to move over. Here the face is dug out when the next truck is due: up, and ahead of
 // the machine for the bench move.
 TEST(Sequencer, WaitsForABenchMoveWithTheImplementsUpAndAhead) {

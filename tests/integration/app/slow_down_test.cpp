@@ -184,6 +184,18 @@ TEST(SlowedBucket, IsGivenTheTimeToOpen) {
   EXPECT_GT(opened_to(quarter), opened_to(1.0) - 3.0);
 }
 
+// As while the kernel learns the ground: a drag at a tenth comes after its path late, and is no stall.
+TEST(SlowedDig, AtATenthStillFillsTheBucket) {
+  constexpr double tenth = 0.1;
+  Loading run(1, start_pose());
+  for (std::size_t j = 0; j < joints; ++j) run.plant.most_speed[j] = tenth * run.machine.joint[j].velocity_max;
+  double dig_s = 0.0;
+  for (; run.seconds < 300.0 && run.last.phase != BERM_PHASE_SWING_TO_TRUCK; run.step()) dig_s += run.last.phase == BERM_PHASE_DIG ? run.machine.cycle : 0.0;
+  ASSERT_LT(run.seconds, 300.0) << "it did not dig";
+  EXPECT_GT(dig_s, 10.0) << "it was not slowed: the test shows nothing";
+  EXPECT_GT(run.plant.payload_kg(), 1100.0);
+}
+
 TEST(SlowedArm, EveryJointAtAQuarterStillDumpsIntoTheBed) {
   Loading run(1, start_pose());
   go_to_swing(run, 1);

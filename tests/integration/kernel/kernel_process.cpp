@@ -23,18 +23,6 @@ namespace {
 
 constexpr int kPatienceMs = 10000;
 
-std::uint16_t free_port() {
-  const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  bind(fd, reinterpret_cast<sockaddr*>(&address), size);
-  getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
-  close(fd);
-  return ntohs(address.sin_port);
-}
-
 bool wait_readable(int fd, int ms) {
   pollfd wait{fd, POLLIN, 0};
   return poll(&wait, 1, ms) == 1;
@@ -99,14 +87,11 @@ KernelProcess::KernelProcess(const std::vector<std::string>& extra, bool with_ma
   char name[] = "/tmp/berm-kernel-XXXXXX";
   folder_ = mkdtemp(name);
   socket_path_ = folder_ + "/kernel.sock";
-  scan_port_ = free_port();
-  vlp16_port_ = free_port();
-  can_address_ = "udp:239.255.66." + std::to_string(1 + getpid() % 250) + ":" + std::to_string(free_port());
   const berm_parameters parameters = demo_parameters();
   config::save_parameters(parameters, folder_ + "/parameters");
   machine = std::make_unique<MiniMachine>(parameters);
   udp_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (with_machine && !can_.open(can_address_).empty()) return;
+  if (with_machine && !can_.open(can_port_.can_address()).empty()) return;
   start(extra, with_machine);
 }
 
@@ -131,8 +116,8 @@ void KernelProcess::start(const std::vector<std::string>& extra, bool with_machi
   int ready[2], output[2];
   if (pipe2(ready, O_CLOEXEC) != 0 || pipe2(output, O_CLOEXEC) != 0) return;
   std::vector<std::string> words = {BERM_KERNEL, "--parameters", folder_ + "/parameters", "--socket", socket_path_, "--ready-fd", "10"};
-  if (with_machine) words.insert(words.end(), {"--can", can_address_, "--scan-port", std::to_string(scan_port_)});
-  if (!with_machine) words.insert(words.end(), {"--map-only", "--vlp16-port", std::to_string(vlp16_port_)});
+  if (with_machine) words.insert(words.end(), {"--can", can_port_.can_address(), "--scan-port", scan_port_.text()});
+  if (!with_machine) words.insert(words.end(), {"--map-only", "--vlp16-port", vlp16_port_.text()});
   words.insert(words.end(), extra.begin(), extra.end());
   std::vector<char*> arguments;
   for (auto& word : words) arguments.push_back(word.data());
@@ -158,7 +143,7 @@ void KernelProcess::send_datagram(std::uint16_t port, const std::vector<std::uin
   to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   to.sin_port = htons(port);
   sendto(udp_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to);
-  if (port == scan_port_) ++packets_sent_;
+  if (port == scan_port()) ++packets_sent_;
 }
 
 bool KernelProcess::step() {
@@ -169,7 +154,7 @@ bool KernelProcess::step() {
   for (const auto& packet : machine->packets()) {
     std::vector<std::uint8_t> bytes(BERM_SCAN_PACKET_MAX_BYTES);
     bytes.resize(berm_scan_encode(&packet, bytes.data()));
-    send_datagram(scan_port_, bytes);
+    send_datagram(scan_port(), bytes);
   }
   const berm_sim_clock clock{machine->cycle(), packets_sent_};
   can_.send(berm_encode_sim_clock(&clock));

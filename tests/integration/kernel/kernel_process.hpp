@@ -11,6 +11,7 @@
 #include "can/can_transport.hpp"
 #include "contract/berm_contract.h"
 #include "mini_machine.hpp"
+#include "run/reserved_port.hpp"
 
 namespace berm::test {
 
@@ -51,8 +52,8 @@ class KernelProcess {
 
   bool started() const { return started_; }
   const std::string& socket_path() const { return socket_path_; }
-  std::uint16_t scan_port() const { return scan_port_; }
-  std::uint16_t vlp16_port() const { return vlp16_port_; }
+  std::uint16_t scan_port() const { return scan_port_.number(); }
+  std::uint16_t vlp16_port() const { return vlp16_port_.number(); }
 
   // One cycle of the machine: frames, packets, clock; waits for the heartbeat of that cycle. False when none came in time.
   bool step();
@@ -74,8 +75,8 @@ class KernelProcess {
  private:
   void start(const std::vector<std::string>& extra, bool with_machine);
 
-  std::string folder_, socket_path_, can_address_;
-  std::uint16_t scan_port_ = 0, vlp16_port_ = 0;
+  std::string folder_, socket_path_;
+  const run::ReservedPort can_port_, scan_port_, vlp16_port_;
   pid_t pid_ = -1;
   int output_ = -1;
   int udp_ = -1;

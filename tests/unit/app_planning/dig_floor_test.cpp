@@ -27,16 +27,28 @@ TEST(DigFloor, WhereItIsLowestTheGuardLetsTheBucketTouchTheGround) {
   constexpr std::uint32_t seed = 20261127;
   std::mt19937 draw(seed);
   std::uniform_real_distribution<double> radius(5.0, 8.0), attitude(radians(-172.0), radians(-85.0));
-  int reached = 0;
+  constexpr double spare = 0.3;  // m: what a drag needs beyond standing still, and the table's steps
+  const Skyline skyline(machine, site, [&](double x, double y) { return in_dig_zone(site, x, y) ? 0.0 : -9.0; });  // soil everywhere about the bucket
+  const auto held = [&](const Joints& standing) {
+    const auto blocking = skyline.blocking(preview(machine, standing, {}));
+    return blocking && blocking->of_ground();
+  };
+  int reached = 0, bound = 0, refused = 0;
   for (int i = 0; i < 500; ++i) {
     const double r = radius(draw), a = attitude(draw), z = floor.at(r, a);
     EXPECT_GE(z, site.dig_floor);
     const auto pose = pose_at(machine, {r, z, a});
     if (!pose) continue;
     ++reached;
-    EXPECT_GT(box_floor(machine, *pose), zone_floor(site) + Skyline::over_floor) << "r " << r << " attitude " << degrees(a) << ", seed " << seed;
+    EXPECT_FALSE(held(*pose)) << "r " << r << " attitude " << degrees(a) << ", seed " << seed;
+    EXPECT_GT(box_floor(machine, *pose), zone_floor(site) + Skyline::over_floor);
+    const auto lower = pose_at(machine, {r, z - spare, a});
+    refused += lower && z > site.dig_floor && held(*lower);
+    bound += lower && z > site.dig_floor;
   }
   EXPECT_GT(reached, 200);
+  EXPECT_GT(bound, 50);
+  EXPECT_GE(refused, 8 * bound / 10) << "of " << bound << ": elsewhere soil is left that might be dug";
 }
 
 TEST(DigFloor, RisesAsTheBucketCurlsForItsShellLiesUnderTheTip) {
