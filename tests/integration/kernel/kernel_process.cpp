@@ -115,7 +115,7 @@ KernelProcess::~KernelProcess() {
 void KernelProcess::start(const std::vector<std::string>& extra, bool with_machine) {
   int ready[2], output[2];
   if (pipe2(ready, O_CLOEXEC) != 0 || pipe2(output, O_CLOEXEC) != 0) return;
-  std::vector<std::string> words = {BERM_KERNEL, "--parameters", folder_ + "/parameters", "--socket", socket_path_, "--ready-fd", "10"};
+  std::vector<std::string> words = {BERM_KERNEL, "--parameters", folder_ + "/parameters", "--socket", socket_path_, "--ready-fd", std::to_string(ready[1])};
   if (with_machine) words.insert(words.end(), {"--can", can_port_.can_address(), "--scan-port", scan_port_.text()});
   if (!with_machine) words.insert(words.end(), {"--map-only", "--vlp16-port", vlp16_port_.text()});
   words.insert(words.end(), extra.begin(), extra.end());
@@ -124,7 +124,7 @@ void KernelProcess::start(const std::vector<std::string>& extra, bool with_machi
   arguments.push_back(nullptr);
   pid_ = fork();
   if (pid_ == 0) {
-    dup2(ready[1], 10);
+    fcntl(ready[1], F_SETFD, 0);  // kept at its own number: a number chosen here might be that one already, and then dup2() would not keep it
     dup2(output[1], 1);
     execv(BERM_KERNEL, arguments.data());
     _exit(127);

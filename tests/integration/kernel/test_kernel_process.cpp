@@ -341,6 +341,15 @@ TEST(KernelStart, BadInputIsOneLineAndAFailure) {
   }
 }
 
+TEST(KernelStart, IsReadyWhateverDescriptorsItsCallerHasOpen) {
+  std::vector<int> taken;
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_TRUE(KernelProcess({}, false).started()) << i << " more descriptors open";
+    taken.push_back(open("/dev/null", O_RDONLY | O_CLOEXEC));
+  }
+  for (const int fd : taken) close(fd);
+}
+
 // verifies: SK-CY-60
 TEST(KernelStart, ABlockThatIsWrongInOnePointIsRefusedBeforeAnythingIsOpened) {
   const struct {
