@@ -126,7 +126,7 @@ void Peers::wait_for(std::uint64_t cycle, int stop_fd, Whom whom) {
     if (peer == nullptr) return;
     if (peer != waited_for) begin = Clock::now();  // each peer has its own time
     waited_for = peer;
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::seconds(was_heard(peer) ? fd_.silence_s : fd_.first_contact_s) - (Clock::now() - begin)).count();
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(std::chrono::seconds(was_heard(peer) ? fd_.silence_s : fd_.first_contact_s) - (Clock::now() - begin)).count();
     if (left <= 0) {
       if (peer == &kernel_ && !was_heard(peer))
         throw std::runtime_error(fmt::format("the kernel never answered: no heartbeat within {} s of the first clock frame (is the computer too busy?)", fd_.first_contact_s));
