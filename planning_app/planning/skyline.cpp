@@ -11,7 +11,7 @@ namespace {
 
 constexpr double unknown_height = 0.0;   // the bench the machine stands on
 constexpr double own_slack = 0.10;       // beyond the kernel's margin: the kernel's slices are wider than the implements
-constexpr double own_diagonal = 0.43;    // of a cell: so far beyond its own body's circle the kernel asks nothing of the boom
+constexpr double own_diagonal = 0.425;   // of a cell: of those wholly within its own body's circle and so far beyond it the kernel asks nothing of the boom
 constexpr double own_rim = 0.55;         // the kernel closes the cells that its own body's circle touches, too
 constexpr double lateral_step = 0.2;     // of the search across the implements' width; at most a terrain cell
 constexpr double wall_thickness = 0.3;   // generous
@@ -148,7 +148,8 @@ Skyline::Skyline(const MachineModel& machine, const SiteModel& site, const Groun
       double z = 0.0;
       ground(&x, &y, &z, 1);
       // Exactly unknown_height: never observed, and whoever asks for it so takes it for free.
-      if (z != unknown_height && z > pass_over_limit(site, x, y)) too_high_[static_cast<std::size_t>(iy * cells_side + ix)] = 1;
+      const bool own = std::hypot(std::fabs(x) + 0.5 * cell, std::fabs(y) + 0.5 * cell) <= machine.own_body_radius + own_diagonal;
+      if (!own && z != unknown_height && z > pass_over_limit(site, x, y)) too_high_[static_cast<std::size_t>(iy * cells_side + ix)] = 1;
     }
   no_passing_.assign(static_cast<std::size_t>(over_bearings * LowerEdge::bins), 0);
   for (int b = 0; b < over_bearings; ++b)
@@ -214,8 +215,8 @@ std::optional<Skyline::Blocking> Skyline::blocking(const ReachIntervals& box) co
   const auto too_high = [&](double bearing, int bin) { return Blocking{Blocking::What::too_high, bearing, (bin + 0.5) * LowerEdge::bin_m, height(bearing, bin)}; };
   constexpr double over_step = 2.0 * std::numbers::pi / over_bearings;
   const int first = static_cast<int>(std::ceil(box.low[swing] / over_step)), last = static_cast<int>(std::floor(box.high[swing] / over_step));
-  // The boom, too: from the own body's circle on, a cell's diagonal round it, to the implements' reach something is over every bin.
-  const int nearest = static_cast<int>(std::ceil((machine_->own_body_radius + own_diagonal) / LowerEdge::bin_m - 0.5));
+  // The boom, too: from the own body's circle on to the implements' reach something is over every bin.
+  const int nearest = static_cast<int>(machine_->own_body_radius / LowerEdge::bin_m);
   for (int bin = nearest; bin < LowerEdge::bins && bin * LowerEdge::bin_m < edge.reach(); ++bin) {
     for (const double end : {box.low[swing], box.high[swing]})
       if (!may_pass(end, bin)) return too_high(end, bin);

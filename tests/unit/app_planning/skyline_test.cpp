@@ -177,6 +177,22 @@ TEST(Skyline, TheBoomPassesOverNothingTooHighEither) {
   EXPECT_TRUE(clear(8.0, 1.4, Skyline::OverHigh::refused)) << "beyond the bucket";
 }
 
+// A cell that begins right at the own body's circle is not all of it within the circle and a diagonal: the kernel stops the boom before it.
+TEST(Skyline, TheBoomPassesOverNoCellThatTheCircleLeavesOut) {
+  const MachineModel m = berm::app_bench::zx200();
+  const SiteModel site = berm::app_bench::bench_with_truck();
+  const auto blocks = [&](double x, double y) {
+    TerrainMap post;  // a cell of the kernel's map and no more
+    for (double dx = -0.1; dx < 0.15; dx += 0.1)
+      for (double dy = -0.1; dy < 0.15; dy += 0.1) post.insert(x + dx, y + dy, 1.17, 1.0);
+    const Joints carried{std::atan2(y, x), radians(42.6), radians(-70.0), radians(-73.5)};
+    const auto blocking = Skyline(m, site, ground_of(post), Skyline::OverHigh::refused).blocking(preview(m, carried, {}));
+    return std::string(blocking ? blocking->name() : "nothing");
+  };
+  EXPECT_EQ(blocks(1.65, 2.85), "too high to pass over") << "its far corner is 3.50 m from the swing axis";
+  EXPECT_EQ(blocks(2.25, 2.25), "nothing") << "3.39 m: of the machine's own";
+}
+
 TEST(Skyline, WhatIsOfTheParkedTruck) {
   const SiteModel site = berm::app_bench::bench_with_truck();
   const TruckBed& bed = *site.bed;
