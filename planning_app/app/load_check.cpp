@@ -17,10 +17,10 @@ constexpr double full_kg_per_rad = 900.0;         // about what a full bucket lo
 constexpr double resting = radians(-163.0);       // before this tilt nothing slides
 constexpr double full_kg = 1600.0, full_slides = radians(-158.0), empty_at = radians(-58.0);  // by the scale of the load, and evenly between: when it begins
 constexpr double slides_sooner = radians(10.0);   // a soil that rests less steeply
-constexpr double closing_s = 1.2;                 // the tilt's time constant, above the weighing's delay
-constexpr double slowest = radians(3.0), fastest = radians(45.0);
+constexpr double closing_s = 1.2, closes_fast_s = 1.0;  // the tilt's time constant, above the weighing's delay
+constexpr double slowest = radians(3.0), fastest = radians(45.0), with_arm = radians(38.0);  // the last: the arm stays ahead of the bucket
 constexpr double slides_kg = 40.0, not_yet = radians(15.0);  // by the scale of the load: less gone is noise, and a small load lies still up to a steep tilt
-constexpr double under_way_s = 0.8;               // from the tilt to the weighing that shows what it let go
+constexpr double under_way_s = 1.2;               // from the tilt to the weighing that shows what it let go
 constexpr double under_way_share = 0.004;         // of the truck's target, at most: it may not come, and in a small truck it would be missed
 
 // Up to this tilt a load of so much lies still. In simulation it began to slide 3 degrees before the line at most (33 parts of 367 to 1604 kg, sandy clay).
@@ -83,8 +83,12 @@ double LoadCheck::step(const Lifted& now, const TruckFill& fill, const ProgressL
       const double kg_per_rad = full_kg_per_rad * load_scale_;
       const double still_in = recent_.kg() > 0.0 ? recent_.kg() : lifted_, excess = still_in - rest_;
       const double slow = lifted_ - still_in < slides_kg * load_scale_ ? not_yet : slowest;
-      const double rate = now.attitude < lies_still_until(lifted_, load_scale_) ? fastest : std::clamp(excess / (kg_per_rad * closing_s), slow, fastest);
       const double under_way_kg = std::min(slowest * kg_per_rad * under_way_s, under_way_share * fill.target_kg());
+      // Where that is not held to a small truck's share there is room for what goes on sliding: fast until what is to stay would slide.
+      const bool fast = under_way_kg < under_way_share * fill.target_kg();
+      const double rate = now.attitude < lies_still_until(lifted_, load_scale_)     ? fastest
+                          : fast && now.attitude < lies_still_until(rest_, load_scale_) ? with_arm
+                                                                                        : std::clamp(excess / (kg_per_rad * (fast ? closes_fast_s : closing_s)), slow, fast ? with_arm : fastest);
       if (excess > under_way_kg && now.attitude < steepest) return rate;
       keeps_rest_ = true;
       enter(Stage::passed, now.time_s);

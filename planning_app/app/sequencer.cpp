@@ -55,8 +55,8 @@ void Sequencer::begin_script(const Script& script) {
 }
 
 void Sequencer::begin_approach(const Observation& o, bool lower) {
-  goal_kg_ = next_goal_kg(o);
-  plan_next_dig(o);
+  goal_kg_ = next_goal_kg(o, middle_of_digs(site_));
+  plan_next_dig(o, 0.0);
   std::optional<PlanePoint> entry;
   if (lower) entry = PlanePoint{dig_.drag.front().r, dig_.drag.front().z};
   const auto script = approach_script(scripts_, machine_, {o.angle, dig_.bearing, site_.bed->wall_top, entry, brings_load_});

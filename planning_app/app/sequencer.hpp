@@ -71,7 +71,7 @@ private:
   Joints curl(const Observation& o);
   Joints pass(const Observation& o);
   Joints pass_goals(const Observation& o);
-  void plan_next_dig(const Observation& o);
+  void plan_next_dig(const Observation& o, double dump_beyond);
   void tell_region(const Observation& o, const RegionDig& next) const;
   DigNeeds needs_for(double kg) const;
   void note_cut(const Observation& o);
@@ -112,8 +112,8 @@ private:
   void begin_dig(const Observation& o);
   void begin_curl(const Observation& o);
   void plan_dump(const Observation& o);
-  DumpPoint dump_point(const Observation& o, double goal_kg) const;
-  double next_goal_kg(const Observation& o) const;
+  DumpPoint dump_point(const Observation& o, double goal_kg, double dig_bearing) const;
+  double next_goal_kg(const Observation& o, double dig_bearing) const;
   bool more_fits(const Observation& o) const;
   void begin_pass_search(const Observation& o, const Joints& lifted_from);
   static constexpr double empty_share = 0.05;  // of a full bucket: what holds no more than that and what sticks is empty

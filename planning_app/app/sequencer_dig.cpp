@@ -59,10 +59,12 @@ void Sequencer::tell_region(const Observation& o, const RegionDig& next) const {
                         {"end_m", to.bounds.end_radius}, {"why", why}, {"columns_dug_out", next.left}});
 }
 
-void Sequencer::plan_next_dig(const Observation& o) {
+void Sequencer::plan_next_dig(const Observation& o, double dump_beyond) {
   const auto began = std::chrono::steady_clock::now();
   ground_.observe(terrain_);
-  RegionDig next = next_dig(machine_, site_, dig_floor_, ground_, needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg_), region_);
+  DigNeeds needs = needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg_);
+  needs.dump_beyond = dump_beyond;
+  RegionDig next = next_dig(machine_, site_, dig_floor_, ground_, needs, region_);
   const double plan_ms = milliseconds_since(began);
   tell_region(o, next);
   dig_ = std::move(next.plan);
@@ -72,7 +74,7 @@ void Sequencer::plan_next_dig(const Observation& o) {
 }
 
 void Sequencer::begin_dig(const Observation& o) {
-  goal_kg_ = next_goal_kg(o);
+  goal_kg_ = next_goal_kg(o, o.angle[swing]);
   const DigNeeds needs = needs_for(goal_kg_);
   ground_.observe(terrain_);
   cut_.emplace(machine_, SurfaceProfile(ground_, o.angle[swing], needs.bucket_width), needs.bucket_width);
@@ -198,27 +200,29 @@ void Sequencer::begin_curl(const Observation& o) {
 }
 
 // The bucket is not weighed yet: it is to bring its goal, and the passes after it the rest.
-DumpPoint Sequencer::dump_point(const Observation& o, double goal_kg) const {
+DumpPoint Sequencer::dump_point(const Observation& o, double goal_kg, double dig_bearing) const {
   DumpNeeds needs;
   needs.bucket_half_width = 0.5 * bucket_width(machine_);
   needs.scale = scale_;
   needs.since_s = o.time_s - bed_points_age;
   needs.dump_kg = goal_kg;
-  needs.most_kg = fill_.must_weigh(heaped_kg_) ? goal_kg : heaped_kg_;
+  needs.may_be_part = fill_.must_weigh(heaped_kg_);
+  needs.most_kg = needs.may_be_part ? goal_kg : heaped_kg_;
   needs.rest_kg = std::max(0.0, fill_.rest_kg() - goal_kg);
   needs.farthest_radius = farthest_dump(machine_, site_.bed->wall_top);
+  needs.dig_beyond = wrapped(middle_of_digs(site_) - dig_bearing);
   return choose_dump_point(*bed_, needs);
 }
 
 // No more than stays in the bucket until it is over the place where it will go.
-double Sequencer::next_goal_kg(const Observation& o) const {
+double Sequencer::next_goal_kg(const Observation& o, double dig_bearing) const {
   const double goal_kg = fill_.next_goal_kg();
-  return std::min(goal_kg, heaped_kg_ * share_at_reach(machine_, site_.bed->wall_top, dump_point(o, goal_kg).radius));
+  return std::min(goal_kg, heaped_kg_ * share_at_reach(machine_, site_.bed->wall_top, dump_point(o, goal_kg, dig_bearing).radius));
 }
 
 // Whether the next pass's soil finds a place under the truck zone's ceiling.
 bool Sequencer::more_fits(const Observation& o) const {
-  const DumpPoint next = dump_point(o, fill_.next_goal_kg());
+  const DumpPoint next = dump_point(o, fill_.next_goal_kg(), dig_.bearing);
   if (next.fits) return true;
   log_.event("heap_full", {{"time_s", o.time_s}, {"truck", truck_}, {"height_m", next.heap_top}, {"loaded_kg", fill_.loaded_kg()}, {"target_kg", site_.place.target_kg},
                            {"why", "wherever the next bucket were dumped the heap would stand too near to the truck zone's ceiling"}});
@@ -227,7 +231,7 @@ bool Sequencer::more_fits(const Observation& o) const {
 
 void Sequencer::plan_dump(const Observation& o) {
   const auto began = std::chrono::steady_clock::now();
-  dump_ = dump_point(o, goal_kg_);
+  dump_ = dump_point(o, goal_kg_, o.angle[swing]);
   nlohmann::ordered_json fields{{"time_s", o.time_s}, {"u_m", dump_.at.u}, {"v_m", dump_.at.v}, {"height_m", dump_.height}, {"bed_observed", dump_.observed},
                       {"seen_share", dump_.seen_share}, {"load_centre_u_m", dump_.load_centre.u}, {"load_centre_v_m", dump_.load_centre.v},
                       {"passes_left", fill_.passes_left()}, {"plan_ms", milliseconds_since(began)}};
@@ -241,7 +245,7 @@ void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_fro
   const bool more = !fill_.full_with(goal_kg_);
   const double here = o.angle[swing];
   dig_.bearing = here;
-  plan_next_dig(o);
+  plan_next_dig(o, wrapped(dump_.bearing - std::atan2(site_.bed->centre_y, site_.bed->centre_x)));
   task_ = PassTask{lifted_from, dump_.bearing, dump_.radius, dig_.bearing, {dig_.drag.front().r, dig_.drag.front().z}, site_.bed->wall_top, site_.bed->wall_top, sticking_.open_farther(), brakes_.known(), more};
   task_.lifted_from[swing] = here;
   const Skyline skyline(machine_, site_, kernel_map_.ground(KernelMap::Unseen::level), Skyline::OverHigh::refused);

@@ -25,6 +25,7 @@ struct DigNeeds {
   double volume = 1.1;              // bank m3 wanted
   double bucket_width = 1.1;        // m
   double deepest = 1.0;             // most vertical depth under the surface, m
+  double dump_beyond = 0.0;         // rad: by how much the bucket swings farther back from the last dump than from the bed's middle, in the sense of the swing there
   double effort = 135e3;            // J that cutting a bucket takes half a metre under the surface
 };
 

@@ -37,6 +37,9 @@ std::vector<double> column_bearings(const SiteModel& site) {
   return bearings;
 }
 
+// s for a radian beyond the digs' middle after a dump that lies a radian beyond the bed's: from a far dump to a near dig.
+constexpr double swing_s = 12.0;
+
 // What of the order a region costs, s. Left to right is free; what slid into the last cut is missing beside it.
 double order_cost(const DigRegion& region, const DigRegion& last) {
   constexpr double beside_s = 0.675, leftward_s = 0.09, beside = radians(9.0);
@@ -73,12 +76,13 @@ RegionDig next_dig(const MachineModel& machine, const SiteModel& site, const Dig
   RegionDig best;
   double best_cost = INFINITY;
   const std::vector<DigRegion> regions = dig_regions(site, floor, needs);
+  const double middle = middle_of_digs(site);
   for (std::size_t k = 0; k < regions.size(); ++k) {
     const bool new_group = k > 0 && (regions[k].bench != regions[k - 1].bench || regions[k].reach != regions[k - 1].reach);
     if (new_group && best.plan.volume >= enough * needs.volume) break;
     DigPlan plan = plan_dig(machine, site, floor, ground, needs, regions[k].bounds);
     if (plan.volume < enough * needs.volume) ++best.left;
-    const double cost = plan.cost + order_cost(regions[k], last);
+    const double cost = plan.cost + order_cost(regions[k], last) + swing_s * needs.dump_beyond * (middle - regions[k].bounds.bearing);
     if (cost >= best_cost) continue;
     best_cost = cost;
     best.region = regions[k];

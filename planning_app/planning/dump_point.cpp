@@ -25,6 +25,9 @@ constexpr double offset_limit = 0.07;    // m: what of the load's centre's offse
 constexpr double offset_price = 5.0;     // m of height for a metre of offset
 // m from the truck zone's ceiling: a heap that comes nearer is avoided, for forecasts came out up to 0.19 m too low; where none stays so low, the lowest is taken, down to the least.
 constexpr double under_ceiling = 0.2, least_under_ceiling = 0.1;
+constexpr double swing_price = 3.0;      // m of height for a radian beyond the bed's middle after a dig that lies a radian beyond the digs' middle: far digs go to the near end ...
+constexpr double swing_passes = 2.0;     // ... the less, the fewer passes are left to bring the balance back; with so many half as much
+constexpr double part_price = 0.25, part_room = 2.2;  // m of height for a metre that a part is poured nearer to the truck zone's end than this, m: beyond it the cab holds the arm up
 constexpr double middle_price = 0.02;    // m of height for a metre from the middle: of equal cells the one nearest to it
 
 double bearing_of(const TruckBed& bed, const BedPoint& p) {
@@ -142,6 +145,8 @@ DumpPoint choose_dump_point(const BedMap& map, const DumpNeeds& needs) {
   const std::vector<double> height = convolved(load_heights, constant_template()), hole = convolved(load_heights, hole_template()),
                             along = convolved(load_heights, slope_template(true)), over = convolved(load_heights, slope_template(false));
   // Poured short of its place where it is sure to fall beyond.
+  const double middle = bearing_of(bed, {});
+  const double swing = swing_price * needs.dig_beyond * needs.rest_kg / (needs.rest_kg + swing_passes * std::fmax(1.0, needs.dump_kg));
   const double lead = std::fmax(0.0, -inward(needs.most_kg, needs.scale));
   struct Candidate { BedPoint at; double price = 0.0; BedPoint load_centre; };
   std::vector<Candidate> candidates;
@@ -155,7 +160,8 @@ DumpPoint choose_dump_point(const BedMap& map, const DumpNeeds& needs) {
       const double least = std::fmax(least_final_offset(with, needs.rest_kg, area), least_offset_when_full(bed, area, needs, load, at));
       const double offset = std::fmax(0.0, least - offset_limit);
       const double price = height[i] - hole_price * hole[i] + slope_price * std::hypot(along[i], over[i]) + beyond_price * std::hypot(under.u - cell.u, under.v - cell.v) +
-                           offset_price * offset + middle_price * std::hypot(under.u, under.v);
+                           offset_price * offset + middle_price * std::hypot(under.u, under.v) + swing * (bearing_of(bed, under) - middle) +
+                           (needs.may_be_part ? part_price * std::fmax(0.0, part_room - std::fmin(bed.zone_high - under.u, under.u - bed.zone_low)) : 0.0);
       candidates.push_back({at, price, with.centre()});
     }
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.price < b.price; });

@@ -28,6 +28,8 @@ struct DumpNeeds {
   double rest_kg = 0.0;            // of the passes after it
   double farthest_radius = std::numeric_limits<double>::infinity();  // of a dump point from the swing axis, m
   ImplementScale scale;
+  bool may_be_part = false;        // of the bucket only a part may be poured
+  double dig_beyond = 0.0;         // rad: by how much the bucket swings farther to the truck than from the middle of the digs, in the sense of the swing
 };
 
 struct DumpPoint {

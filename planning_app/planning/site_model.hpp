@@ -42,4 +42,6 @@ struct SiteModel {
   double bench_height = std::numeric_limits<double>::infinity();  // a higher face is taken from the top, bench by bench
 };
 
+inline double middle_of_digs(const SiteModel& site) { return 0.5 * (site.dig_swing_left + site.dig_swing_right); }
+
 }  // namespace berm::app

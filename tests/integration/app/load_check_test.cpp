@@ -37,8 +37,8 @@ struct Bucket {
 struct Outcome { double poured = 0.0, lifted = 0.0, seconds = 0.0; bool tilted = false, keeps = false; };
 
 // lifted_s: until then it is on its way up. pressures: what it weighs by them is known, too, a hundred times a second.
-Outcome run(double loaded, double in_bucket, unsigned seed, double blind_s = 3.0, double over_bed_s = 5.0, double lifted_s = 0.0, bool pressures = false) {
-  TruckFill fill(target, full_bucket);
+Outcome run(double loaded, double in_bucket, unsigned seed, double blind_s = 3.0, double over_bed_s = 5.0, double lifted_s = 0.0, bool pressures = false, double truck = target) {
+  TruckFill fill(truck, full_bucket);
   fill.add_pass(loaded, 0.0);
   Bucket bucket(in_bucket, seed);
   LoadCheck check;
@@ -112,6 +112,24 @@ TEST(LoadCheck, ASmallLoadIsTiltedFastUntilItMaySlide) {
     EXPECT_TRUE(out.keeps);
     EXPECT_NEAR(out.poured, 290.0, 75.0) << "seed " << seed;
     EXPECT_LT(out.seconds, 5.0 + 5.0) << "seed " << seed;
+  }
+}
+
+// What goes on sliding when the tilt ends is less of it.
+TEST(LoadCheck, APartIsPouredFasterIntoALargeTruck) {
+  constexpr double large = 18000.0, over_bed_s = 5.0;
+  for (const double lacks : {600.0, 1000.0, 1400.0}) {
+    double mean_s = 0.0;
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+      const double loaded = TruckFill::part_share * large - lacks;
+      const Outcome out = run(loaded, 1600.0, seed, 3.0, over_bed_s, 0.0, false, large);
+      EXPECT_TRUE(out.keeps);
+      EXPECT_NEAR(loaded + out.poured, TruckFill::part_share * large, 0.004 * large) << lacks << " kg, seed " << seed;
+      mean_s += (out.seconds - over_bed_s) / 20.0;
+    }
+    if (lacks == 600.0) {
+      EXPECT_LT(mean_s, 2.4) << "2.64 at a small truck's pace";
+    }
   }
 }
 

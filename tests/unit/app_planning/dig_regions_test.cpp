@@ -98,6 +98,20 @@ TEST(DigRegions, AColumnThatIsDugOutIsPassedOver) {
   EXPECT_GT(then.left, 0);
 }
 
+// From the bed's far end back to a near dig, and the other way round.
+TEST(DigRegions, AFarDumpIsFollowedByANearDig) {
+  const SiteModel site = berm::app_bench::bench();
+  DigGround ground(site);
+  ground.observe(seen_bench());
+  const auto bearing_after = [&](double dump_beyond) {
+    DigNeeds after = needs;
+    after.dump_beyond = dump_beyond;
+    return next_dig(berm::app_bench::zx200(), site, floor_of(site), ground, after, {}).region.bounds.bearing;
+  };
+  EXPECT_NEAR(bearing_after(radians(10.0)), site.dig_swing_left, 1e-9);
+  EXPECT_NEAR(bearing_after(radians(-10.0)), site.dig_swing_right, 1e-9);
+}
+
 TEST(DigRegions, WhatIsBesideIsDugWhenTheSitesBearingsAreDugOut) {
   const SiteModel site = berm::app_bench::bench();
   TerrainMap map = seen_bench();

@@ -177,6 +177,33 @@ TEST(DumpPoint, StaysWithinTheArmsReach) {
   }
 }
 
+// So that no pass swings far both ways: what was dug far from the truck goes to the bed's near end, and what was dug near it to the far one.
+TEST(DumpPoint, WhatWasDugFarFromTheTruckIsDumpedNear) {
+  BedMap map(free_bed());
+  look(map, [](double, double) { return 0.4; }, everywhere, 1.0);
+  const double middle = std::atan2(free_bed().centre_y, free_bed().centre_x);
+  DumpNeeds n = needs(3, 12);
+  n.dig_beyond = radians(12.0);
+  EXPECT_LT(choose_dump_point(map, n).bearing, middle - radians(5.0));
+  n.dig_beyond = radians(-12.0);
+  EXPECT_GT(choose_dump_point(map, n).bearing, middle + radians(5.0));
+  n.rest_kg = 0.0;
+  EXPECT_NEAR(choose_dump_point(map, n).bearing, middle, radians(2.0)) << "the last goes where the balance has it";
+}
+
+// The arm is drawn in as a part is poured, and beside the cab it is held up there.
+TEST(DumpPoint, APartIsPouredAwayFromTheTruckZonesEnd) {
+  TruckBed bed = berm::app_bench::bench_bed();
+  bed.zone_low = -2.6;
+  BedMap map(bed);
+  look(map, [](double u, double) { return u < 0.0 ? 0.3 : 0.4; }, everywhere, 1.0);
+  DumpNeeds n = needs(0, 12);
+  const double whole = choose_dump_point(map, n).at.u;
+  n.may_be_part = true;
+  EXPECT_LT(whole, -0.5);
+  EXPECT_GT(choose_dump_point(map, n).at.u, whole + 0.3);
+}
+
 // A small load slides late, when the lip has passed the point: it is poured short.
 TEST(DumpPoint, ASmallLoadIsPouredShortOfItsPlace) {
   const TruckBed bed = free_bed();
