@@ -144,9 +144,9 @@ DumpPoint choose_dump_point(const BedMap& map, const DumpNeeds& needs) {
   const BedArea area = dump_area(bed, needs.bucket_half_width, needs.scale);
   const std::vector<double> height = convolved(load_heights, constant_template()), hole = convolved(load_heights, hole_template()),
                             along = convolved(load_heights, slope_template(true)), over = convolved(load_heights, slope_template(false));
-  // Poured short of its place where it is sure to fall beyond.
   const double middle = bearing_of(bed, {});
-  const double swing = swing_price * needs.dig_beyond * needs.rest_kg / (needs.rest_kg + swing_passes * std::fmax(1.0, needs.dump_kg));
+  const double far_price = swing_price * needs.dig_beyond * needs.rest_kg / (needs.rest_kg + swing_passes * std::fmax(1.0, needs.dump_kg));
+  // Poured short of its place where it is sure to fall beyond.
   const double lead = std::fmax(0.0, -inward(needs.most_kg, needs.scale));
   struct Candidate { BedPoint at; double price = 0.0; BedPoint load_centre; };
   std::vector<Candidate> candidates;
@@ -160,7 +160,7 @@ DumpPoint choose_dump_point(const BedMap& map, const DumpNeeds& needs) {
       const double least = std::fmax(least_final_offset(with, needs.rest_kg, area), least_offset_when_full(bed, area, needs, load, at));
       const double offset = std::fmax(0.0, least - offset_limit);
       const double price = height[i] - hole_price * hole[i] + slope_price * std::hypot(along[i], over[i]) + beyond_price * std::hypot(under.u - cell.u, under.v - cell.v) +
-                           offset_price * offset + middle_price * std::hypot(under.u, under.v) + swing * (bearing_of(bed, under) - middle) +
+                           offset_price * offset + middle_price * std::hypot(under.u, under.v) + far_price * wrapped(bearing_of(bed, under) - middle) +
                            (needs.may_be_part ? part_price * std::fmax(0.0, part_room - std::fmin(bed.zone_high - under.u, under.u - bed.zone_low)) : 0.0);
       candidates.push_back({at, price, with.centre()});
     }

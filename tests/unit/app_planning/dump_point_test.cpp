@@ -189,6 +189,17 @@ TEST(DumpPoint, WhatWasDugFarFromTheTruckIsDumpedNear) {
   EXPECT_GT(choose_dump_point(map, n).bearing, middle + radians(5.0));
   n.rest_kg = 0.0;
   EXPECT_NEAR(choose_dump_point(map, n).bearing, middle, radians(2.0)) << "the last goes where the balance has it";
+  TruckBed behind = free_bed();
+  behind.centre_x = -std::hypot(behind.centre_x, behind.centre_y);
+  behind.centre_y = 0.0;
+  behind.yaw = radians(90.0);
+  BedMap there(behind);
+  look(there, [](double, double) { return 0.4; }, everywhere, 1.0);
+  n = needs(3, 12);
+  n.dig_beyond = radians(12.0);
+  EXPECT_LT(wrapped(choose_dump_point(there, n).bearing - std::numbers::pi), radians(-5.0)) << "where bearings begin anew, too";
+  n.dig_beyond = radians(-12.0);
+  EXPECT_GT(wrapped(choose_dump_point(there, n).bearing - std::numbers::pi), radians(5.0));
 }
 
 // The arm is drawn in as a part is poured, and beside the cab it is held up there.
