@@ -173,6 +173,11 @@ LowerEdge::LowerEdge(const MachineModel& machine, const ReachIntervals& box) {
 
 double LowerEdge::lowest() const { return *std::min_element(z_.begin(), z_.end()); }
 
+bool clears_own_body(const MachineModel& machine, const LowerEdge& edge) {
+  constexpr double rim = 0.55;  // the kernel closes the cells that its own body's circle touches, too
+  return edge.nearest() >= machine.own_body_radius + rim;
+}
+
 LowerEdge lower_edge(const MachineModel& machine, const Joints& pose) {
   ReachIntervals box;
   box.low = box.high = pose;

@@ -43,6 +43,9 @@ private:
   double reach_ = 0.0, nearest_ = none, half_width_ = 0.0;
 };
 
+// Whether the kernel lets stick and bucket be so near to the machine's own body, for its cells are never seen.
+bool clears_own_body(const MachineModel& machine, const LowerEdge& edge);
+
 // Lower edge and reach of one pose, without any spread.
 LowerEdge lower_edge(const MachineModel& machine, const Joints& pose);
 

@@ -15,6 +15,8 @@ double pin_over_top(const ImplementScale& scale) { return 1.6 * scale.bucket + 0
 constexpr double highest_top = 1.2;               // z; over anything higher the pass is not tried higher
 constexpr double reach_step = 0.05;               // m, of the search for a reach
 constexpr double most_short = 0.25;               // m, that a load is spilled short of where it is meant to be: with less a bed's far end gets none, with more the wall half of it
+constexpr double most_out = 0.5;                  // m, that a bucket opens farther out than it is meant to
+constexpr Joints standing_trembles{0.0, radians(0.5), radians(0.5), radians(0.5)};  // rad/s, of measured speeds
 constexpr double heap_lost = 0.6;                 // share of a heaped bucket for a metre beyond the easy reach
 constexpr double carry_radius = 6.4;              // of the bucket pin, m; by the scale of the arm
 constexpr double back_radius = 6.3;               // the same
@@ -66,6 +68,8 @@ std::vector<double> values_of(const std::vector<ScriptAngle>& angles) {
   return values;
 }
 
+bool stands_clear_of_body(const MachineModel& machine, const Joints& pose) { return clears_own_body(machine, LowerEdge(machine, preview(machine, pose, standing_trembles))); }
+
 // From the swing axis to the farthest dump point that the arm reaches with its load spilled where it is meant to be, m.
 double easy_reach(const MachineModel& machine, double wall_top) {
   const ImplementScale scale = scale_of(machine);
@@ -89,10 +93,13 @@ std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask&
     // The lip stays where it is when the bucket opens no farther: else what sticks, and lets go last, falls beyond the far wall.
     const double drawn_in = machine.bucket_length * (std::cos(attitude_open + farther) - std::cos(attitude_open));
     const auto open = inverse_pin(machine, {task.dump_radius - dump_behind * scale.bucket - drawn_in, pin_z}, attitude_open + farther, range_guard);
-    if (!open || (*open)[bucket] <= (*dump)[bucket]) continue;
+    if (!open || (*open)[bucket] <= (*dump)[bucket] || !stands_clear_of_body(machine, *open)) continue;
     dump = open;
     break;
   }
+  // Over a high load at a near place the stick comes to the machine's own body before the bucket is open: farther out, and its soil with it.
+  for (double out = reach_step; dump && !stands_clear_of_body(machine, *dump) && out < most_out; out += reach_step)
+    dump = pose_near(machine, {task.dump_radius - dump_behind * scale.bucket + out, pin_z}, attitude_open);
   const auto back = pose_near(machine, {back_radius * scale.arm, pin_z}, attitude_back);
   const auto hover = hover_pose(machine, task, hover_above);
   const auto dig = tip_pose_near(machine, {task.next_entry.r, task.next_entry.z + dig_above}, attitude_dig);

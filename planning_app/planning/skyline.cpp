@@ -12,7 +12,6 @@ namespace {
 constexpr double unknown_height = 0.0;   // the bench the machine stands on
 constexpr double own_slack = 0.10;       // beyond the kernel's margin: the kernel's slices are wider than the implements
 constexpr double own_diagonal = 0.425;   // of a cell: of those wholly within its own body's circle and so far beyond it the kernel asks nothing of the boom
-constexpr double own_rim = 0.55;         // the kernel closes the cells that its own body's circle touches, too
 constexpr double lateral_step = 0.2;     // of the search across the implements' width; at most a terrain cell
 constexpr double wall_thickness = 0.3;   // generous
 constexpr double nothing = -std::numeric_limits<double>::infinity();
@@ -202,7 +201,7 @@ std::optional<Skyline::Blocking> Skyline::blocking(const ReachIntervals& box) co
   for (const std::size_t j : {boom, stick, bucket})
     if (box.low[j] < machine_->joint[j].low || box.high[j] > machine_->joint[j].high) return Blocking{Blocking::What::joint_range};
   const LowerEdge edge(*machine_, box);
-  if (edge.nearest() < machine_->own_body_radius + own_rim) return Blocking{Blocking::What::own_body};
+  if (!clears_own_body(*machine_, edge)) return Blocking{Blocking::What::own_body};
   const bool contact_allowed = box.swing_speed < machine_->dig_swing_limit && edge.lowest() > floor_ + over_floor;
   const std::vector<double>& top = contact_allowed ? outside_dig_zone_ : all_;
   const double margin = machine_->margin + own_slack;

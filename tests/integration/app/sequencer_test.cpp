@@ -65,6 +65,26 @@ TEST(Sequencer, LoadsOneTruck) {
   EXPECT_LT(run.seconds, 12.0 * 25.0 + 30.0);
 }
 
+// What is dug on the truck's side goes to the bed's far end, and what is dug beyond to its near end; after either the next dig lies the other way.
+TEST(Sequencer, NoPassSwingsFarBothWays) {
+  const app_bench::Events events;
+  Loading run(1, start_pose(), events.fd());
+  while (events.named("pass").size() < 9 && run.seconds < 400.0) run.step();
+  const auto passes = events.named("pass"), scripts = events.named("script");
+  ASSERT_GE(passes.size(), 9U);
+  ASSERT_GE(scripts.size(), passes.size());
+  const TruckBed bed = app_bench::bench_bed();
+  const double dig_middle = degrees(middle_of_digs(app_bench::bench())), bed_middle = degrees(std::atan2(bed.centre_y, bed.centre_x));
+  double to_truck = 0.0, back = 0.0;
+  for (std::size_t k = 0; k < passes.size(); ++k) {
+    const double dump = scripts[k].at("truck_bearing_deg").get<double>() - bed_middle;
+    to_truck += dump * (passes[k].at("dig_bearing_deg").get<double>() - dig_middle);
+    if (k + 1 < passes.size()) back += dump * (passes[k + 1].at("dig_bearing_deg").get<double>() - dig_middle);
+  }
+  EXPECT_GT(to_truck, 0.0);
+  EXPECT_GT(back, 0.0);
+}
+
 TEST(Sequencer, GoesOnAfterTheKernelStoppedItInTheSwing) {
   Loading run(1, start_pose());
   while (run.last.phase != BERM_PHASE_SWING_TO_TRUCK && run.seconds < 60.0) run.step();

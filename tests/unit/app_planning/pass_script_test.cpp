@@ -110,6 +110,30 @@ TEST(PassScript, ABucketThatOpensFartherKeepsItsLipOverTheBed) {
   }
 }
 
+// Over a high load the pin is high and drawn in: no nearer than the kernel lets stick and bucket come to the machine's own body, and no farther out than it must be.
+TEST(PassScript, AnOpenBucketStaysClearOfTheMachine) {
+  const MachineModel m = berm::app_bench::zx200();
+  const Skyline nothing(m, SiteModel{}, [](double, double) { return -5.0; });
+  PassTask task = on_the_bench();
+  for (const double load : {0.0, 0.3, 0.6})
+    for (double dump_radius = 5.7; dump_radius < 7.3; dump_radius += 0.1)
+      for (const double farther : {0.0, 13.0, 26.0, 38.0}) {
+        task.truck_top = task.wall_top + load;
+        task.dump_radius = dump_radius;
+        task.open_farther = radians(farther);
+        const auto poses = pass_poses(m, task);
+        ASSERT_TRUE(poses);
+        const auto blocking = nothing.blocking(preview(m, poses->dump, {}));
+        const ArmPoints open = forward(m, poses->dump);
+        EXPECT_FALSE(blocking) << blocking->name() << ", " << dump_radius << " m, load " << load << " m, " << farther << " degrees farther";
+        EXPECT_GT(open.bucket_attitude, radians(-49.0));
+        EXPECT_LT(open.bucket_pin.r, dump_radius + 0.26);
+        if (load == 0.0) {
+          EXPECT_LT(open.bucket_pin.r, dump_radius - 0.24) << "it need not be";
+        }
+      }
+}
+
 // A part of a load slides while the bucket tilts on as far as that takes: the lip stays short of where soil falls beside the far wall, and the pin as high as it was.
 TEST(PassScript, ALoadThatIsPouredInPartKeepsItsLipOverTheBed) {
   const MachineModel m = berm::app_bench::zx200();
