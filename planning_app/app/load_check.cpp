@@ -20,13 +20,18 @@ constexpr double slides_sooner = radians(10.0);   // a soil that rests less stee
 constexpr double closing_s = 1.2, closes_fast_s = 1.0;  // the tilt's time constant, above the weighing's delay
 constexpr double slowest = radians(3.0), fastest = radians(45.0), with_arm = radians(38.0);  // the last: the arm stays ahead of the bucket
 constexpr double slides_kg = 40.0, not_yet = radians(15.0);  // by the scale of the load: less gone is noise, and a small load lies still up to a steep tilt
-constexpr double under_way_s = 1.2;               // from the tilt to the weighing that shows what it let go
+constexpr double under_way_s = 1.2;               // from the tilt to the weighing that shows what it let go, and what slides after it
 constexpr double under_way_share = 0.004;         // of the truck's target, at most: it may not come, and in a small truck it would be missed
 
 // Up to this tilt a load of so much lies still. In simulation it began to slide 3 degrees before the line at most (33 parts of 367 to 1604 kg, sandy clay).
 double lies_still_until(double lifted_kg, double load_scale) {
   const double lacks = 1.0 - lifted_kg / (full_kg * load_scale);
   return std::max(resting, full_slides + lacks * (empty_at - full_slides) - slides_sooner);
+}
+
+// Of a load that has begun to slide; excess: what is still to go. fast: what goes on sliding when the tilt ends is little for this truck.
+double sliding_rate(double excess_kg, double kg_per_rad, double slow, bool fast) {
+  return std::clamp(excess_kg / (kg_per_rad * (fast ? closes_fast_s : closing_s)), slow, fast ? with_arm : fastest);
 }
 
 }  // namespace
@@ -84,15 +89,15 @@ double LoadCheck::step(const Lifted& now, const TruckFill& fill, const ProgressL
       const double still_in = recent_.kg() > 0.0 ? recent_.kg() : lifted_, excess = still_in - rest_;
       const double slow = lifted_ - still_in < slides_kg * load_scale_ ? not_yet : slowest;
       const double under_way_kg = std::min(slowest * kg_per_rad * under_way_s, under_way_share * fill.target_kg());
-      // Where that is not held to a small truck's share there is room for what goes on sliding: fast until what is to stay would slide.
-      const bool fast = under_way_kg < under_way_share * fill.target_kg();
-      const double rate = now.attitude < lies_still_until(lifted_, load_scale_)     ? fastest
-                          : fast && now.attitude < lies_still_until(rest_, load_scale_) ? with_arm
-                                                                                        : std::clamp(excess / (kg_per_rad * (fast ? closes_fast_s : closing_s)), slow, fast ? with_arm : fastest);
-      if (excess > under_way_kg && now.attitude < steepest) return rate;
-      keeps_rest_ = true;
-      enter(Stage::passed, now.time_s);
-      return nothing;
+      if (excess <= under_way_kg || now.attitude >= steepest) {
+        keeps_rest_ = true;
+        enter(Stage::passed, now.time_s);
+        return nothing;
+      }
+      if (now.attitude < lies_still_until(lifted_, load_scale_)) return fastest;
+      const bool fast = under_way_kg < under_way_share * fill.target_kg();  // not held to a small truck's share
+      if (fast && now.attitude < lies_still_until(rest_, load_scale_)) return with_arm;
+      return sliding_rate(excess, kg_per_rad, slow, fast);
     }
     case Stage::passed: return nothing;
   }

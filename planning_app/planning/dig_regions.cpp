@@ -12,6 +12,7 @@ namespace {
 constexpr double column_step = radians(6.0);  // columns overlap: what slid off a cut's sides is taken with the next
 constexpr int widest = 3;                     // columns beyond the site's bearings on either side, where the dig zone allows
 constexpr double further_in = 0.4;            // m, of the drag's end
+constexpr double swing_s = 12.0;              // for a radian beyond the digs' middle after a dump that lies a radian beyond the bed's: from a far dump to a near dig
 constexpr double enough = 0.75;               // of the wanted volume: a bench whose columns yield less is left
 
 // Whether the bucket stays inside a dig zone on a drag along the bearing.
@@ -36,9 +37,6 @@ std::vector<double> column_bearings(const SiteModel& site) {
   for (int k = 1; k <= widest; ++k) bearings.push_back(site.dig_swing_right - k * column_step);
   return bearings;
 }
-
-// s for a radian beyond the digs' middle after a dump that lies a radian beyond the bed's: from a far dump to a near dig.
-constexpr double swing_s = 12.0;
 
 // What of the order a region costs, s. Left to right is free; what slid into the last cut is missing beside it.
 double order_cost(const DigRegion& region, const DigRegion& last) {

@@ -1,6 +1,8 @@
 // The shipped script of a pass against joint angles that a test prescribes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "app_bench/bench_machine.hpp"
 #include "app_bench/bench_site.hpp"
 #include "motion/arm_kinematics.hpp"
@@ -116,7 +118,8 @@ TEST(PassScript, AnOpenBucketStaysClearOfTheMachine) {
   const Skyline nothing(m, SiteModel{}, [](double, double) { return -5.0; });
   PassTask task = on_the_bench();
   for (const double load : {0.0, 0.3, 0.6})
-    for (double dump_radius = 5.7; dump_radius < 7.3; dump_radius += 0.1)
+    for (double dump_radius = 5.7; dump_radius < 7.3; dump_radius += 0.1) {
+      double usual_r = 100.0;
       for (const double farther : {0.0, 13.0, 26.0, 38.0}) {
         task.truck_top = task.wall_top + load;
         task.dump_radius = dump_radius;
@@ -131,7 +134,10 @@ TEST(PassScript, AnOpenBucketStaysClearOfTheMachine) {
         if (load == 0.0) {
           EXPECT_LT(open.bucket_pin.r, dump_radius - 0.24) << "it need not be";
         }
+        EXPECT_LT(open.bucket_pin.r, usual_r + 1e-6) << "for what sticks it is opened less far rather than farther out";
+        usual_r = std::min(usual_r, open.bucket_pin.r);
       }
+    }
 }
 
 // A part of a load slides while the bucket tilts on as far as that takes: the lip stays short of where soil falls beside the far wall, and the pin as high as it was.
