@@ -9,7 +9,7 @@ namespace berm::app {
 namespace {
 
 struct Share { double swing, arm; };
-constexpr std::array<Share, 10> shares{{{1.0, 1.0}, {0.75, 1.0}, {0.5, 1.0}, {0.75, 0.6}, {0.25, 1.0}, {0.5, 0.5}, {0.0, 1.0}, {0.0, 0.6}, {0.0, 0.3}, {0.0, 0.0}}};
+constexpr std::array<Share, 10> shares{{{1.0, 1.0}, {0.75, 1.0}, {0.5, 1.0}, {0.75, 0.6}, {0.25, 1.0}, {0.5, 0.5}, {0.0, 1.0}, {0.0, 0.6}, {0.0, 0.3}, {0.0, 0.15}}};
 
 constexpr double a_little = radians(5.0);
 
@@ -31,9 +31,9 @@ Joints guarded(const MachineModel& machine, const Skyline& skyline, const Joints
     for (const std::size_t j : {boom, stick, bucket}) slowed[j] *= share.arm;
     if (skyline.clear(angle, slowed)) return slowed;
   }
-  const auto standing = skyline.blocking(preview(machine, angle, {}));
-  const bool too_high = standing && skyline.stands_too_high(*standing);
-  return too_high && !skyline.clear(led_on(angle, command), {}) ? Joints{} : crept(machine, command);
+  const Joints creep = crept(machine, command);
+  const auto blocking = skyline.blocking(preview(machine, angle, creep));
+  return blocking && skyline.stands_too_high(*blocking) && !skyline.clear(led_on(angle, command), {}) ? Joints{} : creep;
 }
 
 Joints crept(const MachineModel& machine, const Joints& command) {

@@ -40,13 +40,23 @@ void PourWatch::step(const Bucket& now) {
   count_ = 0;
   sum_ = share_sum_ = 0.0;
   if (!now.rests && carried_known()) {
-    if (!paused_) beside_ += (last_kg_ - kg) * 0.5 * (share + last_share_);
+    if (!paused_) weighed(kg, 0.5 * (share + last_share_));
     slid_ = true;
   }
   // At rest the mean of all that was seen is quieter than a block's.
   last_kg_ = slid_ ? kg : carried_kg();
   last_share_ = share;
   paused_ = false;
+}
+
+void PourWatch::weighed(double kg, double share) {
+  double from = last_kg_;
+  while (!left_.empty() && left_.back().to_kg < kg) {
+    from = left_.back().from_kg;
+    share = left_.back().share;
+    left_.pop_back();
+  }
+  if (from > kg) left_.push_back({from, kg, share});
 }
 
 void PourWatch::pause(bool poured) {
@@ -58,7 +68,9 @@ void PourWatch::pause(bool poured) {
 
 double PourWatch::beside_kg() const {
   constexpr double least_share = 0.016, noise_share = 0.01, most_share = 0.3;  // of a full bucket: twice what the noise makes; the noise; what no pour loses
-  return beside_ < least_share * full_kg_ ? 0.0 : std::min(beside_, most_share * full_kg_) - noise_share * full_kg_;
+  double beside = 0.0;
+  for (const Left& left : left_) beside += left.share * (left.from_kg - left.to_kg);
+  return beside < least_share * full_kg_ ? 0.0 : std::min(beside, most_share * full_kg_) - noise_share * full_kg_;
 }
 
 }  // namespace berm::app

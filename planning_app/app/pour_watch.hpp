@@ -2,6 +2,8 @@
 // bed. That lies on the ground beside the truck and is not in the bed, though the weighings before and after the dump say so.
 #pragma once
 
+#include <vector>
+
 #include "motion/arm_kinematics.hpp"
 #include "planning/skyline.hpp"
 
@@ -37,6 +39,8 @@ public:
   double booked_beside_kg() const { return (1.0 + falls_unseen) * beside_kg(); }
 
 private:
+  void weighed(double kg, double share);
+
   static constexpr int block = 10;  // cycles: a mean over so many
   double full_kg_;
   int rested_ = 0;
@@ -45,7 +49,10 @@ private:
   double sum_ = 0.0, share_sum_ = 0.0;
   bool slid_ = false, paused_ = false;
   double last_kg_ = 0.0, last_share_ = 0.0;  // of the block before
-  double beside_ = 0.0;
+  // What has left the bucket, by where its lip was: from so much in it down to so much. A weight that rises again had not left it: an arm that comes to rest
+  // as it reaches out takes 100 kg off the pressures for some tenths of a second, with the lip not over the bed yet.
+  struct Left { double from_kg, to_kg, share; };
+  std::vector<Left> left_;
 };
 
 }  // namespace berm::app

@@ -8,7 +8,7 @@ namespace berm::app {
 namespace {
 
 // Shares of what the machine file promises. The rest is for payload, shared pump flow and the kernel's own error bounds.
-constexpr double swing_share = 0.775;  // with latency and error bounds a swing stays in the braking table's last column but one
+constexpr double swing_share = 0.775;  // faster no pass was shorter, and a stop from there reaches over ground that no sweep has seen lately
 constexpr double arm_share = 0.95;
 constexpr double brake_share = 0.90;
 constexpr double empty_swing_brake_share = 0.60;  // of what was identified; landings at 0.9 of it made no pass shorter

@@ -17,13 +17,14 @@ double obeyed_for(const MachineModel& machine) {
   return machine.state_latency + machine.command_latency + std::max(machine.cycle, heartbeat_silence) + kernel_sends_within;
 }
 
+// On the chord between the table's speeds, as the kernel takes it.
 double brake_angle(const BrakingTable& table, std::size_t joint, double reach_m, double speed, double velocity_max) {
   std::size_t row = 0;
   while (row + 1 < table.reach.size() && table.reach[row] < reach_m) ++row;
   const auto& columns = table.angle[joint][row];
-  const double last = static_cast<double>(columns.size() - 1);
-  const double column = std::clamp(std::ceil(speed / velocity_max * last - 1e-9), 0.0, last);
-  return columns[static_cast<std::size_t>(column)];
+  const double at = std::clamp(speed / velocity_max, 0.0, 1.0) * static_cast<double>(columns.size() - 1);
+  const std::size_t below = std::min(static_cast<std::size_t>(at), columns.size() - 2);
+  return columns[below] + (at - static_cast<double>(below)) * (columns[below + 1] - columns[below]);
 }
 
 // Points along a part's outline at most spacing apart, in its link's frame.
@@ -91,17 +92,19 @@ double reach_over(const MachineModel& machine, const ReachIntervals& box) {
 double stop_travel(const MachineModel& machine, std::size_t joint, double reach_m, double velocity) {
   const JointLimits& limits = machine.joint[joint];
   const double start = velocity + limits.velocity_error;
-  const double end = std::clamp(start + limits.acceleration_max * gaining(machine), 0.0, limits.velocity_max);
-  const double before_braking = 0.5 * (std::max(start, 0.0) + end) * obeyed_for(machine);
-  const double braking = end > 0.0 ? brake_angle(machine.braking, joint, reach_m, end, limits.velocity_max) : 0.0;
-  return limits.angle_error + before_braking + braking;
+  const double end = std::min(start + limits.acceleration_max * gaining(machine), limits.velocity_max);
+  if (end <= 0.0) return limits.angle_error;
+  // Up to that speed as fast as it can, and on at it.
+  const double gain = std::min(end - start, limits.acceleration_max * gaining(machine));
+  const double before_braking = std::max(end * obeyed_for(machine) - gain * gain / (2.0 * limits.acceleration_max), 0.0);
+  return limits.angle_error + before_braking + brake_angle(machine.braking, joint, reach_m, end, limits.velocity_max);
 }
 
 double within_range(const MachineModel& machine, std::size_t joint, double reach_m, double angle, double wanted) {
   const JointLimits& limits = machine.joint[joint];
-  constexpr double spare = radians(3.5);  // a column of the braking table, and a joint that answers faster than its model
+  constexpr double spare = radians(3.5);  // for a joint that answers faster than its model
   const double room = (wanted > 0.0 ? limits.high - angle : angle - limits.low) - spare;
-  constexpr double noise = radians(1.5);  // of a measured speed: it may round up into the table's next column
+  constexpr double noise = radians(1.5);  // of a measured speed
   constexpr int steps = 16;
   for (int k = steps; k > 0; --k) {
     const double speed = std::fabs(wanted) * k / steps;

@@ -29,28 +29,30 @@ bool holds(const Condition& c, const Joints& angle, bool armed) {
 
 }  // namespace
 
-void JointScript::arm() {
-  const std::size_t next = static_cast<std::size_t>(active_ + 1);
-  armed_.assign(next < rules_.size() ? rules_[next].conditions.size() : 0, false);
-}
-
 void JointScript::start() {
   active_ = rules_.empty() ? -1 : 0;
   interrupted_ = false;
-  arm();
+  armed_.clear();
+  for (const Rule& rule : rules_) armed_.emplace_back(rule.conditions.size(), false);
+}
+
+void JointScript::look(const Joints& angle) {
+  const std::size_t next = static_cast<std::size_t>(active_ + 1);
+  for (std::size_t r = next; r < rules_.size(); ++r)
+    for (std::size_t i = 0; i < rules_[r].conditions.size(); ++i) {
+      const Condition& c = rules_[r].conditions[i];
+      if ((r == next || c.since_start) && (interrupted_ || other_side(c, angle))) armed_[r][i] = true;
+    }
 }
 
 void JointScript::evaluate(const Joints& angle, std::uint32_t events) {
   if (!running() || at_last()) return;
-  const Rule& next = rules_[static_cast<std::size_t>(active_ + 1)];
+  look(angle);
+  const std::size_t turn = static_cast<std::size_t>(active_ + 1);
+  const Rule& next = rules_[turn];
   bool all = (events & next.events) == next.events;
-  for (std::size_t i = 0; i < next.conditions.size(); ++i) {
-    if (interrupted_ || other_side(next.conditions[i], angle)) armed_[i] = true;
-    all = holds(next.conditions[i], angle, armed_[i]) && all;
-  }
-  if (!all) return;
-  ++active_;
-  arm();
+  for (std::size_t i = 0; i < next.conditions.size(); ++i) all = holds(next.conditions[i], angle, armed_[turn][i]) && all;
+  if (all) ++active_;
 }
 
 bool JointScript::reached(RuleMark mark) const {

@@ -31,6 +31,7 @@ struct Condition {
   Relation relation = Relation::above;
   double threshold = 0.0;
   double tolerance = 0.0;
+  bool since_start = false;  // a crossing may have been seen from its other side before the rule's turn, since the script's start
 };
 
 // What the app has to know of a rule besides its motion.
@@ -76,11 +77,11 @@ public:
   const std::vector<Rule>& rules() const { return rules_; }
 
 private:
-  void arm();
+  void look(const Joints& angle);
 
   std::vector<Rule> rules_;
   bool interrupted_ = false;
-  std::vector<bool> armed_;  // of the next rule's conditions: a crossing has been seen from its other side
+  std::vector<std::vector<bool>> armed_;  // of each rule's conditions: a crossing has been seen from its other side
   int active_ = -1;
 };
 

@@ -298,7 +298,7 @@ Script ScriptText::bind(std::span<const double> values, double side) const {
     std::vector<Rule> rules;
     for (const TextRule& from : rules_[j]) {
       Rule rule{from.name, {}, from.events, value(from.goal), from.pace, from.mark};
-      for (const TextCondition& c : from.conditions) rule.conditions.push_back({c.joint, turned(c.relation), value(c.threshold), c.tolerance});
+      for (const TextCondition& c : from.conditions) rule.conditions.push_back({c.joint, turned(c.relation), value(c.threshold), c.tolerance, c.relation == Relation::back_past});
       rules.push_back(std::move(rule));
     }
     out[j] = JointScript(std::move(rules));

@@ -30,7 +30,7 @@ protected:
 
   const MachineModel machine_ = app_bench::zx200();
   const SiteModel site_ = app_bench::bench_with_truck();
-  const Joints carried_{radians(40.0), radians(42.0), radians(-88.0), radians(-127.0)};
+  const Joints carried_{radians(40.0), radians(42.0), radians(-88.0), radians(-127.0)}, low_{radians(40.0), radians(26.0), radians(-88.0), radians(-127.0)};
   const Joints to_left_{radians(30.0), 0.0, 0.0, 0.0}, to_right_{radians(-30.0), 0.0, 0.0, 0.0};
 };
 
@@ -88,6 +88,31 @@ TEST_F(MotionGuard, BesideWhatIsNotTooHighItCreeps) {
 }
 
 // What nobody has seen below the bucket may be nothing: the kernel decides.
+// Where a pose is clear by so little that no motion is: what begins slowly from standing would never begin.
+TEST_F(MotionGuard, WhereOnlyStandingIsClearItCreeps) {
+  const auto at = [&](double height) { return Skyline(machine_, site_, [=](double, double) { return height; }, Skyline::OverHigh::refused); };
+  double height = 0.6;
+  while (!at(height).clear(low_, {})) height -= 0.001;
+  const Joints begins{0.0, radians(-1.0), 0.0, 0.0};
+  const Skyline ground = at(height);
+  ASSERT_FALSE(ground.clear(low_, begins)) << "the test shows nothing";
+  EXPECT_EQ(guarded(machine_, ground, low_, begins), begins);
+  const Joints lowers{0.0, radians(-20.0), 0.0, 0.0};
+  EXPECT_EQ(guarded(machine_, ground, low_, lowers), crept(machine_, lowers));
+  EXPECT_FALSE(stands(crept(machine_, lowers)));
+}
+
+// Slower in small steps, before it creeps.
+TEST_F(MotionGuard, TheArmIsSlowedToAsMuchAsIsClear) {
+  const Joints lowers{0.0, radians(-20.0), 0.0, 0.0};
+  Joints slow = lowers;
+  slow[boom] *= 0.15;
+  const auto at = [&](double height) { return Skyline(machine_, site_, [=](double, double) { return height; }, Skyline::OverHigh::refused); };
+  double height = 0.6;
+  while (!at(height).clear(low_, slow)) height -= 0.001;
+  EXPECT_EQ(guarded(machine_, at(height), low_, lowers), slow);
+}
+
 TEST_F(MotionGuard, OverUnseenGroundItCreeps) {
   const double distance = reach_of(machine_, carried_) - 0.6;
   const Skyline beside = cell_of_map(machine_, site_, carried_[swing] + radians(10.0), distance, std::numeric_limits<double>::infinity());

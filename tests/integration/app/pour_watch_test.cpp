@@ -62,6 +62,27 @@ TEST(PourWatch, NoiseIsNoSpill) {
   for (unsigned seed = 1; seed <= 50; ++seed) EXPECT_EQ(watched({.beside_s = -0.3}, seed).booked_beside_kg(), 0.0) << "seed " << seed;
 }
 
+// An arm that comes to rest as it reaches out takes weight off the pressures for a while, tilted already and not over the bed yet. What comes back had not left;
+// what had left before, or leaves with it, does not come back.
+TEST(PourWatch, AWeightThatRisesAgainHasNotLeftTheBucket) {
+  for (const double fell_kg : {0.0, 90.0})
+    for (const double dip_kg : {0.0, 120.0}) {
+      PourWatch watch(full_kg);
+      watch.begin();
+      double kg = 1500.0;
+      const auto pour = [&](int cycles, double each, double dip, bool rests, double beside) {
+        for (int k = 0; k < cycles; ++k) watch.step({(kg -= each) - dip, rests, beside});
+      };
+      pour(200, 0.0, 0.0, true, 1.0);
+      pour(20, 0.0, 0.5 * dip_kg, false, 1.0);
+      pour(30, fell_kg / 30.0, dip_kg, false, 1.0);
+      pour(20, 0.0, 0.5 * dip_kg, false, 0.5);
+      pour(20, 0.0, 0.0, false, 0.0);
+      pour(200, 7.0, 0.0, false, 0.0);
+      EXPECT_NEAR(watch.beside_kg(), fell_kg > 0.0 ? fell_kg - 16.0 : 0.0, 6.0) << "fell " << fell_kg << ", dip " << dip_kg;
+    }
+}
+
 struct Stopped {
   explicit Stopped(int pours_cycles) {
     watch.begin();

@@ -70,6 +70,33 @@ TEST(Script, ACrossingMustBeSeenFromItsOtherSide) {
   EXPECT_EQ(s.active(), 1);
 }
 
+// Soil that sticks leaves the bucket late: by then the swing may be past where the arm reaches out.
+TEST(Script, ACrossingMayHaveBeenSeenSinceTheScriptsStartWhereTheRuleSaysSo) {
+  for (const bool since_start : {true, false}) {
+    Condition back = when(swing, Relation::falls_below, 0), farther = when(swing, Relation::falls_below, -10);
+    back.since_start = farther.since_start = since_start;
+    JointScript s({{"first", {}, event_none, 0.0}, {"emptied", {}, event_emptied, 1.0}, {"back", {back}, event_none, 2.0}, {"farther", {farther}, event_none, 3.0}});
+    s.start();
+    const auto look = [&](double deg, std::uint32_t events) { s.evaluate({radians(deg), 0, 0, 0}, events); };
+    look(-20.0, event_none);
+    look(-20.0, event_emptied);
+    look(-20.0, event_emptied);
+    EXPECT_EQ(s.active(), 1) << "never on the other side";
+    look(70.0, event_emptied);
+    EXPECT_EQ(s.active(), 1) << "not yet past";
+    look(-5.0, event_emptied);
+    look(-5.0, event_emptied);
+    EXPECT_EQ(s.active(), 2) << "past the first alone";
+    s.start();
+    look(70.0, event_none);
+    for (int k = 0; k < 4; ++k) look(-20.0, event_emptied);
+    EXPECT_EQ(s.active(), since_start ? 3 : 1);
+    s.start();
+    for (int k = 0; k < 4; ++k) look(-20.0, event_emptied);
+    EXPECT_EQ(s.active(), 1) << "begun anew it is another script";
+  }
+}
+
 // A stop may fall between two rules, and what mends it carries the joint past the second one's mark before the first is active.
 TEST(Script, AfterAnInterruptionACrossingNeedNotBeSeen) {
   for (const auto relation : {Relation::falls_below, Relation::rises_above})

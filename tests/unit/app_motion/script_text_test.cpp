@@ -67,6 +67,8 @@ TEST(ScriptText, BindsParametersAndTurnsRoundWithTheTruck) {
     EXPECT_EQ(swings[1].mark, RuleMark::leaves);
     EXPECT_EQ(swings[1].conditions[0].threshold, values[1] - radians(2.0));
     EXPECT_EQ(swings[1].conditions[1].relation, side > 0.0 ? Condition::Relation::falls_below : Condition::Relation::rises_above);
+    EXPECT_TRUE(swings[1].conditions[1].since_start);
+    EXPECT_FALSE(swings[1].conditions[0].since_start);
     EXPECT_EQ(swings[2].events, static_cast<std::uint32_t>(event_emptied));
     EXPECT_EQ(swings[2].goal, values[0] + radians(1.5));
     const auto& buckets = script.of(bucket).rules();
