@@ -67,7 +67,8 @@ void describe_site(const std::string& machine, const std::string& site, SitePict
   const auto truck = toml::find(s, "truck");
   const auto& centre = toml::find(truck, "centre").as_array();
   picture.truck_bearing_rad = std::atan2(number(centre[1]), number(centre[0]));
-  picture.dig_bearing_rad = 0.0;
+  const auto& swing = toml::find(toml::find(s, "dig"), "swing_deg").as_array();
+  picture.dig_bearing_rad = 0.5 * (number(swing[0]) + number(swing[1])) * std::numbers::pi / 180.0;
 }
 
 std::vector<MoverPath> mover_paths(const std::string& trace) {

@@ -10,6 +10,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "run/parameter_file.hpp"
+#include "run/scenario_names.hpp"
 #include "scratch.hpp"
 
 namespace berm::run::test {
@@ -126,6 +128,21 @@ TEST(SitePicture, ATruckIsNotDrawnAsSomebodyWhoMayNotBeThere) {
   EXPECT_EQ(points_of(svg, mover).size(), 1U);
   EXPECT_EQ(points_of(svg, "#57534e").size(), 1U);
   EXPECT_NE(svg.find("fill:#57534e\">truck_1<"), std::string::npos);
+}
+
+// The side view cuts through the face that the site's digs are planned in, wherever that lies.
+TEST(SitePicture, TheDigFacesProfileLiesInTheDigZone) {
+  for (const char* site : {"bench", "measured"}) {
+    SitePictureInput in;
+    describe_site(find_machine("zx200"), find_site(site), in);
+    const auto in_a_zone = [&](double bearing) {
+      constexpr double face_m = 6.7;
+      const double x = face_m * std::cos(bearing), y = face_m * std::sin(bearing);
+      return std::any_of(in.dig_zones.begin(), in.dig_zones.end(), [&](const std::vector<Point2>& z) { return x > z[0].first && x < z[2].first && y > z[0].second && y < z[2].second; });
+    };
+    EXPECT_TRUE(in_a_zone(in.dig_bearing_rad)) << site << ": " << in.dig_bearing_rad;
+    EXPECT_FALSE(in_a_zone(in.truck_bearing_rad)) << site;
+  }
 }
 
 }  // namespace
