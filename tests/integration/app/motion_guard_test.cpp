@@ -58,6 +58,16 @@ TEST_F(MotionGuard, BesideItNothingCreepsTowardsItButAwayFromIt) {
   }
 }
 
+// Standing is clear of it yet, and creeping is not.
+TEST_F(MotionGuard, BesideItNothingCreepsAsNearAsTheKernelsStop) {
+  const Skyline beside = post(machine_, site_, carried_[swing] + radians(20.0), 1.4);
+  Joints near = carried_;
+  while (beside.clear(near, crept(machine_, to_left_))) near[swing] += radians(0.02);
+  ASSERT_TRUE(beside.clear(near, {})) << "it stands too near";
+  EXPECT_TRUE(stands(guarded(machine_, beside, near, to_left_)));
+  EXPECT_EQ(guarded(machine_, beside, near, to_right_), to_right_);
+}
+
 // What a box meets first of it is ground that is too near below the bucket; that it is too high besides tells that no creeping will help.
 TEST_F(MotionGuard, NorWhereItReachesUpToTheBucket) {
   const double distance = reach_of(machine_, carried_) - 0.6, underside = bucket_underside(machine_, carried_);

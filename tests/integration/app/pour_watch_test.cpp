@@ -76,10 +76,9 @@ TEST(PourWatch, AWeightThatRisesAgainHasNotLeftTheBucket) {
       pour(200, 0.0, 0.0, true, 1.0);
       pour(20, 0.0, 0.5 * dip_kg, false, 1.0);
       pour(30, fell_kg / 30.0, dip_kg, false, 1.0);
-      pour(20, 0.0, 0.5 * dip_kg, false, 0.5);
-      pour(20, 0.0, 0.0, false, 0.0);
+      pour(20, 0.0, 0.0, false, 0.5);
       pour(200, 7.0, 0.0, false, 0.0);
-      EXPECT_NEAR(watch.beside_kg(), fell_kg > 0.0 ? fell_kg - 16.0 : 0.0, 6.0) << "fell " << fell_kg << ", dip " << dip_kg;
+      EXPECT_NEAR(watch.beside_kg(), fell_kg > 0.0 ? fell_kg - 16.0 : 0.0, 10.0) << "fell " << fell_kg << ", dip " << dip_kg;
     }
 }
 

@@ -39,6 +39,13 @@ TEST(StopTravel, GrowsWithSpeedAndReachAndCoversTheTable) {
   EXPECT_GT(stop_travel(m, swing, 9.0, radians(30.0)), stop_travel(m, swing, 6.0, radians(30.0)));
 }
 
+TEST(StopTravel, AJointThatIsSureToMoveTheOtherWayNeedsNone) {
+  MachineModel m = berm::app_bench::zx200();
+  for (auto& row : m.braking.angle[swing]) row.front() = 0.5 * row[1];  // the least that any motion needs
+  EXPECT_NEAR(stop_travel(m, swing, 7.0, radians(-10.0)), m.joint[swing].angle_error, 1e-12);
+  EXPECT_GT(stop_travel(m, swing, 7.0, 0.0), m.joint[swing].angle_error + 0.5 * m.braking.angle[swing].front()[1]);
+}
+
 TEST(Preview, LiesAroundThePoseAndAheadOfTheMotion) {
   const MachineModel m = berm::app_bench::zx200();
   const ReachIntervals rest = preview(m, carry, {});
