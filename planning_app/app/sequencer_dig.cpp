@@ -248,7 +248,6 @@ void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_fro
   plan_next_dig(o, wrapped(dump_.bearing - std::atan2(site_.bed->centre_y, site_.bed->centre_x)));
   task_ = PassTask{lifted_from, dump_.bearing, dump_.radius, dig_.bearing, {dig_.drag.front().r, dig_.drag.front().z}, site_.bed->wall_top, site_.bed->wall_top, sticking_.open_farther(), brakes_.known(), more};
   task_.lifted_from[swing] = here;
-  task_.bed_before = bed_before(*site_.bed, dump_.at, dump_.bearing >= here ? 1.0 : -1.0) - 0.5 * bucket_width(machine_);
   const Skyline skyline(machine_, site_, kernel_map_.ground(KernelMap::Unseen::level), Skyline::OverHigh::refused);
   task_.truck_top = skyline.highest(dump_.bearing - near_truck, dump_.bearing + near_truck, 4.2 * scale_.arm, 8.6 * scale_.arm);
   const auto poses = pass_poses(machine_, task_);

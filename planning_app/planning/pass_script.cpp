@@ -35,7 +35,6 @@ constexpr double hover_above = 1.60;              // tip over the bench's level 
 constexpr double hover_lowest = 0.20, hover_step = 0.35;  // ... and where the search finds that clear, lower by whole steps
 constexpr double arrived = radians(1.0);
 constexpr double soonest_lead = 1.0, latest_lead = 0.0, lead_step = 0.1;  // s before the swing stands that the bucket begins to open; nothing slides in the first half second
-constexpr double slides_reaching_out = 0.4;              // s: the last of a reach beyond the easy one, in which soil slides
 constexpr double empties_before = radians(40.0);         // of the open bucket, when what is left no longer holds up the swing
 
 // Pose with the pin at the point and the attitude as wanted, or as near as the bucket's range allows.
@@ -175,10 +174,10 @@ std::optional<Script> approach_script(const ScriptSet& scripts, const MachineMod
 PassSearch::PassSearch(const ScriptSet& scripts, const MachineModel& machine, const Skyline& skyline, const PassTask& task, const PassPoses& poses)
     : scripts_(&scripts), machine_(machine), skyline_(skyline), task_(task), poses_(poses) {
   lead_ = soonest_lead;
-  level_ = forward(machine, poses.spill).bucket_attitude < attitude_rests;
   reach_over_bed();
   // It is there when the load slides. Far out, where the bucket cannot be held level, soil slides as soon as it opens.
-  thresholds_.open_stick = poses.spill[stick] - (level_ ? radians(14.0) : radians(6.0));
+  const bool level = forward(machine, poses.spill).bucket_attitude < attitude_rests;
+  thresholds_.open_stick = poses.spill[stick] - (level ? radians(14.0) : radians(6.0));
   thresholds_.pour_bucket = poses.spill[bucket] + (attitude_pour - attitude_spill);
   const double rise = poses.carry[boom] - task.lifted_from[boom];
   thresholds_.fold_boom = task.lifted_from[boom] + 0.45 * std::max(0.0, rise);
@@ -194,11 +193,8 @@ void PassSearch::reach_over_bed() {
     response.velocity_max = scripts_->pass.pace_of(joint, RuleMark::extends) * limits_of(machine_, joint, reach).velocity;
     return time_to_reach(response, poses_.carry[joint], poses_.spill[joint]);
   };
-  // Where it cannot be held level soil slides while the arm still reaches out: with the bucket over the bed from then on.
-  const double over_bed = std::sqrt(2.0 * std::max(0.0, task_.bed_before) / (brake * task_.dump_radius)) - slides_reaching_out;
-  const double lead = level_ ? lead_ : std::clamp(over_bed, latest_lead, lead_);
-  thresholds_.open_offset = std::clamp(way(lead), radians(2.0), radians(14.0));
-  thresholds_.extend_offset = std::clamp(way(lead + std::max(paced_time(stick), paced_time(boom))), radians(3.0), radians(45.0));
+  thresholds_.open_offset = std::clamp(way(lead_), radians(2.0), radians(14.0));
+  thresholds_.extend_offset = std::clamp(way(lead_ + std::max(paced_time(stick), paced_time(boom))), radians(3.0), radians(45.0));
 }
 
 void PassSearch::step() {

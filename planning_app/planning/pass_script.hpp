@@ -1,7 +1,6 @@
 // The script of one loading pass and its parameters: right-hand sides by kinematics, left-hand sides by the joint models.
 #pragma once
 
-#include <limits>
 #include <optional>
 
 #include "motion/arm_controller.hpp"
@@ -24,7 +23,6 @@ struct PassTask {
   double open_farther = 0.0;   // rad, than the bucket otherwise opens: soil sticks; as far as its range allows
   double brake_empty = 0.0;    // rad/s2 that landings of the empty swing are planned with at least (SwingBraking)
   bool lower_at_end = true;    // false: stay high after the pass, the truck is full
-  double bed_before = std::numeric_limits<double>::infinity();  // m of the bed that the bucket comes over whole before it is at the dump point
 };
 
 // Right-hand sides.
@@ -105,7 +103,6 @@ private:
   PassThresholds thresholds_;
   Stage stage_ = Stage::swing_out;
   double lead_ = 0.0;               // s before the swing stands that the bucket begins to open
-  bool level_ = true;               // at the spill point: nothing slides yet
   int candidate_ = 0;
   bool clear_ = false;
   double seconds_ = 0.0;

@@ -29,17 +29,6 @@ void from_bed(const TruckBed& bed, const BedPoint& p, double& x, double& y) {
   y = bed.centre_y + p.u * s + p.v * c;
 }
 
-double bed_before(const TruckBed& bed, const BedPoint& at, double side) {
-  double x = 0.0, y = 0.0;
-  from_bed(bed, at, x, y);
-  const double r = std::hypot(x, y);
-  const BedPoint back = to_bed(bed, x + side * y / r, y - side * x / r);
-  const auto as_far = [](double from, double step, double half) {
-    return std::fabs(step) < 1e-9 ? std::numeric_limits<double>::infinity() : (half - std::copysign(from, from * step)) / std::fabs(step);
-  };
-  return std::max(0.0, std::min(as_far(at.u, back.u - at.u, 0.5 * bed.length), as_far(at.v, back.v - at.v, 0.5 * bed.width)));
-}
-
 namespace {
 
 constexpr double cell = 0.3, rounding = 1e-6;  // of the kernel's map

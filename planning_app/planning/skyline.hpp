@@ -94,7 +94,5 @@ double pass_over_limit(const SiteModel& site, double x, double y);
 struct BedPoint { double u = 0.0, v = 0.0; };
 BedPoint to_bed(const TruckBed& bed, double x, double y);
 void from_bed(const TruckBed& bed, const BedPoint& p, double& x, double& y);
-// m of the bed that a swing comes over before it stands at a point of it: along the tangent, from the inside of the wall on. side: 1 when it swings to the left, else -1.
-double bed_before(const TruckBed& bed, const BedPoint& at, double side);
 
 }  // namespace berm::app

@@ -80,33 +80,6 @@ TEST(PassScript, TheBucketOpensEarlierWhereItIsHeldLevel) {
   EXPECT_NEAR(late, 6.0, 1e-9);
 }
 
-// Soil that slides while the arm still reaches out is to fall into the bed: near its end the arm reaches out later, where the bucket cannot be held level.
-TEST(PassScript, TheArmReachesOutWithTheBucketOverTheBed) {
-  const MachineModel m = berm::app_bench::zx200();
-  const ScriptSet scripts = berm::app_bench::shipped_scripts();
-  const SiteModel site = berm::app_bench::bench_with_truck();
-  const Skyline sky(m, site, ground_of(TerrainMap()));
-  PassTask task = on_the_bench();
-  const auto reaches_out_before = [&](double dump_radius, double bed_before) {
-    task.dump_radius = dump_radius;
-    task.bed_before = bed_before;
-    const auto poses = pass_poses(m, task);
-    EXPECT_TRUE(poses) << dump_radius;
-    if (!poses) return PassThresholds{};
-    task.lifted_from = poses->carry;
-    return PassSearch(scripts, m, sky, task, *poses).thresholds();
-  };
-  const double far = farthest_dump(m, task.wall_top);
-  const auto usual = reaches_out_before(far, 1e9), half = reaches_out_before(far, 0.7), short_way = reaches_out_before(far, 0.2), none = reaches_out_before(far, -0.3);
-  EXPECT_LT(half.extend_offset, usual.extend_offset - radians(2.0));
-  EXPECT_LT(short_way.extend_offset, half.extend_offset - radians(2.0));
-  EXPECT_LE(none.extend_offset, short_way.extend_offset);
-  EXPECT_GT(none.extend_offset, radians(2.9)) << "never after the swing stands";
-  EXPECT_LT(none.open_offset, usual.open_offset);
-  EXPECT_EQ(reaches_out_before(far, 3.0).extend_offset, usual.extend_offset) << "there is bed enough";
-  EXPECT_EQ(reaches_out_before(6.4, 0.2).extend_offset, reaches_out_before(6.4, 1e9).extend_offset) << "what lies level slides late";
-}
-
 // Beyond the easy reach a heap slides off short of the near wall: the farther, the less is to be in the bucket.
 TEST(PassScript, AHeapIsNotDumpedWhereTheBucketCannotBeHeldLevel) {
   const MachineModel m = berm::app_bench::zx200();

@@ -223,24 +223,4 @@ TEST(Skyline, WhereTheGroundMayBePassedOver) {
   EXPECT_LT(pass_over_limit(site, 0.0, 7.0), -0.8) << "no truck: lower ground";
 }
 
-// Walked in steps of a millimetre along the tangent, backwards.
-TEST(BedBefore, IsTheWayOverTheBedAgainstTheSwing) {
-  for (const double yaw_deg : {180.0, 175.0, 90.0, 20.0}) {
-    TruckBed bed = berm::app_bench::bench_bed();
-    bed.yaw = radians(yaw_deg);
-    for (const BedPoint at : {BedPoint{0.0, 0.0}, BedPoint{1.0, 0.3}, BedPoint{-1.6, -0.4}, BedPoint{0.5 * bed.length - 0.01, 0.0}})
-      for (const double side : {1.0, -1.0}) {
-        double x = 0.0, y = 0.0, way = 0.0;
-        from_bed(bed, at, x, y);
-        const double bearing = std::atan2(y, x);
-        const auto inside = [&] {
-          const BedPoint p = to_bed(bed, x + side * way * std::sin(bearing), y - side * way * std::cos(bearing));
-          return std::fabs(p.u) < 0.5 * bed.length && std::fabs(p.v) < 0.5 * bed.width;
-        };
-        while (inside()) way += 0.001;
-        EXPECT_NEAR(bed_before(bed, at, side), way, 0.0011) << yaw_deg << " deg, " << at.u << ", " << at.v << ", side " << side;
-      }
-  }
-}
-
 }  // namespace
