@@ -7,7 +7,7 @@
 
 namespace berm::app {
 
-// angle: when the request begins to act. Slows the swing first, then the arm. Where even standing is not clear by the app's own, wider margins,
+// angle: when the request begins to act. Slows the swing first, then the arm. Where no slower motion is clear by the app's own, wider margins,
 // everything creeps and the kernel decides; but beside what is too high to be passed over it stands, unless the request leads away, and whoever asks looks again.
 Joints guarded(const MachineModel& machine, const Skyline& skyline, const Joints& angle, const Joints& command);
 

@@ -28,7 +28,14 @@ bool PourWatch::carried_known() const {
 }
 
 void PourWatch::step(const Bucket& now) {
-  if (now.kg < 0.0) return;
+  if (now.kg < 0.0) {
+    // Half a load may leave it before its weight is known again: by where the lip was meanwhile.
+    unseen_ += count_ + 1;
+    unseen_share_sum_ += share_sum_ + now.beside;
+    count_ = 0;
+    sum_ = share_sum_ = 0.0;
+    return;
+  }
   if (now.rests && !slid_) {
     ++rested_;
     rested_sum_ += now.kg;
@@ -40,13 +47,16 @@ void PourWatch::step(const Bucket& now) {
   count_ = 0;
   sum_ = share_sum_ = 0.0;
   if (!now.rests && carried_known()) {
-    if (!paused_) weighed(kg, 0.5 * (share + last_share_));
+    const double unseen_share = (unseen_share_sum_ + block * share) / (unseen_ + block);
+    if (!paused_) weighed(kg, unseen_ > 0 ? unseen_share : 0.5 * (share + last_share_));
     slid_ = true;
   }
   // At rest the mean of all that was seen is quieter than a block's.
   last_kg_ = slid_ ? kg : carried_kg();
   last_share_ = share;
   paused_ = false;
+  unseen_ = 0;
+  unseen_share_sum_ = 0.0;
 }
 
 void PourWatch::weighed(double kg, double share) {

@@ -49,8 +49,9 @@ private:
   double sum_ = 0.0, share_sum_ = 0.0;
   bool slid_ = false, paused_ = false;
   double last_kg_ = 0.0, last_share_ = 0.0;  // of the block before
-  // What has left the bucket, by where its lip was: from so much in it down to so much. A weight that rises again had not left it: an arm that comes to rest
-  // as it reaches out takes 100 kg off the pressures for some tenths of a second, with the lip not over the bed yet.
+  int unseen_ = 0;                  // cycles since the last block, with the weight unknown
+  double unseen_share_sum_ = 0.0;
+  // What has left the bucket, by where its lip was: from so much in it down to so much. A weight that rises again had not left it: pressures waver while the arm moves.
   struct Left { double from_kg, to_kg, share; };
   std::vector<Left> left_;
 };

@@ -66,7 +66,7 @@ double Sequencer::pressed_kg(const Observation& o) const {
 
 void Sequencer::watch_pour(const Observation& o, double kg) {
   if (reach_again_.active()) pour_.pause(pours_);
-  else if (!emptied_ && kg >= 0.0) pour_.step({kg, carries_level(o), share_beside(machine_, *site_.bed, o.angle, bucket_width(machine_) / 2.0)});
+  else if (!emptied_) pour_.step({kg, carries_level(o), share_beside(machine_, *site_.bed, o.angle, bucket_width(machine_) / 2.0)});
 }
 
 // The on-board weighing is blind for a while after the soil, at times until the load slides, and then seen for a few readings only: the pressures say it too.

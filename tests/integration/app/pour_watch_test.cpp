@@ -82,6 +82,23 @@ TEST(PourWatch, AWeightThatRisesAgainHasNotLeftTheBucket) {
     }
 }
 
+// Half of the load leaves the bucket while its weight is unknown, and most of that over the bed.
+TEST(PourWatch, WhatLeavesItUnseenIsBookedByWhereTheLipWasMeanwhile) {
+  for (const int beside_cycles : {0, 6, 60}) {
+    PourWatch watch(full_kg);
+    watch.begin();
+    double kg = 1500.0;
+    for (int k = 0; k < 200; ++k) watch.step({kg, true, 1.0});
+    for (int k = 0; k < 26; ++k) watch.step({kg, false, 1.0});  // the last block is not filled
+    for (int k = 0; k < 100; ++k) {
+      kg -= 7.0;
+      watch.step({-1.0, false, k < beside_cycles ? 1.0 : 0.0});
+    }
+    for (int k = 0; k < 100; ++k) watch.step({kg -= 7.0, false, 0.0});
+    EXPECT_NEAR(watch.beside_kg(), beside_cycles == 60 ? 404.0 : beside_cycles == 6 ? 42.0 : 0.0, 48.0) << beside_cycles;
+  }
+}
+
 struct Stopped {
   explicit Stopped(int pours_cycles) {
     watch.begin();
