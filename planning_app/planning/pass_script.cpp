@@ -70,6 +70,13 @@ std::vector<double> values_of(const std::vector<ScriptAngle>& angles) {
 
 bool stands_clear_of_body(const MachineModel& machine, const Joints& pose) { return clears_own_body(machine, LowerEdge(machine, preview(machine, pose, standing_trembles))); }
 
+// The same, no nearer to the machine's own body than the kernel lets stick and bucket be: a pin that is high draws the stick in.
+std::optional<Joints> pose_clear_of_body(const MachineModel& machine, PlanePoint pin, double attitude) {
+  auto pose = pose_near(machine, pin, attitude);
+  for (double out = reach_step; pose && !stands_clear_of_body(machine, *pose) && out < most_out; out += reach_step) pose = pose_near(machine, {pin.r + out, pin.z}, attitude);
+  return pose;
+}
+
 // From the swing axis to the farthest dump point that the arm reaches with its load spilled where it is meant to be, m.
 double easy_reach(const MachineModel& machine, double wall_top) {
   const ImplementScale scale = scale_of(machine);
@@ -86,7 +93,7 @@ double side_of(const PassTask& task) { return task.truck_bearing >= task.lifted_
 std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask& task) {
   const ImplementScale scale = scale_of(machine);
   const double pin_z = std::clamp(task.truck_top, task.wall_top, std::max(task.wall_top, highest_top)) + pin_over_top(scale);
-  const auto carry = pose_near(machine, {carry_radius * scale.arm, pin_z}, attitude_carry);
+  const auto carry = pose_clear_of_body(machine, {carry_radius * scale.arm, pin_z}, attitude_carry);
   const auto spill = pose_near(machine, {task.dump_radius + spill_ahead * scale.bucket, pin_z}, attitude_spill);
   auto dump = pose_near(machine, {task.dump_radius - dump_behind * scale.bucket, pin_z}, attitude_open);
   for (double farther = task.open_farther; dump && farther > 0.0; farther -= radians(1.0)) {
@@ -100,7 +107,7 @@ std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask&
   // Over a high load at a near place the stick comes to the machine's own body before the bucket is open: farther out, and its soil with it.
   for (double out = reach_step; dump && !stands_clear_of_body(machine, *dump) && out < most_out; out += reach_step)
     dump = pose_near(machine, {task.dump_radius - dump_behind * scale.bucket + out, pin_z}, attitude_open);
-  const auto back = pose_near(machine, {back_radius * scale.arm, pin_z}, attitude_back);
+  const auto back = pose_clear_of_body(machine, {back_radius * scale.arm, pin_z}, attitude_back);
   const auto hover = hover_pose(machine, task, hover_above);
   const auto dig = tip_pose_near(machine, {task.next_entry.r, task.next_entry.z + dig_above}, attitude_dig);
   if (!carry || !spill || !dump || !back || !hover || !dig) return std::nullopt;
@@ -165,7 +172,7 @@ std::vector<ScriptAngle> approach_angles(const ApproachTask& task, const Approac
 
 std::optional<Script> approach_script(const ScriptSet& scripts, const MachineModel& machine, const ApproachTask& task) {
   const ImplementScale scale = scale_of(machine);
-  const auto back = pose_near(machine, {back_radius * scale.arm, task.top + pin_over_top(scale)}, task.keeps_load ? attitude_carry : attitude_back);
+  const auto back = pose_clear_of_body(machine, {back_radius * scale.arm, task.top + pin_over_top(scale)}, task.keeps_load ? attitude_carry : attitude_back);
   const auto dig = task.entry ? tip_pose_near(machine, {task.entry->r, task.entry->z + dig_above}, attitude_dig) : back;
   if (!back || !dig) return std::nullopt;
   return scripts.approach.bind(values_of(approach_angles(task, {*back, *dig})), task.bearing >= task.from[swing] ? 1.0 : -1.0);

@@ -112,6 +112,24 @@ TEST(PassScript, ABucketThatOpensFartherKeepsItsLipOverTheBed) {
   }
 }
 
+// Passing over something high draws the stick in: it is carried farther out, or the guard would let the swing creep all the way.
+TEST(PassScript, TheArmIsCarriedClearOfTheMachine) {
+  const MachineModel m = berm::app_bench::zx200();
+  const Skyline nothing(m, SiteModel{}, [](double, double) { return -5.0; });
+  PassTask task = on_the_bench();
+  task.dump_radius = 6.8;
+  for (double top = task.wall_top; top < 1.3; top += 0.1) {
+    task.truck_top = top;
+    const auto poses = pass_poses(m, task);
+    ASSERT_TRUE(poses) << top;
+    for (const Joints& pose : {poses->carry, poses->back}) {
+      const auto blocking = nothing.blocking(preview(m, pose, {}));
+      EXPECT_FALSE(blocking) << blocking->name() << " over " << top << " m";
+      EXPECT_LT(forward(m, pose).bucket_pin.r, 6.4 + (top < 0.5 ? 0.001 : 0.5)) << "no farther out than it must be";
+    }
+  }
+}
+
 // Over a high load the pin is high and drawn in: no nearer than the kernel lets stick and bucket come to the machine's own body, and no farther out than it must be.
 TEST(PassScript, AnOpenBucketStaysClearOfTheMachine) {
   const MachineModel m = berm::app_bench::zx200();
