@@ -70,11 +70,15 @@ std::vector<double> values_of(const std::vector<ScriptAngle>& angles) {
 
 bool stands_clear_of_body(const MachineModel& machine, const Joints& pose) { return clears_own_body(machine, LowerEdge(machine, preview(machine, pose, standing_trembles))); }
 
-// The same, no nearer to the machine's own body than the kernel lets stick and bucket be: a pin that is high draws the stick in.
-std::optional<Joints> pose_clear_of_body(const MachineModel& machine, PlanePoint pin, double attitude) {
-  auto pose = pose_near(machine, pin, attitude);
-  for (double out = reach_step; pose && !stands_clear_of_body(machine, *pose) && out < most_out; out += reach_step) pose = pose_near(machine, {pin.r + out, pin.z}, attitude);
-  return pose;
+// The same, no nearer to the machine's own body than the kernel lets stick and bucket be, where it can: a pin that is high draws the stick in.
+std::optional<Joints> pose_clear_of_body(const MachineModel& machine, const PlanePoint& pin, double attitude) {
+  const auto usual = pose_near(machine, pin, attitude);
+  auto pose = usual;
+  for (double out = reach_step; pose && out < most_out; out += reach_step) {
+    if (stands_clear_of_body(machine, *pose)) return pose;
+    pose = pose_near(machine, {pin.r + out, pin.z}, attitude);
+  }
+  return usual;
 }
 
 // From the swing axis to the farthest dump point that the arm reaches with its load spilled where it is meant to be, m.
