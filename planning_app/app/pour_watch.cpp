@@ -29,6 +29,7 @@ bool PourWatch::carried_known() const {
 
 void PourWatch::step(const Bucket& now) {
   if (now.kg < 0.0) {
+    if (now.rests) return;
     // Half a load may leave it before its weight is known again: by where the lip was meanwhile.
     unseen_ += count_ + 1;
     unseen_share_sum_ += share_sum_ + now.beside;

@@ -49,9 +49,9 @@ private:
   double sum_ = 0.0, share_sum_ = 0.0;
   bool slid_ = false, paused_ = false;
   double last_kg_ = 0.0, last_share_ = 0.0;  // of the block before
-  int unseen_ = 0;                  // cycles since the last block, with the weight unknown
+  int unseen_ = 0;                  // cycles since the last block, not at rest and with the weight unknown
   double unseen_share_sum_ = 0.0;
-  // What has left the bucket, by where its lip was: from so much in it down to so much. A weight that rises again had not left it: pressures waver while the arm moves.
+  // What has left the bucket, by where its lip was: from so much in it down to so much. A weight that rises again had not left it.
   struct Left { double from_kg, to_kg, share; };
   std::vector<Left> left_;
 };

@@ -15,7 +15,7 @@ double pin_over_top(const ImplementScale& scale) { return 1.6 * scale.bucket + 0
 constexpr double highest_top = 1.2;               // z; over anything higher the pass is not tried higher
 constexpr double reach_step = 0.05;               // m, of the search for a reach
 constexpr double most_short = 0.25;               // m, that a load is spilled short of where it is meant to be: with less a bed's far end gets none, with more the wall half of it
-constexpr double most_out = 0.5;                  // m, that a bucket opens farther out than it is meant to
+constexpr double most_out = 0.5;                  // m, that an arm is farther out than it is meant to
 constexpr Joints standing_trembles{0.0, radians(0.5), radians(0.5), radians(0.5)};  // rad/s, of measured speeds
 constexpr double heap_lost = 0.6;                 // share of a heaped bucket for a metre beyond the easy reach
 constexpr double carry_radius = 6.4;              // of the bucket pin, m; by the scale of the arm
@@ -70,15 +70,19 @@ std::vector<double> values_of(const std::vector<ScriptAngle>& angles) {
 
 bool stands_clear_of_body(const MachineModel& machine, const Joints& pose) { return clears_own_body(machine, LowerEdge(machine, preview(machine, pose, standing_trembles))); }
 
-// The same, no nearer to the machine's own body than the kernel lets stick and bucket be, where it can: a pin that is high draws the stick in.
-std::optional<Joints> pose_clear_of_body(const MachineModel& machine, const PlanePoint& pin, double attitude) {
-  const auto usual = pose_near(machine, pin, attitude);
-  auto pose = usual;
-  for (double out = reach_step; pose && out < most_out; out += reach_step) {
-    if (stands_clear_of_body(machine, *pose)) return pose;
-    pose = pose_near(machine, {pin.r + out, pin.z}, attitude);
+// A pose for the pin at the point, moved out until it is no nearer to the machine's own body than the kernel lets stick and bucket be, or as far as it goes: a pin
+// that is high draws the stick in.
+std::optional<Joints> clear_of_body(const MachineModel& machine, std::optional<Joints> pose, const PlanePoint& pin, double attitude) {
+  for (double out = reach_step; pose && !stands_clear_of_body(machine, *pose) && out < most_out; out += reach_step) {
+    const auto farther = pose_near(machine, {pin.r + out, pin.z}, attitude);
+    if (!farther) break;
+    pose = farther;
   }
-  return usual;
+  return pose;
+}
+
+std::optional<Joints> pose_clear_of_body(const MachineModel& machine, const PlanePoint& pin, double attitude) {
+  return clear_of_body(machine, pose_near(machine, pin, attitude), pin, attitude);
 }
 
 // From the swing axis to the farthest dump point that the arm reaches with its load spilled where it is meant to be, m.
@@ -99,18 +103,18 @@ std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask&
   const double pin_z = std::clamp(task.truck_top, task.wall_top, std::max(task.wall_top, highest_top)) + pin_over_top(scale);
   const auto carry = pose_clear_of_body(machine, {carry_radius * scale.arm, pin_z}, attitude_carry);
   const auto spill = pose_near(machine, {task.dump_radius + spill_ahead * scale.bucket, pin_z}, attitude_spill);
-  auto dump = pose_near(machine, {task.dump_radius - dump_behind * scale.bucket, pin_z}, attitude_open);
+  const PlanePoint open_pin{task.dump_radius - dump_behind * scale.bucket, pin_z};
+  auto dump = pose_near(machine, open_pin, attitude_open);
   for (double farther = task.open_farther; dump && farther > 0.0; farther -= radians(1.0)) {
     // The lip stays where it is when the bucket opens no farther: else what sticks, and lets go last, falls beyond the far wall.
     const double drawn_in = machine.bucket_length * (std::cos(attitude_open + farther) - std::cos(attitude_open));
-    const auto open = inverse_pin(machine, {task.dump_radius - dump_behind * scale.bucket - drawn_in, pin_z}, attitude_open + farther, range_guard);
+    const auto open = inverse_pin(machine, {open_pin.r - drawn_in, pin_z}, attitude_open + farther, range_guard);
     if (!open || (*open)[bucket] <= (*dump)[bucket] || !stands_clear_of_body(machine, *open)) continue;
     dump = open;
     break;
   }
   // Over a high load at a near place the stick comes to the machine's own body before the bucket is open: farther out, and its soil with it.
-  for (double out = reach_step; dump && !stands_clear_of_body(machine, *dump) && out < most_out; out += reach_step)
-    dump = pose_near(machine, {task.dump_radius - dump_behind * scale.bucket + out, pin_z}, attitude_open);
+  dump = clear_of_body(machine, dump, open_pin, attitude_open);
   const auto back = pose_clear_of_body(machine, {back_radius * scale.arm, pin_z}, attitude_back);
   const auto hover = hover_pose(machine, task, hover_above);
   const auto dig = tip_pose_near(machine, {task.next_entry.r, task.next_entry.z + dig_above}, attitude_dig);

@@ -59,7 +59,7 @@ TEST_F(MotionGuard, BesideItNothingCreepsTowardsItButAwayFromIt) {
 }
 
 // Standing is clear of it yet, and creeping is not.
-TEST_F(MotionGuard, BesideItNothingCreepsAsNearAsTheKernelsStop) {
+TEST_F(MotionGuard, NothingCreepsTowardsItWhereOnlyStandingIsClearEither) {
   const Skyline beside = post(machine_, site_, carried_[swing] + radians(20.0), 1.4);
   Joints near = carried_;
   while (beside.clear(near, crept(machine_, to_left_))) near[swing] += radians(0.02);
@@ -97,7 +97,6 @@ TEST_F(MotionGuard, BesideWhatIsNotTooHighItCreeps) {
   EXPECT_EQ(guarded(machine_, beside, lowered, to_left_), crept(machine_, to_left_));
 }
 
-// What nobody has seen below the bucket may be nothing: the kernel decides.
 // Where a pose is clear by so little that no motion is: what begins slowly from standing would never begin.
 TEST_F(MotionGuard, WhereOnlyStandingIsClearItCreeps) {
   const auto at = [&](double height) { return Skyline(machine_, site_, [=](double, double) { return height; }, Skyline::OverHigh::refused); };
@@ -123,6 +122,7 @@ TEST_F(MotionGuard, TheArmIsSlowedToAsMuchAsIsClear) {
   EXPECT_EQ(guarded(machine_, at(height), low_, lowers), slow);
 }
 
+// What nobody has seen below the bucket may be nothing: the kernel decides.
 TEST_F(MotionGuard, OverUnseenGroundItCreeps) {
   const double distance = reach_of(machine_, carried_) - 0.6;
   const Skyline beside = cell_of_map(machine_, site_, carried_[swing] + radians(10.0), distance, std::numeric_limits<double>::infinity());

@@ -62,8 +62,8 @@ TEST(PourWatch, NoiseIsNoSpill) {
   for (unsigned seed = 1; seed <= 50; ++seed) EXPECT_EQ(watched({.beside_s = -0.3}, seed).booked_beside_kg(), 0.0) << "seed " << seed;
 }
 
-// An arm that comes to rest as it reaches out takes weight off the pressures for a while, tilted already and not over the bed yet. What comes back had not left;
-// what had left before, or leaves with it, does not come back.
+// The weight dips for a while, with the bucket tilted already and not over the bed yet. What comes back had not left; what had left before, or leaves with it, does not
+// come back.
 TEST(PourWatch, AWeightThatRisesAgainHasNotLeftTheBucket) {
   for (const double fell_kg : {0.0, 90.0})
     for (const double dip_kg : {0.0, 120.0}) {
@@ -101,6 +101,21 @@ TEST(PourWatch, WhatLeavesItUnseenIsBookedByWhereTheLipWasMeanwhile) {
       const double gap_kg = 738.5, cycles = 116.0;  // to the middle of the block after it
       EXPECT_NEAR(watch.beside_kg(), gap_kg * (6.0 + beside_cycles) / cycles + later_kg - 16.0, 20.0) << beside_cycles << ", later " << later_kg;
     }
+}
+
+// On the way to the truck nothing slides, so how long that took says nothing of where the load fell.
+TEST(PourWatch, AWeightThatIsUnknownAtRestAndUntilItPoursIsNotBookedByTheWayThere) {
+  PourWatch watch(full_kg);
+  watch.begin();
+  double kg = 1500.0;
+  for (int k = 0; k < 100; ++k) watch.step({kg, true, 1.0});
+  for (int k = 0; k < 300; ++k) watch.step({-1.0, true, 1.0});
+  for (int k = 0; k < 100; ++k) {
+    kg -= 7.0;
+    watch.step({-1.0, false, 0.0});
+  }
+  for (int k = 0; k < 60; ++k) watch.step({kg -= 7.0, false, 0.0});
+  EXPECT_EQ(watch.beside_kg(), 0.0);
 }
 
 struct Stopped {
