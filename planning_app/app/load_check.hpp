@@ -33,6 +33,7 @@ public:
   bool weighed() const { return stage_ == Stage::pours || stage_ == Stage::passed; }  // or need not be, or cannot: it may go over the bed
   bool pours_part() const { return stage_ == Stage::pours; }                          // as soon as it is there
   bool keeps_rest() const { return keeps_rest_; }                                     // has poured a part
+  double rest_kg() const { return rest_; }                                            // what was to stay in it then
   bool passed() const { return stage_ == Stage::passed; }
   // What was in it before anything was poured; negative when it was not weighed.
   double lifted_kg() const { return lifted_; }

@@ -28,7 +28,7 @@
 #include "planning/dig_regions.hpp"
 #include "planning/dump_point.hpp"
 #include "planning/face_reserve.hpp"
-#include "planning/pass_script.hpp"
+#include "planning/pass_search.hpp"
 #include "planning/sticking_soil.hpp"
 #include "planning/truck_fill.hpp"
 
@@ -117,7 +117,10 @@ private:
   bool more_fits(const Observation& o) const;
   void begin_pass_search(const Observation& o, const Joints& lifted_from);
   static constexpr double empty_share = 0.05;  // of a full bucket: what holds no more than that and what sticks is empty
+  BedPoint along_way_back(double way, double radius) const;
+  bool runs_out_over_bed() const;
   double share_that_may_trail() const;
+  BedPoint lies_at(double payload_kg) const;
   std::uint32_t pass_events(const Observation& o);
   bool carries_level(const Observation& o) const;
   double pressed_kg(const Observation& o) const;

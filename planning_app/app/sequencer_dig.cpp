@@ -262,7 +262,7 @@ void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_fro
 Joints Sequencer::curl(const Observation& o) {
   if (search_ && !search_->done()) search_->step();
   if (cut_) cut_->reach(o.angle);
-  const bool done = !follower_.active() || follower_.finished() || o.time_s - stage_s_ > 5.0 || forward(machine_, o.angle).bucket_attitude < curled + radians(16.0);  // the script curls on
+  const bool done = !follower_.active() || follower_.finished() || o.time_s - stage_s_ > 5.0 || forward(machine_, o.angle).bucket_attitude < curled + radians(32.0);  // the script curls on
   if (done && search_ && search_->done()) {
     note_cut(o);
     poses_ = search_->poses();
@@ -287,10 +287,9 @@ Joints Sequencer::curl(const Observation& o) {
   }
   if (!follower_.active()) return {};
   // A bucket that soil holds up while it curls comes free when it is lifted.
-  constexpr double lifting = 3.0, most_lift = 0.5;  // m/s a rad that the bucket is behind; m
-  constexpr double freely_behind = radians(3.0);    // as in the air
+  constexpr double lifting = 0.6, most_lift = 0.5;  // m/s, m
   DigFollower::Departure departure = follower_.departure();
-  departure.lift = std::min(most_lift, departure.lift + lifting * std::max(0.0, follower_.bucket_behind() - freely_behind) * machine_.cycle);
+  departure.lift = std::min(most_lift, departure.lift + lifting * machine_.cycle);
   follower_.depart(departure);
   return follower_.step(machine_, arm_, o.angle[swing], curl_speed, o.angle, o.velocity);
 }

@@ -15,16 +15,34 @@ constexpr double resting = radians(-165.0);       // bucket: before this tilt no
 
 }  // namespace
 
-// Of its load, what may still be in the bucket when the swing turns round: the rest runs out over the first degrees of the way back, where those are
-// over the bed.
+// In the bed's frame, a way along the swing back from over the dump point, m at a distance from the swing axis.
+BedPoint Sequencer::along_way_back(double way, double radius) const {
+  const double bearing = task_.truck_bearing + std::copysign(way / radius, task_.next_bearing - task_.truck_bearing);
+  return to_bed(*site_.bed, radius * std::cos(bearing), radius * std::sin(bearing));
+}
+
+// Whether the way back is over the bed until the bucket has run out.
+bool Sequencer::runs_out_over_bed() const {
+  constexpr double trails = 1.1, lip_beyond = 0.9;  // m, of the opened bucket's lip; beyond the dump point
+  const BedPoint there = along_way_back(trails * scale_.arm, task_.dump_radius + lip_beyond * scale_.bucket);
+  return std::fabs(there.u) + 0.5 * bucket_width(machine_) < 0.5 * site_.bed->length && std::fabs(there.v) < 0.5 * site_.bed->width;
+}
+
+// Of its load, what may still be in the bucket when the swing turns round.
 double Sequencer::share_that_may_trail() const {
-  constexpr double over_bed = 0.40, beyond = 0.20;
-  constexpr double trails = radians(8.0), lip_beyond = 0.9;  // m, of the opened bucket's lip beyond the dump point
-  if (sticking_.sticks()) return 0.0;  // what sticks lets go late and all at once
-  const double bearing = task_.truck_bearing + std::copysign(trails, task_.next_bearing - task_.truck_bearing), r = task_.dump_radius + lip_beyond * scale_.bucket;
-  const BedPoint there = to_bed(*site_.bed, r * std::cos(bearing), r * std::sin(bearing));
-  const double aside = 0.5 * bucket_width(machine_);
-  return std::fabs(there.u) + aside < 0.5 * site_.bed->length && std::fabs(there.v) < 0.5 * site_.bed->width ? over_bed : beyond;
+  constexpr double over_bed = 0.50, beyond = 0.30;
+  constexpr double of_sticking = 0.10;  // besides what sticks, which lets go late and all at once
+  if (sticking_.sticks()) return runs_out_over_bed() ? of_sticking + sticking_.share() : 0.0;
+  return runs_out_over_bed() ? over_bed : beyond;
+}
+
+// Where the middle of what this pass brought lies: what runs out over the way back is 0.10 m off in the mean.
+BedPoint Sequencer::lies_at(double payload_kg) const {
+  constexpr double trails = 0.10;
+  BedPoint at = landing(*site_.bed, dump_.at, payload_kg, scale_);
+  if (sticking_.sticks() || load_check_.keeps_rest() || !runs_out_over_bed()) return at;
+  const BedPoint from = along_way_back(0.0, task_.dump_radius), to = along_way_back(trails * scale_.arm, task_.dump_radius);
+  return {at.u + to.u - from.u, at.v + to.v - from.v};
 }
 
 std::uint32_t Sequencer::pass_events(const Observation& o) {
@@ -101,7 +119,7 @@ Joints Sequencer::pass(const Observation& o) {
   if (emptied_ && !(load_check_.keeps_rest() && script_.of(swing).at_last())) after_.add(o.payload_kg);  // what it keeps it lets go over the dig
   const Joints goals = script_.goals();
   // The boom may be higher yet: the drag's way down begins from where it is.
-  constexpr Joints close{radians(4.0), radians(5.0), radians(4.0), radians(5.0)};
+  constexpr Joints close{radians(4.0), radians(10.0), radians(4.0), radians(5.0)};
   bool near = true;
   for (std::size_t j = 0; j < joints; ++j) near = near && std::fabs(goals[j] - o.angle[j]) < close[j];
   if (script_.at_last() && near) end_pass(o);
@@ -115,9 +133,9 @@ void Sequencer::book_pass(const Observation& o) {
   const bool weighed = carried > 0.0 && after_.known();
   // A bucket that nothing has weighed is taken for no less than the dig's force says: else the truck would be overloaded.
   const double unweighed_kg = filled_.known() ? std::max(goal_kg_, std::min(heaped_kg_, filled_.kg())) : goal_kg_;
-  // Stops may have kept a bucket whose swing had turned round from opening on: what is in it then is not in the truck.
-  const double unpoured_kg = !emptied_ && o.payload_kg >= 0.0 ? recent_.kg() : 0.0;
-  const double before = seen.value_or(unweighed_kg), after = after_.known() ? after_.kg() : std::max(unpoured_kg, sticking_.stays_kg(carried));
+  // A part leaves the rest in it, and stops may have kept a bucket whose swing had turned round from opening on: what is in it then is not in the truck.
+  const double unpoured_kg = load_check_.keeps_rest() ? load_check_.rest_kg() : !emptied_ && o.payload_kg >= 0.0 ? recent_.kg() : 0.0;
+  const double before = seen.value_or(unweighed_kg), after = after_.known() ? left_in_bucket(after_.kg()) : std::max(unpoured_kg, sticking_.stays_kg(carried));
   // Before a bucket came back empty from over a bed, what the implements weigh out there is extrapolated.
   const double beside_kg = filled_.known() ? pour_.booked_beside_kg() : 0.0;
   const double had = fill_.loaded_kg();
@@ -134,7 +152,7 @@ void Sequencer::book_pass(const Observation& o) {
   poor_passes_ = payload < poor_share * goal_kg_ ? poor_passes_ + 1 : 0;
   face_yield_.add(payload / goal_kg_);
   loaded_here_kg_ += payload;
-  dumps_.push_back({landing(*site_.bed, dump_.at, payload, scale_), payload});
+  dumps_.push_back({lies_at(payload), payload});
   bed_->note_dump(dumps_.back().at, payload);
   ++pass_;
   log_.event("pass", {{"pass", pass_}, {"truck", truck_}, {"seconds", o.time_s - pass_began_s_}, {"payload_kg", payload}, {"loaded_kg", fill_.loaded_kg()}, {"carried_kg", carried}, {"beside_kg", beside_kg},

@@ -1,6 +1,7 @@
 // Mean of the on-board weighing's noisy values.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <deque>
 
@@ -41,5 +42,13 @@ private:
   static constexpr std::size_t most = 15;
   std::deque<double> newest_;
 };
+
+// What is in a bucket that weighs so much in the mean, kg. The weighing wavers by some 15 kg and never shows less than nothing, so that of an empty bucket it
+// shows 6, and of one that holds 18 and more what is in it.
+inline double left_in_bucket(double mean_kg) {
+  constexpr double of_nothing = 6.0, as_it_is = 18.0;
+  const double too_much = of_nothing * (as_it_is - mean_kg) / (as_it_is - of_nothing);
+  return std::max(0.0, mean_kg - std::clamp(too_much, 0.0, of_nothing));
+}
 
 }  // namespace berm::app

@@ -84,7 +84,6 @@ Joints DigFollower::step(const MachineModel& machine, ArmController& arm, double
   double behind = 0.0;
   for (const std::size_t j : {boom, stick, bucket}) behind = std::max(behind, std::fabs(reference[j] - then[j]));
   const double go = std::clamp(1.0 - behind / error_full_stop, 0.0, 1.0);
-  bucket_behind_ = std::fabs(reference[bucket] - then[bucket]);
   stalled_ = go < 0.15 ? stalled_ + machine.cycle : 0.0;
   Joints reference_velocity{};
   const double ends = finished() ? 0.0 : speed * go;

@@ -38,13 +38,12 @@ private:
 // Follows a path. The reference waits for joints that soil holds back.
 class DigFollower {
 public:
-  void begin(DigPath path) { path_ = std::move(path); s_ = stalled_ = bucket_behind_ = 0.0; departure_ = last_departure_ = {}; }
+  void begin(DigPath path) { path_ = std::move(path); s_ = stalled_ = 0.0; departure_ = last_departure_ = {}; }
   bool active() const { return path_.has_value(); }
   void end() { path_.reset(); }
   bool finished() const { return path_ && s_ >= path_->length(); }
   double progress() const { return path_ ? s_ / path_->length() : 0.0; }
   double stalled_s() const { return stalled_; }   // for how long the joints have not come after the reference
-  double bucket_behind() const { return bucket_behind_; }  // rad, the bucket behind its reference
   Joints on_path() const { return path_->at(s_); }  // where the reference would be had it not departed
   // How the reference departs from the path: the tip over it, m (negative: under it); the bucket curled at least as far as the attitude. As far as
   // the joints reach.
@@ -60,7 +59,7 @@ private:
 
   std::optional<DigPath> path_;
   double s_ = 0.0;
-  double stalled_ = 0.0, bucket_behind_ = 0.0;
+  double stalled_ = 0.0;
   Departure departure_, last_departure_;
 };
 

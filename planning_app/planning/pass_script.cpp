@@ -20,9 +20,7 @@ constexpr Joints standing_trembles{0.0, radians(0.5), radians(0.5), radians(0.5)
 constexpr double heap_lost = 0.6;                 // share of a heaped bucket for a metre beyond the easy reach
 constexpr double carry_radius = 6.4;              // of the bucket pin, m; by the scale of the arm
 constexpr double back_radius = 6.3;               // the same
-constexpr double attitude_carry = radians(-178.0), attitude_spill = radians(-170.0);  // nothing slides yet
-constexpr double attitude_rests = radians(-157.0);  // at most, for little to slide
-constexpr double attitude_pour = radians(-145.0); // the load begins to slide
+constexpr double attitude_carry = radians(-178.0);
 constexpr double attitude_open = radians(-48.0);
 constexpr double attitude_back = radians(-122.0);
 constexpr double attitude_dig = radians(-92.0);
@@ -31,11 +29,6 @@ constexpr double dump_behind = 0.25;              // ... and short of it when th
 constexpr double part_lip_beyond = 0.3;           // lip beyond the dump point, at most, while a part of a load is poured: by the scale of the bucket
 constexpr double part_ahead = radians(15.0);      // the arm follows late, and a lip too far out may be held by what stands beside the bed, and the arm with it: so far ahead of the bucket
 constexpr double dig_above = -0.15;               // tip over the entry of the drag, which is above the surface: nearer to that, for the drag takes over on the way down
-constexpr double hover_above = 1.60;              // tip over the bench's level while the swing lands: heaps on the crest, the margin, the spread of a stop ...
-constexpr double hover_lowest = 0.20, hover_step = 0.35;  // ... and where the search finds that clear, lower by whole steps
-constexpr double arrived = radians(1.0);
-constexpr double soonest_lead = 1.0, latest_lead = 0.0, lead_step = 0.1;  // s before the swing stands that the bucket begins to open; nothing slides in the first half second
-constexpr double empties_before = radians(40.0);         // of the open bucket, when what is left no longer holds up the swing
 
 // Pose with the pin at the point and the attitude as wanted, or as near as the bucket's range allows.
 std::optional<Joints> pose_at(const MachineModel& machine, const PlanePoint& pin, double attitude) {
@@ -56,10 +49,6 @@ std::optional<Joints> tip_pose_near(const MachineModel& machine, const PlanePoin
     for (const double sign : {1.0, -1.0})
       if (auto q = inverse_tip(machine, tip, attitude + sign * radians(turn), range_guard)) return q;
   return std::nullopt;
-}
-
-std::optional<Joints> hover_pose(const MachineModel& machine, const PassTask& task, double above) {
-  return tip_pose_near(machine, {task.next_entry.r, above}, attitude_dig);
 }
 
 std::vector<double> values_of(const std::vector<ScriptAngle>& angles) {
@@ -98,6 +87,10 @@ double side_of(const PassTask& task) { return task.truck_bearing >= task.lifted_
 
 }  // namespace
 
+std::optional<Joints> hover_pose(const MachineModel& machine, const PassTask& task, double above) {
+  return tip_pose_near(machine, {task.next_entry.r, above}, attitude_dig);
+}
+
 std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask& task) {
   const ImplementScale scale = scale_of(machine);
   const double pin_z = std::clamp(task.truck_top, task.wall_top, std::max(task.wall_top, highest_top)) + pin_over_top(scale);
@@ -116,7 +109,7 @@ std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask&
   // Over a high load at a near place the stick comes to the machine's own body before the bucket is open: farther out, and its soil with it.
   dump = clear_of_body(machine, dump, open_pin, attitude_open);
   const auto back = pose_clear_of_body(machine, {back_radius * scale.arm, pin_z}, attitude_back);
-  const auto hover = hover_pose(machine, task, hover_above);
+  const auto hover = hover_pose(machine, task, hover_highest);
   const auto dig = tip_pose_near(machine, {task.next_entry.r, task.next_entry.z + dig_above}, attitude_dig);
   if (!carry || !spill || !dump || !back || !hover || !dig) return std::nullopt;
   if (!task.lower_at_end) return PassPoses{*carry, *spill, *dump, *back, *back, *back};
@@ -184,160 +177,6 @@ std::optional<Script> approach_script(const ScriptSet& scripts, const MachineMod
   const auto dig = task.entry ? tip_pose_near(machine, {task.entry->r, task.entry->z + dig_above}, attitude_dig) : back;
   if (!back || !dig) return std::nullopt;
   return scripts.approach.bind(values_of(approach_angles(task, {*back, *dig})), task.bearing >= task.from[swing] ? 1.0 : -1.0);
-}
-
-PassSearch::PassSearch(const ScriptSet& scripts, const MachineModel& machine, const Skyline& skyline, const PassTask& task, const PassPoses& poses)
-    : scripts_(&scripts), machine_(machine), skyline_(skyline), task_(task), poses_(poses) {
-  lead_ = soonest_lead;
-  reach_over_bed();
-  // It is there when the load slides. Far out, where the bucket cannot be held level, soil slides as soon as it opens.
-  const bool level = forward(machine, poses.spill).bucket_attitude < attitude_rests;
-  thresholds_.open_stick = poses.spill[stick] - (level ? radians(14.0) : radians(6.0));
-  thresholds_.pour_bucket = poses.spill[bucket] + (attitude_pour - attitude_spill);
-  const double rise = poses.carry[boom] - task.lifted_from[boom];
-  thresholds_.fold_boom = task.lifted_from[boom] + 0.45 * std::max(0.0, rise);
-}
-
-// The bucket opens while the swing lands, and the stick is then at the spill point: the swing's last stretch is v = sqrt(2 a d).
-void PassSearch::reach_over_bed() {
-  const double reach = reach_of(machine_, poses_.carry);
-  const double brake = limits_of(machine_, swing, reach_of(machine_, poses_.spill)).deceleration;
-  const auto way = [&](double seconds) { return 0.5 * brake * seconds * seconds; };
-  const auto paced_time = [&](Joint joint) {
-    JointResponse response = response_of(machine_, joint);
-    response.velocity_max = scripts_->pass.pace_of(joint, RuleMark::extends) * limits_of(machine_, joint, reach).velocity;
-    return time_to_reach(response, poses_.carry[joint], poses_.spill[joint]);
-  };
-  thresholds_.open_offset = std::clamp(way(lead_), radians(2.0), radians(14.0));
-  thresholds_.extend_offset = std::clamp(way(lead_ + std::max(paced_time(stick), paced_time(boom))), radians(3.0), radians(45.0));
-}
-
-void PassSearch::step() {
-  constexpr int out_candidates = 9, back_candidates = 10, lower_candidates = 9;
-  constexpr double lower_share = 0.8;  // of the candidate before
-  constexpr double latest_lower = radians(2.0);
-  if (stage_ == Stage::swing_out) {
-    const double low = std::min(task_.lifted_from[boom] + radians(1.0), poses_.carry[boom] - radians(1.5));
-    const double high = poses_.carry[boom] - radians(1.5);
-    const double share = static_cast<double>(candidate_) / (out_candidates - 1);
-    thresholds_.swing_start_boom = low + (high - low) * share * share;  // most are found clear soon
-    thresholds_.hover_offset = 0.0;
-    const Outcome outcome = simulate(thresholds_);
-    if (!outcome.clear_out && candidate_ + 1 < out_candidates) {
-      ++candidate_;
-    } else if (outcome.clear_out && !outcome.clear_over_bed && lead_ > latest_lead + 0.5 * lead_step) {
-      lead_ -= lead_step;
-      reach_over_bed();
-    } else {
-      if (!outcome.clear_out) lead_ = latest_lead;  // nothing is known of what comes after the lift
-      reach_over_bed();
-      stage_ = Stage::swing_back;
-      candidate_ = 0;
-    }
-  } else if (stage_ == Stage::swing_back) {
-    constexpr double soonest = radians(50.0), share = 0.7;  // of the candidate before
-    thresholds_.hover_offset = soonest * std::pow(share, candidate_);
-    thresholds_.lower_offset = std::min(latest_lower, lower_share * thresholds_.hover_offset);
-    const Outcome outcome = simulate(thresholds_);
-    const bool passes = outcome.clear_back && outcome.finished;
-    if (passes || ++candidate_ == back_candidates) {
-      clear_ = outcome.clear_out && outcome.clear_over_bed && passes;
-      seconds_ = outcome.seconds;
-      stage_ = passes && task_.lower_at_end ? Stage::hover : Stage::done;
-      candidate_ = 0;
-    }
-  } else if (stage_ == Stage::hover) {
-    const PassPoses higher = poses_;
-    const double above = hover_lowest + hover_step * candidate_;
-    const auto hover = above < hover_above ? hover_pose(machine_, task_, above) : std::nullopt;
-    if (hover) {
-      poses_.hover = *hover;
-      const Outcome outcome = simulate(thresholds_);
-      if (outcome.clear_back && outcome.finished && outcome.seconds < seconds_) seconds_ = outcome.seconds;
-      else poses_ = higher;
-    }
-    ++candidate_;
-    if (above >= hover_above || poses_.hover != higher.hover) {
-      stage_ = Stage::lower;
-      candidate_ = 0;
-    }
-  } else if (stage_ == Stage::lower) {
-    constexpr double soonest = radians(20.0);
-    PassThresholds sooner = thresholds_;
-    sooner.lower_offset = std::min(soonest, lower_share * thresholds_.hover_offset) * std::pow(lower_share, candidate_);
-    const bool any = sooner.lower_offset > thresholds_.lower_offset && candidate_ < lower_candidates;
-    const Outcome outcome = any ? simulate(sooner) : Outcome{};
-    if (any && outcome.clear_back && outcome.finished && outcome.seconds < seconds_) {
-      thresholds_ = sooner;
-      seconds_ = outcome.seconds;
-      stage_ = Stage::done;
-    } else if (!any) {
-      stage_ = Stage::done;
-    }
-    ++candidate_;
-  }
-}
-
-PassSearch::Outcome PassSearch::simulate(const PassThresholds& thresholds) const {
-  constexpr int script_every = 2;   // cycles: 50 Hz
-  constexpr int check_every = 5;
-  constexpr double most_seconds = 30.0;
-  constexpr double emptying = 0.5;  // s with the bucket open
-  constexpr double most_beyond_dig = radians(60.0);  // a stop may carry the swing past the dig only over ground that the scanners sweep
-  const double side = task_.truck_bearing >= task_.next_bearing ? 1.0 : -1.0;
-  ArmController arm(machine_);
-  std::array<JointModel, joints> model{JointModel(response_of(machine_, swing), machine_.cycle), JointModel(response_of(machine_, boom), machine_.cycle),
-                                       JointModel(response_of(machine_, stick), machine_.cycle), JointModel(response_of(machine_, bucket), machine_.cycle)};
-  for (std::size_t j = 0; j < joints; ++j) model[j].reset(task_.lifted_from[j], 0.0);
-  Script script = pass_script(*scripts_, machine_, task_, poses_, thresholds);
-  script.start();
-  Outcome outcome;
-  double open_s = 0.0;
-  const int most = static_cast<int>(most_seconds / machine_.cycle);
-  for (int k = 0; k < most; ++k) {
-    Joints angle{}, velocity{};
-    for (std::size_t j = 0; j < joints; ++j) {
-      angle[j] = model[j].angle();
-      velocity[j] = model[j].velocity();
-    }
-    const bool opens = script.of(bucket).reached(RuleMark::opens), open = opens && angle[bucket] > poses_.dump[bucket] - radians(8.0);
-    open_s = open ? open_s + machine_.cycle : open_s;
-    const std::uint32_t pours = opens && angle[bucket] > poses_.dump[bucket] - empties_before ? event_empties : event_none;
-    if (k % script_every == 0) script.evaluate(angle, event_weighed | pours | (open_s >= emptying ? event_emptied : event_none));
-    const bool returning = script.of(swing).reached(RuleMark::returns);
-    arm.brake_swing(returning ? task_.brake_empty : 0.0);
-    const double carried_kg = returning ? 0.0 : machine_.bucket_payload_kg;
-    arm.carries(carried_kg);
-    if (k % script_every == 0)
-      for (std::size_t j = 0; j < joints; ++j) model[j].respond(responses_of(machine_, j, reach_of(machine_, angle), carried_kg));
-    if (k % check_every == 0) {
-      const ReachIntervals box = preview(machine_, angle, velocity);
-      const double beyond = side > 0.0 ? task_.next_bearing - box.low[swing] : box.high[swing] - task_.next_bearing;
-      const bool extends = script.of(stick).reached(RuleMark::extends);
-      auto blocking = skyline_.blocking(box);
-      // What no threshold helps against. Beside the truck stands its cab: how fast the swing goes towards it with folded implements is the kernel's to
-      // say, which slows it smoothly. What the arm meets of its own body it meets however late the swing begins: the guard slows the arm.
-      if (blocking && !extends && blocking->what != Skyline::Blocking::What::ground) blocking.reset();
-      if (blocking || (returning && beyond > most_beyond_dig)) {
-        (returning ? outcome.clear_back : extends ? outcome.clear_over_bed : outcome.clear_out) = false;
-        if (!returning && stage_ == Stage::swing_out) return outcome;
-      }
-    }
-    const Joints goals = script.goals();
-    const Joints command = arm.toward(goals, script.paces(), angle, velocity);
-    arm.sent(command);
-    bool standing = script.at_last();
-    for (std::size_t j = 0; j < joints; ++j) {
-      model[j].advance(command[j]);
-      standing = standing && std::fabs(angle[j] - goals[j]) < arrived && std::fabs(velocity[j]) < radians(1.0);
-    }
-    outcome.seconds = (k + 1) * machine_.cycle;
-    if (standing) {
-      outcome.finished = true;
-      break;
-    }
-  }
-  return outcome;
 }
 
 }  // namespace berm::app

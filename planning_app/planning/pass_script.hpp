@@ -40,6 +40,13 @@ struct PassThresholds {
   double lower_offset = 0.0;       // ... and go down to where the drag begins
 };
 
+// The bucket's attitude at the spill point, where nothing slides yet; up to which little slides; and from which on the load does.
+inline constexpr double attitude_spill = radians(-170.0), attitude_rests = radians(-157.0), attitude_pour = radians(-145.0);
+
+// m, tip over the bench's level while the swing lands: heaps on the crest, the margin, the spread of a stop. The search finds lower ones.
+inline constexpr double hover_highest = 1.60;
+std::optional<Joints> hover_pose(const MachineModel& machine, const PassTask& task, double above);
+
 // Nothing when the dump point is out of reach.
 std::optional<PassPoses> pass_poses(const MachineModel& machine, const PassTask& task);
 
@@ -74,38 +81,5 @@ struct ApproachPoses { Joints back{}, end{}; };
 // Parameters of the script "approach" by name.
 std::vector<ScriptAngle> approach_angles(const ApproachTask& task, const ApproachPoses& poses);
 std::optional<Script> approach_script(const ScriptSet& scripts, const MachineModel& machine, const ApproachTask& task);
-
-// Finds the thresholds: starts from the soonest and simulates script, controllers and joint models against the skyline until the motion
-// stays clear. One candidate a step, so that a cycle is never late.
-class PassSearch {
-public:
-  // scripts must outlive it.
-  PassSearch(const ScriptSet& scripts, const MachineModel& machine, const Skyline& skyline, const PassTask& task, const PassPoses& poses);
-
-  bool done() const { return stage_ == Stage::done; }
-  void step();
-  const PassThresholds& thresholds() const { return thresholds_; }
-  const PassPoses& poses() const { return poses_; }  // hovers lower over the dig where there is room
-  bool clear() const { return clear_; }            // of the whole pass, by the models; false: the last candidate stands, the guard will slow it
-  double seconds() const { return seconds_; }      // the models' time for the pass without the dig
-
-private:
-  enum class Stage { swing_out, swing_back, hover, lower, done };
-  struct Outcome { bool clear_out = true, clear_over_bed = true, clear_back = true, finished = false; double seconds = 0.0; };  // out: until the arm reaches out over the bed
-  void reach_over_bed();
-  Outcome simulate(const PassThresholds& thresholds) const;
-
-  const ScriptSet* scripts_;
-  MachineModel machine_;
-  Skyline skyline_;
-  PassTask task_;
-  PassPoses poses_;
-  PassThresholds thresholds_;
-  Stage stage_ = Stage::swing_out;
-  double lead_ = 0.0;               // s before the swing stands that the bucket begins to open
-  int candidate_ = 0;
-  bool clear_ = false;
-  double seconds_ = 0.0;
-};
 
 }  // namespace berm::app

@@ -25,9 +25,9 @@ public:
   // Whether a bucket that holds at most so much may hold more than is allowed: it has to be weighed before it pours.
   bool must_weigh(double heaped_kg) const;
 
-  // Shares of the target: what passes are planned up to; when it is full; what is kept back rather than loaded, a weighing's error below the target; and what
-  // a part of a bucket that holds more is poured up to: the middle of what the books are wrong by either way, for more falls beside than is seen.
-  static constexpr double aim_share = 0.990, full_share = 0.985, most_share = 0.995, part_share = 0.990;
+  // Shares of the target: what passes are planned up to; when it is full; what is kept back rather than loaded, as far below the target as a truck's
+  // books may be wrong; and what a part of a bucket that holds more is poured up to: the middle of what the books are wrong by either way.
+  static constexpr double aim_share = 0.990, full_share = 0.985, most_share = 0.993, part_share = 0.990;
   static constexpr double worth_share = 0.06;    // of a full bucket; a pass for less is not worth its time
 
 private:

@@ -6,7 +6,7 @@
 #include "app_bench/bench_machine.hpp"
 #include "app_bench/bench_site.hpp"
 #include "motion/arm_kinematics.hpp"
-#include "planning/pass_script.hpp"
+#include "planning/pass_search.hpp"
 #include "planning/skyline.hpp"
 
 namespace {
