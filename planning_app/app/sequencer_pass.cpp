@@ -31,9 +31,9 @@ bool Sequencer::runs_out_over_bed() const {
 // Of its load, what may still be in the bucket when the swing turns round.
 double Sequencer::share_that_may_trail() const {
   constexpr double over_bed = 0.50, beyond = 0.30;
-  constexpr double of_sticking = 0.10;  // besides what sticks, which lets go late and all at once
-  if (sticking_.sticks()) return runs_out_over_bed() ? of_sticking + sticking_.share() : 0.0;
-  return runs_out_over_bed() ? over_bed : beyond;
+  constexpr double sooner = 0.25;  // besides what sticks, which lets go late and all at once
+  const double share = runs_out_over_bed() ? over_bed : beyond;
+  return sticking_.sticks() ? share - sooner + sticking_.share() : share;
 }
 
 // Where the middle of what this pass brought lies: what runs out over the way back is 0.10 m off in the mean.
