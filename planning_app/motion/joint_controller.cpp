@@ -14,7 +14,7 @@ constexpr double brake_share = 0.90;
 constexpr double empty_swing_brake_share = 0.60;  // of what was identified; landings at 0.9 of it made no pass shorter
 constexpr double acceleration_share = 0.85;  // the file's is an upper bound, measured on an empty machine too: a loaded one does less
 constexpr double bus_step = 0.0005;       // rad/s; the kernel cuts every command to whole ones
-constexpr double landing_gain = 4.5, swing_landing_gain = 6.5;  // 1/s; the dead time is predicted away, noise and a slower joint than its model remain, least of all of the swing
+constexpr double landing_gain = 4.5;      // 1/s; the dead time is predicted away, noise and a slower joint than its model remain
 
 double table_deceleration(const BrakingTable& table, std::size_t joint, double reach_m, double velocity_max) {
   std::size_t row = 0;
@@ -31,7 +31,7 @@ ControllerLimits limits_of(const MachineModel& machine, std::size_t joint, doubl
   const JointLimits& j = machine.joint[joint];
   const double acceleration = acceleration_share * j.acceleration_max;
   const double brake = std::min(table_deceleration(machine.braking, joint, reach_m, j.velocity_max), acceleration);
-  return {(joint == swing ? swing_share : arm_share) * j.velocity_max, acceleration, brake_share * brake, joint == swing ? swing_landing_gain : landing_gain};
+  return {(joint == swing ? swing_share : arm_share) * j.velocity_max, acceleration, brake_share * brake, landing_gain};
 }
 
 ControllerLimits limits_of(const MachineModel& machine, std::size_t joint, double reach_m, double payload_kg) {

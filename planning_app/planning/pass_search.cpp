@@ -10,7 +10,7 @@ namespace {
 
 constexpr double hover_lowest = 0.20, hover_step = 0.35;  // m over the bench's level, of the search: hovering lower than that gains little, and a slowed swing has the arm go down as much farther ahead of it
 constexpr double arrived = radians(1.0);
-constexpr double soonest_lead = 1.0, latest_lead = 0.0, lead_step = 0.1;  // s before the swing stands that the bucket begins to open; nothing slides in the first half second
+constexpr double soonest_lead = 1.0, latest_lead = 0.0, lead_step = 0.05;  // s before the swing stands that the bucket begins to open; nothing slides in the first half second
 constexpr double empties_before = radians(40.0);         // of the open bucket, when what is left no longer holds up the swing
 
 }  // namespace
@@ -134,7 +134,7 @@ void PassSearch::hover_lower() {
 
 // The soonest that is clear.
 void PassSearch::lower_sooner() {
-  constexpr double soonest = radians(20.0), share = 0.85;  // of the candidate before
+  constexpr double soonest = radians(20.0), share = 0.9;  // of the candidate before
   PassThresholds sooner = thresholds_;
   sooner.lower_offset = std::min(soonest, 0.8 * thresholds_.hover_offset) * std::pow(share, candidate_++);
   if (sooner.lower_offset <= thresholds_.lower_offset) {
