@@ -187,6 +187,7 @@ private:
   ImplementWeight weight_;
   DigFill filled_;                            // of this dig, by force
   std::vector<double> planned_fill_;          // of this dig: bank m3 in the bucket, evenly along its path
+  bool comes_from_deep_ = false;              // the bucket, from under a bank
   bool holds_nothing_ = true;
   double yield_ = 1.0;                        // what a modelled cubic metre brings, of what bank soil weighs
   HoldWatch hold_;                            // by the guard

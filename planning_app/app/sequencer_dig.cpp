@@ -189,6 +189,8 @@ void Sequencer::begin_curl(const Observation& o) {
   const ArmPoints now = forward(machine_, arm_.predicted(o.angle, o.velocity));  // it is on its way up already
   log_.event("dug", {{"time_s", o.time_s}, {"r_m", now.tip.r}, {"z_m", now.tip.z}, {"modelled_kg", cut_->volume() * bank_density * yield_},
                      {"felt_kg", filled_.kg()}, {"impulse_kns", 1e-3 * filled_.impulse()}});
+  constexpr double deep = 1.75;  // m
+  comes_from_deep_ = bank_over(cut_->surface(), now) > deep;
   if (auto path = DigPath::solve(machine_, way_out(machine_, cut_->surface(), now))) {
     begin_pass_search(o, path->at(path->length()));
     follower_.begin(std::move(*path));
@@ -262,7 +264,8 @@ void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_fro
 Joints Sequencer::curl(const Observation& o) {
   if (search_ && !search_->done()) search_->step();
   if (cut_) cut_->reach(o.angle);
-  const bool done = !follower_.active() || follower_.finished() || o.time_s - stage_s_ > 5.0 || forward(machine_, o.angle).bucket_attitude < curled + radians(32.0);  // the script curls on
+  constexpr double curls_on = radians(32.0), curls_on_deep = radians(16.0);  // what the script does
+  const bool done = !follower_.active() || follower_.finished() || o.time_s - stage_s_ > 5.0 || forward(machine_, o.angle).bucket_attitude < curled + (comes_from_deep_ ? curls_on_deep : curls_on);
   if (done && search_ && search_->done()) {
     note_cut(o);
     poses_ = search_->poses();
@@ -286,10 +289,10 @@ Joints Sequencer::curl(const Observation& o) {
     return {};
   }
   if (!follower_.active()) return {};
-  // A bucket that soil holds up while it curls comes free when it is lifted.
-  constexpr double lifting = 0.6, most_lift = 0.5;  // m/s, m
+  // A bucket that soil holds up while it curls comes free when it is lifted. From deep under a bank slower: what it pushes up has to slide off.
+  constexpr double lifting = 0.6, lifting_deep = 0.15, most_lift = 0.5;  // m/s, m
   DigFollower::Departure departure = follower_.departure();
-  departure.lift = std::min(most_lift, departure.lift + lifting * machine_.cycle);
+  departure.lift = std::min(most_lift, departure.lift + (comes_from_deep_ ? lifting_deep : lifting) * machine_.cycle);
   follower_.depart(departure);
   return follower_.step(machine_, arm_, o.angle[swing], curl_speed, o.angle, o.velocity);
 }

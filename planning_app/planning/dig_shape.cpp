@@ -22,6 +22,11 @@ double shell_under_tip(const MachineModel& machine, double attitude) {
 
 }  // namespace
 
+double bank_over(const SurfaceProfile& surface, const ArmPoints& now) {
+  constexpr double nearer = 0.5;  // m
+  return surface.at(now.tip.r - nearer) - now.tip.z;
+}
+
 std::vector<DigWaypoint> way_out(const MachineModel& machine, const SurfaceProfile& surface, const ArmPoints& now) {
   constexpr double over_surface = 0.15, inward = 0.05, lift = 0.80, step = 0.05, highest_rise = 2.5, most_inward = 0.5;
   constexpr int curl_steps = 6;

@@ -14,6 +14,9 @@ constexpr double curled = radians(-174.0);  // absolute bucket angle with the mo
 // Along a bearing, r and z, m, from the start of the dig inward.
 using DigShape = std::vector<std::array<double, 2>>;
 
+// How high the bank that the bucket drags towards, half a metre nearer to the machine than its tip, stands over the tip, m.
+double bank_over(const SurfaceProfile& surface, const ArmPoints& now);
+
 // A tip's way out of the soil from where it is to above the surface, with the bucket curled (stentz-1999, Figure 14, begins there). Straight up, for what
 // lies over the bucket falls into it and what lies inward would be pushed, and curled so that the shell goes no deeper, for soil under it holds a curl up
 // more than all else; then up on, and inward a little, to where the bucket can be curled wholly: low and far out the arm does not reach that.

@@ -85,4 +85,14 @@ TEST(WayOut, EndsCurledAboveTheGroundAndGoesNoDeeperThanItBegan) {
   EXPECT_TRUE(DigPath::solve(machine, way));
 }
 
+TEST(DigShape, TheBankStandsAsHighAsWhatLiesNearerThanTheTip) {
+  const DigGround ground = bench();
+  const SurfaceProfile surface(ground, 0.0, width);
+  ArmPoints now;
+  now.tip = {6.3, -1.9};
+  EXPECT_NEAR(bank_over(surface, now), 1.9, 0.05) << "the bench's level is 0";
+  now.tip = {8.6, -2.4};
+  EXPECT_NEAR(bank_over(surface, now), 0.2, 0.1) << "the lower ground lies at -2.2";
+}
+
 }  // namespace
