@@ -39,7 +39,7 @@ double Sequencer::share_that_may_trail() const {
 // Where the middle of what this pass brought lies: what runs out over the way back is 0.10 m off in the mean.
 BedPoint Sequencer::lies_at(double payload_kg) const {
   constexpr double trails = 0.10;
-  BedPoint at = landing(*site_.bed, dump_.at, payload_kg, scale_);
+  const BedPoint at = landing(*site_.bed, dump_.at, payload_kg, scale_);
   if (sticking_.sticks() || load_check_.keeps_rest() || !runs_out_over_bed()) return at;
   const BedPoint from = along_way_back(0.0, task_.dump_radius), to = along_way_back(trails * scale_.arm, task_.dump_radius);
   return {at.u + to.u - from.u, at.v + to.v - from.v};

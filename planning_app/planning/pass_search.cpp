@@ -8,7 +8,8 @@ namespace berm::app {
 
 namespace {
 
-constexpr double hover_lowest = 0.20, hover_step = 0.35;  // m over the bench's level, of the search: hovering lower than that gains little, and a slowed swing has the arm go down as much farther ahead of it
+constexpr double hover_lowest = 0.20, hover_step = 0.35;  // m over the bench's level, of the search
+constexpr double lowers_after = 0.8;                       // at most, of where the arm reaches out over the dig
 constexpr double arrived = radians(1.0);
 constexpr double soonest_lead = 1.0, latest_lead = 0.0, lead_step = 0.05;  // s before the swing stands that the bucket begins to open; nothing slides in the first half second
 constexpr double empties_before = radians(40.0);         // of the open bucket, when what is left no longer holds up the swing
@@ -103,7 +104,7 @@ void PassSearch::reach_out_over_dig() {
   constexpr double soonest = radians(50.0), share = 0.7;  // of the candidate before
   constexpr double latest_lower = radians(2.0);
   thresholds_.hover_offset = soonest * std::pow(share, candidate_);
-  thresholds_.lower_offset = std::min(latest_lower, 0.8 * thresholds_.hover_offset);
+  thresholds_.lower_offset = std::min(latest_lower, lowers_after * thresholds_.hover_offset);
   const Outcome outcome = simulate(thresholds_);
   const bool passes = outcome.clear_back && outcome.finished;
   if (!passes && ++candidate_ < candidates) return;
@@ -136,7 +137,7 @@ void PassSearch::hover_lower() {
 void PassSearch::lower_sooner() {
   constexpr double soonest = radians(20.0), share = 0.9;  // of the candidate before
   PassThresholds sooner = thresholds_;
-  sooner.lower_offset = std::min(soonest, 0.8 * thresholds_.hover_offset) * std::pow(share, candidate_++);
+  sooner.lower_offset = std::min(soonest, lowers_after * thresholds_.hover_offset) * std::pow(share, candidate_++);
   if (sooner.lower_offset <= thresholds_.lower_offset) {
     next(Stage::done);
     return;
@@ -161,7 +162,7 @@ PassSearch::Outcome PassSearch::simulate(const PassThresholds& thresholds) const
   for (std::size_t j = 0; j < joints; ++j) model[j].reset(task_.lifted_from[j], 0.0);
   Script script = pass_script(*scripts_, machine_, task_, poses_, thresholds);
   script.start();
-  const bool comes_no_farther = stage_ == Stage::swing_out || stage_ == Stage::sooner_out || stage_ == Stage::over_bed;  // than what it asks of
+  const bool only_out = stage_ <= Stage::over_bed;  // nothing is asked of the way back yet
   Outcome outcome;
   double open_s = 0.0;
   const int most = static_cast<int>(most_seconds / machine_.cycle);
@@ -191,9 +192,9 @@ PassSearch::Outcome PassSearch::simulate(const PassThresholds& thresholds) const
       if (blocking && !extends && blocking->what != Skyline::Blocking::What::ground) blocking.reset();
       if (blocking || (returning && beyond > most_beyond_dig)) {
         (returning ? outcome.clear_back : extends ? outcome.clear_over_bed : outcome.clear_out) = false;
-        if (!returning && comes_no_farther) return outcome;
+        if (!returning && only_out) return outcome;
       }
-      if (comes_no_farther && (returning || (extends && stage_ != Stage::over_bed))) return outcome;
+      if (only_out && (returning || (extends && stage_ != Stage::over_bed))) return outcome;
     }
     const Joints goals = script.goals();
     const Joints command = arm.toward(goals, script.paces(), angle, velocity);

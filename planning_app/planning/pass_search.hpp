@@ -20,7 +20,7 @@ public:
   double seconds() const { return seconds_; }      // the models' time for the pass without the dig
 
 private:
-  enum class Stage { swing_out, sooner_out, over_bed, swing_back, hover, lower, done };
+  enum class Stage { swing_out, sooner_out, over_bed, swing_back, hover, lower, done };  // in this order
   struct Outcome { bool clear_out = true, clear_over_bed = true, clear_back = true, finished = false; double seconds = 0.0; };  // out: until the arm reaches out over the bed
   void next(Stage stage);
   void start_of_swing();
