@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/arm_kinematics.hpp"
+
 namespace berm::app {
 
 namespace {
@@ -25,6 +27,7 @@ constexpr double shortest_pause = 0.5, longest_pause = 4.0;  // s between attemp
 constexpr double looks_for = 25.0;      // s of trouble in which what is too high is waited for; then it is tried again, and the operator called
 constexpr double map_age = 0.6;         // s: by then what the kernel stopped for is in the app's copy of its map, if it is still there
 constexpr double retreat_for = 1.0;     // s
+constexpr double retreat_longest = 12.0;  // s, from what was not seen: the boom comes up by half a radian, and both scanners sweep twice
 constexpr double wavering = 1.0;        // s in which standing was permitted; less puts a retreat off no longer
 constexpr double creep_share = 0.9;
 constexpr double farther = radians(5.0);     // than a joint sags or creeps while it should stand
@@ -89,7 +92,8 @@ bool Recovery::moved_by_hand(const Observation& o) const {
 
 // Motion is permitted, and the retreat that led to that is used.
 bool Recovery::retreating(const Observation& o) const {
-  return !handed_back_ && back_ == Back::none && moved_ && o.time_s - running_s_ < retreat_for;
+  const bool goes_on = unseen_at_ && unseen_ && retreat_ != Joints{};
+  return !handed_back_ && back_ == Back::none && moved_ && o.time_s - running_s_ < (goes_on ? retreat_longest : retreat_for);
 }
 
 // What a person must do, each advice once a trouble: what keeps the machine may become another thing meanwhile. True when the call was made just now.
@@ -117,7 +121,10 @@ void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
   const bool in_retreat = retreating(o), moved_in_it = in_retreat && retreat_ != Joints{};
   const bool wavers = !handed_back_ && !moved_in_it && o.time_s - running_s_ < wavering;
   stopped_ = true;
-  if (!wavers) stop_s_ = o.time_s;
+  if (!wavers) {
+    stop_s_ = o.time_s;
+    ground_s_ = -1.0;
+  }
   stopped_at_ = o.angle;
   if (in_retreat) retreat_ = o.stop_reason == BERM_STOP_JOINT_RANGE ? retreat(o, 0.0) : Joints{};  // it led nowhere: not the same again
   pause_s_ = again ? std::clamp(2.0 * pause_s_, shortest_pause, longest_pause) : 0.0;
@@ -130,12 +137,28 @@ void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
     waits_for_reset_ = false;
     moved_ = false;
     over_high_ = false;
+    unseen_at_.reset();
     back_way_ = 0.0;
   }
   back_ = Back::none;
   handed_back_ = false;
   if (o.kernel_state == BERM_STATE_STOPPING || o.kernel_state == BERM_STATE_STOPPED || o.kernel_state == BERM_STATE_FAULT)
     log.event("stopped", with_place(o, {{"time_s", o.time_s}, {"reason", stop_reason_name(o.stop_reason)}}));
+}
+
+// By the newest reason: dust or a person may have stopped it, and then the ground keeps it.
+void Recovery::kept_by_ground(const Observation& o) {
+  const bool unseen = o.stop_reason == BERM_STOP_STALE_GROUND || o.stop_reason == BERM_STOP_UNKNOWN_GROUND;
+  if (unseen && !o.has_place() && !unseen_at_) {  // while the machine stands the kernel may name none: what the bucket hides
+    const Point tip = in_base(forward(machine_, o.angle).tip, o.angle[swing]);
+    unseen_at_ = Place{tip.x, tip.y};
+  }
+  if (!o.has_place()) return;
+  blocked_x_ = o.blocked_x;
+  blocked_y_ = o.blocked_y;
+  over_high_ = o.stop_reason == BERM_STOP_OVERPASS;
+  unseen_at_ = unseen ? std::optional(Place{blocked_x_, blocked_y_}) : std::nullopt;
+  back_way_ = way_back(o);
 }
 
 // Of what lies under the implements the bearing says nothing: the way they came was clear, and the other may lead over a cab.
@@ -168,7 +191,7 @@ bool Recovery::swing_back(const Observation& o, Advice& advice) {
 }
 
 // The kernel permits motion: the retreat that it permits is used for a moment, then what is due of the pause is waited for.
-Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log, bool too_high_stands) {
+Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log, const PlaceInMap& in_map) {
   Advice advice;
   if (stopped_) {
     stopped_ = false;
@@ -186,19 +209,26 @@ Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log,
   const double ran = o.time_s - running_s_;
   if (retreating(o)) {
     advice.velocity = retreat_;
+    if (unseen_at_) look_again(o, advice);
+  } else if (unseen_at_ && !unseen_ && moved_) {
+    hand_back(o, log, advice);
   } else if (ran < (over_high_ ? std::max(pause_s_, map_age) : pause_s_) || swing_back(o, advice)) {
     return advice;
-  } else if (over_high_ && too_high_stands && o.time_s - since_s_ < looks_for) {
+  } else if (over_high_ && in_map.too_high && o.time_s - since_s_ < looks_for) {
     look_again(o, advice);
   } else {
-    log.event("resumed", {{"time_s", o.time_s}, {"stopped_s", o.time_s - since_s_}});
-    handed_back_ = true;
-    handed_back_s_ = o.time_s;
-    advice = {false, {}, false, true, moved_, false};
-    moved_ = false;
-    back_ = Back::none;
+    hand_back(o, log, advice);
   }
   return advice;
+}
+
+void Recovery::hand_back(const Observation& o, const ProgressLog& log, Advice& advice) {
+  log.event("resumed", {{"time_s", o.time_s}, {"stopped_s", o.time_s - since_s_}});
+  handed_back_ = true;
+  handed_back_s_ = o.time_s;
+  advice = {false, {}, false, true, moved_, false};
+  moved_ = false;
+  back_ = Back::none;
 }
 
 void Recovery::look_again(const Observation& o, Advice& advice) {
@@ -207,18 +237,14 @@ void Recovery::look_again(const Observation& o, Advice& advice) {
   next_rescan_s_ = o.time_s + rescan_every;
 }
 
-Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log, bool too_high_stands) {
-  if (o.running()) return running(o, log, too_high_stands);
+Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log, const PlaceInMap& in_map) {
+  unseen_ = in_map.unseen;
+  if (o.running()) return running(o, log, in_map);
   Advice advice;
   advice.in_charge = true;
   if (!stopped_) begin_stop(o, log);
   if (o.kernel_state == BERM_STATE_STOPPING) stopped_at_ = o.angle;
-  if (o.has_place() && by_ground(o.stop_reason)) {  // of the newest reason: dust may have stopped it, and then the ground keeps it
-    blocked_x_ = o.blocked_x;
-    blocked_y_ = o.blocked_y;
-    over_high_ = o.stop_reason == BERM_STOP_OVERPASS;
-    back_way_ = way_back(o);
-  }
+  if (by_ground(o.stop_reason)) kept_by_ground(o);
   if (waits_for_reset_ && !o.latched) {  // he has reset, and what keeps the machine now is another trouble
     told_.clear();
     waits_for_reset_ = false;
@@ -229,8 +255,10 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log, bo
   if (!by_place(o.stop_reason)) return advice;
   const double blocked = o.time_s - stop_s_;  // with no more than moments in which standing was permitted
   look_again(o, advice);
+  if (!by_ground(o.stop_reason)) ground_s_ = -1.0;
+  else if (ground_s_ < 0.0) ground_s_ = o.time_s;
   if (blocked > patience && by_ground(o.stop_reason)) {
-    advice.velocity = retreat_ = retreat(o, blocked - patience);
+    advice.velocity = retreat_ = retreat(o, o.time_s - std::max(ground_s_, stop_s_ + patience));
     moved_ = true;
   }
   return advice;

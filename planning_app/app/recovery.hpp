@@ -1,5 +1,6 @@
 // What to do while the kernel does not permit motion: hold; and when it is the ground that stopped the machine and stays blocked, look again
-// with both scanners and retreat slowly, which the kernel permits when the slow motion's own box is clear. Where standing is permitted and moving is
+// with both scanners and retreat slowly, which the kernel permits when the slow motion's own box is clear. From ground that has not been seen for too
+// long, which the implements hide themselves, the retreat goes on until it is seen: wherever it ends before, to stand is not permitted. Where standing is permitted and moving is
 // not, attempts follow one another at growing pauses; then the implements swing back, for they hide what stands behind and beside them and the map
 // keeps what it once held there, and the scanners look from there. While what is too high to pass over still stands in the map another attempt would
 // be another stop: it is looked at instead, for as long as that may help. What none of this mends is the operator's: who is told what to do, once for
@@ -15,6 +16,12 @@
 
 namespace berm::app {
 
+// What the newest map shows where the machine is kept.
+struct PlaceInMap {
+  bool too_high = false;  // what stands at Recovery::too_high() is still so high
+  bool unseen = false;    // at Recovery::unseen(), or next to it, is ground that was never seen or too long ago
+};
+
 class Recovery {
 public:
   explicit Recovery(const MachineModel& machine) : machine_(machine) {}
@@ -27,21 +34,23 @@ public:
     bool moved = false;       // with resumed: the implements were moved meanwhile, by the app or by hand
     bool operator_called = false;  // just now
   };
-  // too_high_stands: in the newest map what stands at too_high() is still so high.
-  Advice step(const Observation& o, const ProgressLog& log, bool too_high_stands = false);
+  Advice step(const Observation& o, const ProgressLog& log, const PlaceInMap& in_map = {});
 
   struct Place { double x, y; };
-  // Of the ground that keeps the machine, or last did, if it is too high to pass over.
+  // Of the ground that keeps the machine, or last did, if it is too high to pass over; if it was not seen, or too long ago.
   std::optional<Place> too_high() const { return over_high_ ? std::optional(Place{blocked_x_, blocked_y_}) : std::nullopt; }
+  std::optional<Place> unseen() const { return unseen_at_; }
 
 private:
   Joints retreat(const Observation& o, double blocked_s) const;
   bool call_operator(const Observation& o, const ProgressLog& log);
   void begin_stop(const Observation& o, const ProgressLog& log);
-  Advice running(const Observation& o, const ProgressLog& log, bool too_high_stands);
+  Advice running(const Observation& o, const ProgressLog& log, const PlaceInMap& in_map);
   bool moved_by_hand(const Observation& o) const;
   bool retreating(const Observation& o) const;
   double way_back(const Observation& o) const;
+  void hand_back(const Observation& o, const ProgressLog& log, Advice& advice);
+  void kept_by_ground(const Observation& o);
   bool swing_back(const Observation& o, Advice& advice);
   void look_again(const Observation& o, Advice& advice);
 
@@ -49,17 +58,20 @@ private:
   bool stopped_ = false;
   bool handed_back_ = true;      // the plan is in charge
   bool moved_ = false;
+  bool unseen_ = false;          // as the newest map has it
   std::vector<std::string_view> told_;  // advices that the operator was given in this trouble
   bool waits_for_reset_ = false;        // the newest of them was for a stop that latches
   Joints stopped_at_{};          // rad
   double since_s_ = -1.0;        // begin of the trouble: a stop and those soon after it; negative: none yet
   double dust_s_ = -1.0;         // when dust held the machine last; negative: not in this trouble
   double stop_s_ = 0.0, running_s_ = 0.0, handed_back_s_ = 0.0;
+  double ground_s_ = -1.0;       // since when the ground keeps it; negative: it does not
   double pause_s_ = 0.0;         // of standing permitted, before the plan is in charge again
   double next_rescan_s_ = 0.0;
   Joints retreat_{};
   double blocked_x_ = 0.0, blocked_y_ = 0.0;  // of the last stop
   bool over_high_ = false;                    // it was for what is too high to pass over
+  std::optional<Place> unseen_at_;            // where ground that was not seen, or too long ago, keeps the machine, or last did
   enum class Back { none, swings, looks } back_ = Back::none;
   double next_back_s_ = 0.0, back_began_s_ = 0.0, back_from_ = 0.0, back_way_ = 0.0;
   double came_ = 0.0;                         // the way of the plan's last swing: 1, -1; 0: none yet

@@ -214,6 +214,18 @@ bool Sequencer::too_high_stands() const {
   return at && !at_truck(site_, at->x, at->y) && kernel_map_.ground(KernelMap::Unseen::level)(at->x, at->y) > pass_over_limit(site_, at->x, at->y);
 }
 
+// With what is round it: the kernel names one cell of what the implements hide.
+bool Sequencer::unseen_lies_there() const {
+  constexpr double around = 1.0;  // m: a bucket's width
+  const auto at = recovery_.unseen();
+  if (!at) return false;
+  const CellGround ground = kernel_map_.ground(KernelMap::Unseen::blocked);
+  for (double x = -around; x <= around; x += around / 4.0)
+    for (double y = -around; y <= around; y += around / 4.0)
+      if (!std::isfinite(ground(at->x + x, at->y + y))) return true;
+  return false;
+}
+
 Answer Sequencer::step(const Observation& o) {
   recent_.add(o.payload_kg);
   look(o);
@@ -224,7 +236,7 @@ Answer Sequencer::step(const Observation& o) {
   Answer answer;
   if (stage_ == Stage::ask_move || stage_ == Stage::being_moved) await_move(o);
   // While the operator trams the machine its stops are his.
-  const Recovery::Advice advice = stage_ == Stage::being_moved ? Recovery::Advice{} : recovery_.step(o, log_, too_high_stands());
+  const Recovery::Advice advice = stage_ == Stage::being_moved ? Recovery::Advice{} : recovery_.step(o, log_, {too_high_stands(), unseen_lies_there()});
   restart_call_.step(o, log_);
   if (advice.rescan) scanners_.begin_full_sweep();
   if (advice.resumed) go_on_with_script(o);

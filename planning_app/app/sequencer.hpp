@@ -139,7 +139,9 @@ private:
   void await_move(const Observation& o);
   void begin_anew(const Observation& o);
   void look(const Observation& o);            // renews the skyline now and then
-  bool too_high_stands() const;  // what the kernel last stopped the machine for
+  // What the kernel last stopped the machine for.
+  bool too_high_stands() const;
+  bool unseen_lies_there() const;
   void log_held(const Observation& o, const Joints& wanted) const;
   Joints slowed(const Observation& o, const Joints& wanted);
 

@@ -5,6 +5,7 @@
 
 #include "app/recovery.hpp"
 #include "app_bench/bench_machine.hpp"
+#include "motion/arm_kinematics.hpp"
 #include "recovery_observations.hpp"
 
 namespace {
@@ -118,10 +119,13 @@ TEST(Recovery, RetreatsFromTheGroundThatKeepsItAfterTheDust) {
   Observation ground = stopped(40.0, BERM_STOP_UNKNOWN_GROUND);
   ground.blocked_x = 5.0 * std::cos(ground.blocked_bearing);
   ground.blocked_y = 5.0 * std::sin(ground.blocked_bearing);
-  EXPECT_NE(recovery.step(ground, log).velocity, Joints{}) << "patience has run since the dust";
-  // Standing is permitted: after the retreat's second it swings away from the place that the dust's stop did not have, to look from there.
+  const PlaceInMap unseen{false, true};
+  EXPECT_GT(recovery.step(ground, log, unseen).velocity[boom], 0.0) << "patience has run since the dust";
+  // Standing is permitted: after the retreat, which does not help, it swings away from the place that the dust's stop did not have, to look from there.
   double away = 0.0;
-  for (double t = 40.1; t < 42.0; t += 0.01) away = std::min(away, recovery.step(permitted(t), log).velocity[swing]);
+  for (double t = 40.1; t < 52.0; t += 0.01) away = std::min(away, recovery.step(permitted(t), log, unseen).velocity[swing]);
+  EXPECT_EQ(away, 0.0);
+  for (double t = 52.0; t < 54.0; t += 0.01) away = std::min(away, recovery.step(permitted(t), log, unseen).velocity[swing]);
   EXPECT_LT(away, -radians(7.0));
 }
 
@@ -248,16 +252,16 @@ TEST(Recovery, WhatIsTooHighIsLookedAtWhileItStands) {
     // As the kernel shows it: the place while the box meets it, the reason until it permits motion.
     Observation o = stopped(0.0, BERM_STOP_OVERPASS);
     o.blocked_x = 4.35, o.blocked_y = -0.45;
-    recovery.step(o, log, false);
+    recovery.step(o, log);
     o.blocked_x = o.blocked_y = 0.0;
-    for (int k = 1; k < 30; ++k) o.time_s = 0.01 * k, recovery.step(o, log, false);
+    for (int k = 1; k < 30; ++k) o.time_s = 0.01 * k, recovery.step(o, log);
     ASSERT_TRUE(recovery.too_high());
     EXPECT_EQ(recovery.too_high()->x, 4.35);
     EXPECT_EQ(recovery.too_high()->y, -0.45);
     double resumed_s = -1.0, looks = 0, swings_s = -1.0;
     for (int k = 30; k < 6000 && resumed_s < 0.0; ++k) {
       const double t = 0.01 * k;
-      const auto advice = recovery.step(permitted(t), log, t > 0.8 && t < gone_s);  // the map is half a second old
+      const auto advice = recovery.step(permitted(t), log, {t > 0.8 && t < gone_s, false});  // the map is half a second old
       looks += advice.rescan;
       if (swings_s < 0.0 && advice.velocity[swing] != 0.0) swings_s = t;
       if (advice.resumed) resumed_s = t;
@@ -269,7 +273,7 @@ TEST(Recovery, WhatIsTooHighIsLookedAtWhileItStands) {
     }
     Observation other = stopped(resumed_s + 1.0, BERM_STOP_COLLISION_PREDICTED);
     other.blocked_x = 4.35, other.blocked_y = -0.45;
-    recovery.step(other, log, true);
+    recovery.step(other, log, {true, false});
     EXPECT_FALSE(recovery.too_high()) << "the newest stop is another one";
   }
 }
@@ -321,6 +325,55 @@ TEST(Recovery, ARetreatThatIsStoppedItselfIsNotTriedAgain) {
   }
   EXPECT_EQ(curled, 0.0);
   EXPECT_GT(opened, 0.0) << "back into its range";
+}
+
+// The bucket hides the ground that keeps it, and to stand over that is not permitted: a retreat of a second was a stop each time, and the plan after it
+// another.
+TEST(Recovery, ARetreatFromGroundThatWasNotSeenGoesOnUntilItIs) {
+  for (const std::uint8_t reason : {BERM_STOP_STALE_GROUND, BERM_STOP_UNKNOWN_GROUND, BERM_STOP_COLLISION_PREDICTED})
+    for (const double seen_s : {35.0, 1000.0}) {
+      Recovery recovery(berm::app_bench::zx200());
+      const ProgressLog log(-1);
+      Observation o;
+      for (double t = 0.0; t < 30.0; t += 0.1) {
+        o = stopped(t, BERM_STOP_INTRUDER);
+        o.blocked_x = -14.0;
+        recovery.step(o, log, {false, true});
+      }
+      EXPECT_FALSE(recovery.unseen()) << "whoever came is another matter";
+      o = stopped(30.0, reason);
+      o.blocked_x = o.blocked_y = 0.0;
+      EXPECT_GT(recovery.step(o, log, {false, true}).velocity[boom], 0.0) << "up first, however long he stood there";
+      const bool of_unseen = reason != BERM_STOP_COLLISION_PREDICTED;
+      ASSERT_EQ(recovery.unseen().has_value(), of_unseen);
+      if (of_unseen) {
+        const Point tip = in_base(forward(berm::app_bench::zx200(), o.angle).tip, o.angle[swing]);
+        EXPECT_NEAR(recovery.unseen()->x, tip.x, 1e-9) << "the kernel named no place";
+        EXPECT_NEAR(recovery.unseen()->y, tip.y, 1e-9);
+        o.blocked_x = 5.85, o.blocked_y = 1.05;
+        recovery.step(o, log, {false, true});
+        EXPECT_EQ(recovery.unseen()->x, 5.85);
+      }
+      double raised_until = 0.0, resumed_s = -1.0;
+      int looks = 0;
+      for (int k = 0; k < 4000 && resumed_s < 0.0; ++k) {
+        const double t = 30.01 + 0.01 * k;
+        const auto advice = recovery.step(permitted(t), log, {false, t < seen_s});
+        looks += advice.rescan;
+        if (advice.velocity[boom] > 0.0) raised_until = t;
+        if (!advice.resumed) continue;
+        resumed_s = t;
+        EXPECT_TRUE(advice.moved);
+      }
+      EXPECT_NEAR(raised_until, of_unseen ? std::min(seen_s, 42.0) : 31.0, 0.03) << int{reason} << ", seen after " << seen_s;
+      EXPECT_GE(resumed_s, raised_until);
+      if (of_unseen) {
+        EXPECT_GE(looks, seen_s < 100.0 ? 0 : 2) << "while it goes on";
+        if (seen_s < 100.0) {
+          EXPECT_NEAR(resumed_s, seen_s, 0.03) << "and the plan is in charge again at once";
+        }
+      }
+    }
 }
 
 // Standing is permitted for a moment now and then, for the joints' noise decides whether the bucket is over a cell that nothing has seen: 300 stops in five
