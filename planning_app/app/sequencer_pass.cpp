@@ -4,6 +4,7 @@
 
 #include "app/sequencer.hpp"
 #include "motion/bucket_weight.hpp"
+#include "planning/over_walls.hpp"
 
 namespace berm::app {
 
@@ -126,6 +127,11 @@ Joints Sequencer::pass(const Observation& o) {
   return command;
 }
 
+// Of what was poured on the load as it was seen before the dump.
+double Sequencer::over_walls_kg(double poured_kg) const {
+  return dump_.observed ? falls_over_walls(dump_.heights, site_.bed->height, lies_at(poured_kg), poured_kg, dump_.density, scale_) : 0.0;
+}
+
 // What this pass brought, into the truck's books.
 void Sequencer::book_pass(const Observation& o) {
   const std::optional<double> seen = weighed_kg();
@@ -138,8 +144,8 @@ void Sequencer::book_pass(const Observation& o) {
   const double before = seen.value_or(unweighed_kg), after = after_.known() ? left_in_bucket(after_.kg()) : std::max(unpoured_kg, sticking_.stays_kg(carried));
   // Before a bucket came back empty from over a bed, what the implements weigh out there is extrapolated.
   const double beside_kg = filled_.known() ? pour_.booked_beside_kg() : 0.0;
-  const double had = fill_.loaded_kg();
-  fill_.add_pass(before - beside_kg, after);
+  const double had = fill_.loaded_kg(), over_kg = over_walls_kg(before - beside_kg - after);
+  fill_.add_pass(before - beside_kg - over_kg, after);
   const double payload = fill_.loaded_kg() - had;
   if (weighed) {
     const double lifted = std::max(before, load_check_.lifted_kg()), brought_along = sticking_.left_kg();
@@ -155,7 +161,7 @@ void Sequencer::book_pass(const Observation& o) {
   dumps_.push_back({lies_at(payload), payload});
   bed_->note_dump(dumps_.back().at, payload);
   ++pass_;
-  log_.event("pass", {{"pass", pass_}, {"truck", truck_}, {"seconds", o.time_s - pass_began_s_}, {"payload_kg", payload}, {"loaded_kg", fill_.loaded_kg()}, {"carried_kg", carried}, {"beside_kg", beside_kg},
+  log_.event("pass", {{"pass", pass_}, {"truck", truck_}, {"seconds", o.time_s - pass_began_s_}, {"payload_kg", payload}, {"loaded_kg", fill_.loaded_kg()}, {"carried_kg", carried}, {"beside_kg", beside_kg}, {"over_walls_kg", over_kg},
                       {"dump_u_m", dump_.at.u}, {"dump_v_m", dump_.at.v}, {"dig_bearing_deg", degrees(task_.lifted_from[swing])}, {"time_s", o.time_s}});
   pass_began_s_ = o.time_s;
 }

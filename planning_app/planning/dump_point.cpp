@@ -103,6 +103,8 @@ public:
       : bed_(map.bed()), needs_(needs), heights_(filled_nearby(seen, map.noted())), soil_(heaped_soil(seen, heights_, map.noted_load().kg)),
         ceiling_(bed_.ceiling - (bed_.wall_top - bed_.height)), tops_(static_cast<std::size_t>(heights_.columns), -1.0) {}
 
+  const BedGrid& heights() const { return heights_; }
+  double density() const { return soil_.density; }
   bool well_under(double top) const { return top <= ceiling_ - under_ceiling; }
   bool fits(double top) const { return top <= ceiling_ - least_under_ceiling; }
   double top(const BedPoint& at) {
@@ -166,18 +168,22 @@ DumpPoint choose_dump_point(const BedMap& map, const DumpNeeds& needs) {
     }
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.price < b.price; });
   const Candidate* chosen = &candidates.front();
-  if (point.observed && std::isfinite(bed.ceiling)) {
+  if (point.observed) {
     HeapForecast forecast(map, seen, needs);
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const Candidate& candidate : candidates) {
-      const double top = forecast.top(candidate.at);
-      if (top >= lowest) continue;
-      lowest = top;
-      chosen = &candidate;
-      if (forecast.well_under(top)) break;
+    point.heights = forecast.heights();
+    point.density = forecast.density();
+    if (std::isfinite(bed.ceiling)) {
+      double lowest = std::numeric_limits<double>::infinity();
+      for (const Candidate& candidate : candidates) {
+        const double top = forecast.top(candidate.at);
+        if (top >= lowest) continue;
+        lowest = top;
+        chosen = &candidate;
+        if (forecast.well_under(top)) break;
+      }
+      point.heap_top = lowest;
+      point.fits = forecast.fits(lowest);
     }
-    point.heap_top = lowest;
-    point.fits = forecast.fits(lowest);
   }
   point.at = chosen->at;
   point.height = score(load_heights, constant_template(), load_heights.column_of(point.at.u), load_heights.row_of(point.at.v));

@@ -42,6 +42,8 @@ struct DumpPoint {
   bool fits = true;                // the heap stays under the truck zone's ceiling ...
   double heap_top = std::numeric_limits<double>::quiet_NaN();  // ... to which it then stands, m over the floor; where that was in question
   BedPoint load_centre;            // of the whole load with this dump
+  BedGrid heights;                 // of the load before it: seen, and what is hidden by the books and what is seen near it; nothing where it was not observed
+  double density = 0.0;            // of the load then, kg/m3
 };
 
 DumpPoint choose_dump_point(const BedMap& bed, const DumpNeeds& needs);
