@@ -6,6 +6,7 @@
 
 #include "planning/bed_templates.hpp"
 #include "planning/heap_top.hpp"
+#include "planning/over_walls.hpp"
 
 namespace berm::app {
 
@@ -27,6 +28,7 @@ constexpr double offset_price = 5.0;     // m of height for a metre of offset
 constexpr double under_ceiling = 0.2, least_under_ceiling = 0.1;
 constexpr double swing_price = 3.0;      // m of height for a radian beyond the bed's middle after a dig that lies a radian beyond the digs' middle: far digs go to the near end ...
 constexpr double swing_passes = 2.0;     // ... the less, the fewer passes are left to bring the balance back; with so many half as much
+constexpr double over_walls_price = 0.003;  // m of height for a kilogram that would fall over the walls
 constexpr double part_price = 0.25, part_room = 2.2;  // m of height for a metre that a part is poured nearer to the truck zone's end than this, m: beyond it the cab holds the arm up
 constexpr double middle_price = 0.02;    // m of height for a metre from the middle: of equal cells the one nearest to it
 
@@ -101,10 +103,16 @@ class HeapForecast {
 public:
   HeapForecast(const BedMap& map, const BedGrid& seen, const DumpNeeds& needs)
       : bed_(map.bed()), needs_(needs), heights_(filled_nearby(seen, map.noted())), soil_(heaped_soil(seen, heights_, map.noted_load().kg)),
-        ceiling_(bed_.ceiling - (bed_.wall_top - bed_.height)), tops_(static_cast<std::size_t>(heights_.columns), -1.0) {}
+        ceiling_(bed_.ceiling - (bed_.wall_top - bed_.height)), tops_(static_cast<std::size_t>(heights_.columns), -1.0), over_walls_(tops_) {}
 
   const BedGrid& heights() const { return heights_; }
   double density() const { return soil_.density; }
+  // kg, that would fall over the walls.
+  double over_walls(const BedPoint& at) {
+    double& kg = over_walls_[static_cast<std::size_t>(heights_.column_of(at.u))];
+    if (kg < 0.0) kg = falls_over_walls(heights_, bed_.height, landing(bed_, at, needs_.dump_kg, needs_.scale), needs_.dump_kg, soil_.density, needs_.scale);
+    return kg;
+  }
   bool well_under(double top) const { return top <= ceiling_ - under_ceiling; }
   bool fits(double top) const { return top <= ceiling_ - least_under_ceiling; }
   double top(const BedPoint& at) {
@@ -119,7 +127,7 @@ private:
   BedGrid heights_;          // not smoothed: that would lower a heap's top
   HeapedSoil soil_;
   double ceiling_;           // over the floor
-  std::vector<double> tops_; // by column; negative: not asked for yet
+  std::vector<double> tops_, over_walls_;  // by column; negative: not asked for yet
 };
 
 }  // namespace
@@ -166,10 +174,15 @@ DumpPoint choose_dump_point(const BedMap& map, const DumpNeeds& needs) {
                            (needs.may_be_part ? part_price * std::fmax(0.0, part_room - std::fmin(bed.zone_high - under.u, under.u - bed.zone_low)) : 0.0);
       candidates.push_back({at, price, with.centre()});
     }
-  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.price < b.price; });
+  const auto cheaper = [](const Candidate& a, const Candidate& b) { return a.price < b.price; };
+  std::stable_sort(candidates.begin(), candidates.end(), cheaper);
   const Candidate* chosen = &candidates.front();
   if (point.observed) {
     HeapForecast forecast(map, seen, needs);
+    if (forecast.over_walls(candidates.front().at) > 0.0) {
+      for (Candidate& candidate : candidates) candidate.price += over_walls_price * forecast.over_walls(candidate.at);
+      std::stable_sort(candidates.begin(), candidates.end(), cheaper);
+    }
     point.heights = forecast.heights();
     point.density = forecast.density();
     if (std::isfinite(bed.ceiling)) {

@@ -69,7 +69,7 @@ TEST(Sequencer, LoadsOneTruck) {
 TEST(Sequencer, NoPassSwingsFarBothWays) {
   const app_bench::Events events;
   Loading run(1, start_pose(), events.fd());
-  while (events.named("pass").size() < 9 && run.seconds < 400.0) run.step();
+  while (events.named("pass").size() < 11 && run.seconds < 400.0) run.step();
   const auto passes = events.named("pass"), scripts = events.named("script");
   ASSERT_GE(passes.size(), 9U);
   ASSERT_GE(scripts.size(), passes.size());
@@ -349,6 +349,27 @@ TEST(Sequencer, BooksWhatComesIntoTheTruckWhereSoilHardlySticks) {
   ASSERT_EQ(booked.size(), 6U);
   EXPECT_TRUE(events.named("sticking").empty());
   EXPECT_NEAR(booked.back().at("loaded_kg").get<double>(), run.plant.site().bed_mass(), 6 * 5.0);
+}
+
+// The bed's walls are taken for lower than they are, so that late in the truck heaps would slide over them: that part of a bucket is in no truck.
+TEST(Sequencer, BooksNotWhatSlidesOverTheWalls) {
+  const app_bench::Events events;
+  Loading run(1, start_pose(), events.fd());
+  run.plant.has_pressures = true;
+  run.finder.truck.pose.middle[2] -= 0.6;
+  run.finder.truck.height -= 0.6;
+  while (events.named("pass").size() < 11 && run.seconds < 400.0)
+    for (int k = 0; k < 50; ++k) run.step();
+  const auto booked = events.named("pass");
+  ASSERT_EQ(booked.size(), 11U);
+  EXPECT_EQ(booked[0].at("over_walls_kg"), 0.0);
+  double over = 0.0, left = 0.0;
+  for (const auto& pass : booked) {
+    over += pass.at("over_walls_kg").get<double>();
+    left += pass.at("carried_kg").get<double>() - pass.at("payload_kg").get<double>() - pass.at("beside_kg").get<double>();
+  }
+  EXPECT_GT(over, 120.0);
+  EXPECT_NEAR(left, over, 60.0) << "what stays in the bucket";
 }
 
 // Dug for a truck that stands as usual, and for one whose bed lies at the end of the arm's reach: there a heap would slide off before the near wall.

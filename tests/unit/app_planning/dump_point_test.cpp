@@ -7,6 +7,7 @@
 
 #include "app_bench/bench_machine.hpp"
 #include "planning/dump_point.hpp"
+#include "planning/over_walls.hpp"
 
 namespace {
 
@@ -307,6 +308,8 @@ TEST(BedMap, TheBooksKeepMassAndPlace) {
 // Over what stands higher than the zone's ceiling the kernel lets nothing pass: the heap goes where it stays under it, or as low as may be.
 TEST(DumpPoint, HeapsNothingUpToTheTruckZonesCeiling) {
   TruckBed bed = free_bed();
+  bed.height += 1.0;  // nothing falls over walls so high
+  bed.wall_top += 1.0;
   // By the books most lies at the one end, so that balance draws the last dump to the other; but there the soil stands higher.
   const auto load = [](double u, double) { return u < 0.3 ? 1.55 : 1.95; };
   const auto near_half = [](double, double v) { return v > -0.2; };
@@ -331,6 +334,28 @@ TEST(DumpPoint, HeapsNothingUpToTheTruckZonesCeiling) {
   BedMap unseen(bed);
   unseen.note_dump({0.0, 0.0}, 4.0 * bucket_kg);
   EXPECT_TRUE(choose_dump_point(unseen, needs(5, 12)).fits);
+}
+
+// At the one end, which balance asks for, the heap stands from wall to wall: much of a bucket would fall over them there. Between higher walls nothing does.
+TEST(DumpPoint, GoesWhereLessFallsOverTheWalls) {
+  const TruckBed bed = free_bed();
+  const auto choose = [&](double walls_higher) {
+    TruckBed walled = bed;
+    walled.height += walls_higher;
+    walled.wall_top += walls_higher;
+    const auto load = [&](double u, double v) { return u > 0.4 ? bed.height + std::min(0.3, 0.65 * (0.5 * bed.width - std::fabs(v))) : bed.height - 0.12; };
+    BedMap map(walled);
+    for (int i = 0; i < 4; ++i) map.note_dump({-0.9, 0.0}, 3.0 * bucket_kg);
+    look(map, load, everywhere, 5.0);
+    return choose_dump_point(map, needs(11, 12));
+  };
+  const DumpPoint high = choose(1.0), low = choose(0.0);
+  EXPECT_GT(high.at.u, 0.6) << "for balance";
+  EXPECT_LT(low.at.u, high.at.u - 0.5);
+  const auto falls_at = [&](const DumpPoint& at, double walls) { return falls_over_walls(low.heights, walls, at.at, bucket_kg, low.density, {}); };
+  EXPECT_EQ(falls_at(high, bed.height + 1.0), 0.0);
+  EXPECT_GT(falls_at(high, bed.height), 100.0);
+  EXPECT_LT(falls_at(low, bed.height), 0.3 * falls_at(high, bed.height));
 }
 
 }  // namespace
