@@ -101,7 +101,7 @@ bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
   // Whoever is seen in dust, and ground that it hides, may be none when it has settled: a map that is learned anew in it is empty.
   const bool in_dust = o.held_by_dust && !o.latched;
   const std::uint8_t reason = in_dust ? static_cast<std::uint8_t>(BERM_STOP_DUST) : o.stop_reason;
-  const double after = reason == BERM_STOP_INTRUDER ? call_after_intruder : call_after, from_s = in_dust ? since_s_ : std::max(since_s_, dust_s_);
+  const double after = reason == BERM_STOP_INTRUDER ? call_after_intruder : call_after, from_s = in_dust ? since_s_ : std::max({since_s_, dust_s_, by_ground(reason) ? person_s_ : -1.0});
   if (!(o.latched || (by_place(reason) && o.time_s - from_s > after))) return false;
   const char* const advice = advice_for(reason, o.latched);
   if (std::find(told_.begin(), told_.end(), advice) != told_.end()) return false;
@@ -132,7 +132,7 @@ void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
     since_s_ = o.time_s;
     next_rescan_s_ = since_s_ + rescan_after;
     next_back_s_ = since_s_ + back_after;
-    dust_s_ = -1.0;
+    dust_s_ = person_s_ = -1.0;
     told_.clear();
     waits_for_reset_ = false;
     moved_ = false;
@@ -251,6 +251,7 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log, co
     since_s_ = o.time_s;
   }
   if (o.held_by_dust) dust_s_ = o.time_s;
+  if (o.stop_reason == BERM_STOP_INTRUDER || o.stop_reason == BERM_STOP_SEPARATION) person_s_ = o.time_s;
   advice.operator_called = call_operator(o, log);
   if (!by_place(o.stop_reason)) return advice;
   const double blocked = o.time_s - stop_s_;  // with no more than moments in which standing was permitted

@@ -63,7 +63,7 @@ private:
   bool waits_for_reset_ = false;        // the newest of them was for a stop that latches
   Joints stopped_at_{};          // rad
   double since_s_ = -1.0;        // begin of the trouble: a stop and those soon after it; negative: none yet
-  double dust_s_ = -1.0;         // when dust held the machine last; negative: not in this trouble
+  double dust_s_ = -1.0, person_s_ = -1.0;  // when dust, or somebody, held the machine last; negative: not in this trouble
   double stop_s_ = 0.0, running_s_ = 0.0, handed_back_s_ = 0.0;
   double ground_s_ = -1.0;       // since when the ground keeps it; negative: it does not
   double pause_s_ = 0.0;         // of standing permitted, before the plan is in charge again

@@ -89,6 +89,19 @@ TEST(RecoveryCalls, CallsAgainWhenAnotherThingKeepsTheMachine) {
   EXPECT_NEAR(calls[2], 100.0, 0.2) << "it latches: at once";
 }
 
+// Somebody stood there for 29 s: what he left unseen is given as long as any other ground, before a person is told to clear it.
+TEST(RecoveryCalls, GroundThatKeepsItAfterSomebodyHasItsOwnTime) {
+  for (const std::uint8_t who : {BERM_STOP_INTRUDER, BERM_STOP_SEPARATION}) {
+    Recovery recovery(berm::app_bench::zx200());
+    const ProgressLog log(-1);
+    std::vector<double> calls;
+    for (double t = 0.0; t < 100.0; t += 0.1)
+      if (recovery.step(stopped(t, t < 29.0 ? who : std::uint8_t{BERM_STOP_STALE_GROUND}), log).operator_called) calls.push_back(t);
+    ASSERT_EQ(calls.size(), 1U);
+    EXPECT_NEAR(calls[0], 59.0, 0.2);
+  }
+}
+
 // Dust makes intruders of itself. A person who presses relearn for one has an empty map, which fills only when the dust has settled.
 TEST(RecoveryCalls, InDustNobodyIsToldToSendSomebodyAwayOrToRelearn) {
   Recovery recovery(berm::app_bench::zx200());
