@@ -84,6 +84,13 @@ Joints Recovery::retreat(const Observation& o, double blocked_s) const {
   return v;
 }
 
+// A retreat that goes on for seconds is not to end in another stop.
+Joints Recovery::short_of_range(Joints v, const Observation& o) const {
+  for (std::size_t j = 0; j < joints; ++j)
+    if ((v[j] > 0.0 && o.angle[j] > machine_.joint[j].high - range_room) || (v[j] < 0.0 && o.angle[j] < machine_.joint[j].low + range_room)) v[j] = 0.0;
+  return v;
+}
+
 bool Recovery::moved_by_hand(const Observation& o) const {
   for (std::size_t j = 0; j < joints; ++j)
     if (std::fabs(wrapped(o.angle[j] - stopped_at_[j])) > farther) return true;
@@ -208,7 +215,7 @@ Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log,
   advice.in_charge = true;
   const double ran = o.time_s - running_s_;
   if (retreating(o)) {
-    advice.velocity = retreat_;
+    advice.velocity = short_of_range(retreat_, o);
     if (unseen_at_) look_again(o, advice);
   } else if (unseen_at_ && !unseen_ && moved_) {
     hand_back(o, log, advice);
@@ -252,6 +259,7 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log, co
   }
   if (o.held_by_dust) dust_s_ = o.time_s;
   if (o.stop_reason == BERM_STOP_INTRUDER || o.stop_reason == BERM_STOP_SEPARATION) person_s_ = o.time_s;
+  if (o.held_by_dust || person_s_ == o.time_s) next_back_s_ = std::max(next_back_s_, o.time_s + back_after);
   advice.operator_called = call_operator(o, log);
   if (!by_place(o.stop_reason)) return advice;
   const double blocked = o.time_s - stop_s_;  // with no more than moments in which standing was permitted
@@ -259,7 +267,7 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log, co
   if (!by_ground(o.stop_reason)) ground_s_ = -1.0;
   else if (ground_s_ < 0.0) ground_s_ = o.time_s;
   if (blocked > patience && by_ground(o.stop_reason)) {
-    advice.velocity = retreat_ = retreat(o, o.time_s - std::max(ground_s_, stop_s_ + patience));
+    advice.velocity = retreat_ = short_of_range(retreat(o, o.time_s - std::max(ground_s_, stop_s_ + patience)), o);
     moved_ = true;
   }
   return advice;

@@ -43,6 +43,7 @@ public:
 
 private:
   Joints retreat(const Observation& o, double blocked_s) const;
+  Joints short_of_range(Joints v, const Observation& o) const;
   bool call_operator(const Observation& o, const ProgressLog& log);
   void begin_stop(const Observation& o, const ProgressLog& log);
   Advice running(const Observation& o, const ProgressLog& log, const PlaceInMap& in_map);

@@ -216,7 +216,7 @@ bool Sequencer::too_high_stands() const {
 
 // With what is round it: the kernel names one cell of what the implements hide.
 bool Sequencer::unseen_lies_there() const {
-  constexpr double around = 1.0;  // m: a bucket's width
+  constexpr double around = 1.6;  // m: a bucket and a half
   const auto at = recovery_.unseen();
   if (!at) return false;
   const CellGround ground = kernel_map_.ground(KernelMap::Unseen::blocked);

@@ -376,6 +376,51 @@ TEST(Recovery, ARetreatFromGroundThatWasNotSeenGoesOnUntilItIs) {
     }
 }
 
+// The third creep curls the bucket: where that goes on for seconds it ends short of the range, not in another stop.
+TEST(Recovery, ALongRetreatEndsShortOfAJointsRange) {
+  const MachineModel m = berm::app_bench::zx200();
+  Recovery recovery(m);
+  const ProgressLog log(-1);
+  Observation o;
+  const auto curled = [&](Observation at) {
+    at.angle[bucket] = o.angle[bucket];
+    at.blocked_x = 5.0;
+    return at;
+  };
+  o.angle[bucket] = m.joint[bucket].low + radians(20.0);
+  for (double t = 0.0; t < 11.5; t += 0.01) recovery.step(curled(stopped(t, BERM_STOP_STALE_GROUND)), log, {false, true});
+  double least = o.angle[bucket];
+  bool moved = false;
+  for (double t = 11.5; t < 23.0; t += 0.01) {
+    o.angle[bucket] += 0.01 * recovery.step(curled(permitted(t)), log, {false, true}).velocity[bucket];
+    moved = moved || o.angle[bucket] < least;
+    least = std::min(least, o.angle[bucket]);
+  }
+  EXPECT_TRUE(moved);
+  EXPECT_NEAR(least, m.joint[bucket].low + radians(8.0), radians(0.2));
+}
+
+// With the bucket in the face a swing to look from elsewhere is a stop more: who stood there for half a minute has not used up what creeping is given.
+TEST(Recovery, SwingsBackOnlyAfterTheGroundHasKeptItForLong) {
+  Recovery recovery(berm::app_bench::zx200());
+  const ProgressLog log(-1);
+  for (double t = 0.0; t < 30.0; t += 0.01) recovery.step(stopped(t, BERM_STOP_INTRUDER), log);
+  double swung_s = -1.0;
+  bool stops = true;
+  for (int k = 3000; k < 6000 && swung_s < 0.0; ++k) {
+    const double t = 0.01 * k;
+    Observation o = stops ? stopped(t, BERM_STOP_COLLISION_PREDICTED) : permitted(t);
+    o.blocked_x = 5.0 * std::cos(o.blocked_bearing);
+    o.blocked_y = 5.0 * std::sin(o.blocked_bearing);
+    const auto advice = recovery.step(o, log);
+    if (!stops && std::fabs(advice.velocity[swing]) > radians(5.0)) swung_s = t;
+    if (!advice.in_charge) stops = true;
+    else if (k % 30 == 29) stops = false;
+  }
+  EXPECT_GT(swung_s, 38.9);
+  EXPECT_LT(swung_s, 50.0);
+}
+
 // Standing is permitted for a moment now and then, for the joints' noise decides whether the bucket is over a cell that nothing has seen: 300 stops in five
 // minutes, for each put the retreat off by its patience.
 TEST(Recovery, AKernelThatWaversPutsARetreatOffNoLonger) {
