@@ -1,10 +1,10 @@
 // What to do while the kernel does not permit motion: hold; and when it is the ground that stopped the machine and stays blocked, look again
 // with both scanners and retreat slowly, which the kernel permits when the slow motion's own box is clear. From ground that has not been seen for too
-// long, which the implements hide themselves, the retreat goes on until it is seen: wherever it ends before, to stand is not permitted. Where standing is permitted and moving is
-// not, attempts follow one another at growing pauses; then the implements swing back, for they hide what stands behind and beside them and the map
-// keeps what it once held there, and the scanners look from there. While what is too high to pass over still stands in the map another attempt would
-// be another stop: it is looked at instead, for as long as that may help. What none of this mends is the operator's: who is told what to do, once for
-// each thing that keeps it.
+// long, which the implements hide themselves, the retreat goes on until it is seen: wherever it ends before, to stand is not permitted. Where standing
+// is permitted and moving is not, attempts follow one another at growing pauses; then the implements swing back, for they hide what stands behind and
+// beside them and the map keeps what it once held there, and the scanners look from there. While what is too high to pass over still stands in the map
+// another attempt would be another stop: it is looked at instead, for as long as that may help. What none of this mends is the operator's: who is told
+// what to do, once for each thing that keeps it.
 #pragma once
 
 #include <optional>

@@ -216,12 +216,12 @@ bool Sequencer::too_high_stands() const {
 
 // With what is round it: the kernel names one cell of what the implements hide.
 bool Sequencer::unseen_lies_there() const {
-  constexpr double around = 1.6;  // m: a bucket and a half
+  constexpr double around = 1.6, step = 0.2;  // m: a bucket and a half; less than a cell
   const auto at = recovery_.unseen();
   if (!at) return false;
   const CellGround ground = kernel_map_.ground(KernelMap::Unseen::blocked);
-  for (double x = -around; x <= around; x += around / 4.0)
-    for (double y = -around; y <= around; y += around / 4.0)
+  for (double x = -around; x <= around; x += step)
+    for (double y = -around; y <= around; y += step)
       if (!std::isfinite(ground(at->x + x, at->y + y))) return true;
   return false;
 }
