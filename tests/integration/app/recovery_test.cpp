@@ -331,17 +331,17 @@ TEST(Recovery, ARetreatThatIsStoppedItselfIsNotTriedAgain) {
 // another.
 TEST(Recovery, ARetreatFromGroundThatWasNotSeenGoesOnUntilItIs) {
   for (const std::uint8_t reason : {BERM_STOP_STALE_GROUND, BERM_STOP_UNKNOWN_GROUND, BERM_STOP_COLLISION_PREDICTED})
-    for (const double seen_s : {35.0, 1000.0}) {
+    for (const double seen_s : {39.0, 1000.0}) {
       Recovery recovery(berm::app_bench::zx200());
       const ProgressLog log(-1);
       Observation o;
-      for (double t = 0.0; t < 30.0; t += 0.1) {
+      for (double t = 0.0; t < 34.0; t += 0.1) {
         o = stopped(t, BERM_STOP_INTRUDER);
         o.blocked_x = -14.0;
         recovery.step(o, log, {false, true});
       }
       EXPECT_FALSE(recovery.unseen()) << "whoever came is another matter";
-      o = stopped(30.0, reason);
+      o = stopped(34.0, reason);
       o.blocked_x = o.blocked_y = 0.0;
       EXPECT_GT(recovery.step(o, log, {false, true}).velocity[boom], 0.0) << "up first, however long he stood there";
       const bool of_unseen = reason != BERM_STOP_COLLISION_PREDICTED;
@@ -357,7 +357,7 @@ TEST(Recovery, ARetreatFromGroundThatWasNotSeenGoesOnUntilItIs) {
       double raised_until = 0.0, resumed_s = -1.0;
       int looks = 0;
       for (int k = 0; k < 4000 && resumed_s < 0.0; ++k) {
-        const double t = 30.01 + 0.01 * k;
+        const double t = 34.01 + 0.01 * k;
         const auto advice = recovery.step(permitted(t), log, {false, t < seen_s});
         looks += advice.rescan;
         if (advice.velocity[boom] > 0.0) raised_until = t;
@@ -365,7 +365,7 @@ TEST(Recovery, ARetreatFromGroundThatWasNotSeenGoesOnUntilItIs) {
         resumed_s = t;
         EXPECT_TRUE(advice.moved);
       }
-      EXPECT_NEAR(raised_until, of_unseen ? std::min(seen_s, 42.0) : 31.0, 0.03) << int{reason} << ", seen after " << seen_s;
+      EXPECT_NEAR(raised_until, of_unseen ? std::min(seen_s, 46.0) : 35.0, 0.03) << int{reason} << ", seen after " << seen_s;
       EXPECT_GE(resumed_s, raised_until);
       if (of_unseen) {
         EXPECT_GE(looks, seen_s < 100.0 ? 0 : 2) << "while it goes on";
@@ -374,6 +374,25 @@ TEST(Recovery, ARetreatFromGroundThatWasNotSeenGoesOnUntilItIs) {
         }
       }
     }
+}
+
+// What it was to look at from elsewhere it has seen by then.
+TEST(Recovery, ARetreatThatHasUncoveredTheGroundIsFollowedByNoSwingBack) {
+  Recovery recovery(berm::app_bench::zx200());
+  const ProgressLog log(-1);
+  for (double t = 0.0; t < 15.0; t += 0.01) {
+    Observation o = stopped(t, BERM_STOP_STALE_GROUND);
+    o.blocked_x = 5.0 * std::cos(o.blocked_bearing);
+    o.blocked_y = 5.0 * std::sin(o.blocked_bearing);
+    recovery.step(o, log, {false, true});
+  }
+  double resumed_s = -1.0;
+  for (double t = 15.0; t < 40.0 && resumed_s < 0.0; t += 0.01) {
+    const auto advice = recovery.step(permitted(t), log, {false, t < 18.0});
+    EXPECT_EQ(advice.velocity[swing], 0.0) << t;
+    if (advice.resumed) resumed_s = t;
+  }
+  EXPECT_NEAR(resumed_s, 18.0, 0.03);
 }
 
 // The third creep curls the bucket: where that goes on for seconds it ends short of the range, not in another stop.
