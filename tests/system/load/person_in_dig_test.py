@@ -1,5 +1,5 @@
 """Somebody comes while the bucket is in the dig, and leaves: the machine stands for him, and then goes on by itself, with no other stop. By then the bucket
-has hidden the ground under it for longer than it counts as seen: one such visit was up to ten stops."""
+has hidden the ground under it for longer than it counts as seen: one such visit was up to eight stops more."""
 import json
 import pathlib
 import re
