@@ -81,7 +81,7 @@ Joints Recovery::retreat(const Observation& o, double blocked_s) const {
   if (way == 0) v[boom] = creep_share * machine_.joint[boom].creep_velocity;
   if (way == 1) v[swing] = std::copysign(creep_share * machine_.joint[swing].creep_velocity, wrapped(o.angle[swing] - o.blocked_bearing));
   if (way == 2) v[bucket] = -creep_share * machine_.joint[bucket].creep_velocity;
-  return v;
+  return short_of_range(v, o);
 }
 
 // A retreat that goes on for seconds is not to end in another stop.
@@ -99,7 +99,7 @@ bool Recovery::moved_by_hand(const Observation& o) const {
 
 // Motion is permitted, and the retreat that led to that is used.
 bool Recovery::retreating(const Observation& o) const {
-  const bool goes_on = unseen_at_ && unseen_ && retreat_ != Joints{};
+  const bool goes_on = unseen_at_ && in_map_.unseen && retreat_ != Joints{};
   return !handed_back_ && back_ == Back::none && moved_ && o.time_s - running_s_ < (goes_on ? retreat_longest : retreat_for);
 }
 
@@ -108,7 +108,7 @@ bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
   // Whoever is seen in dust, and ground that it hides, may be none when it has settled: a map that is learned anew in it is empty.
   const bool in_dust = o.held_by_dust && !o.latched;
   const std::uint8_t reason = in_dust ? static_cast<std::uint8_t>(BERM_STOP_DUST) : o.stop_reason;
-  const double after = reason == BERM_STOP_INTRUDER ? call_after_intruder : call_after, from_s = in_dust ? since_s_ : std::max({since_s_, dust_s_, by_ground(reason) ? person_s_ : -1.0});
+  const double after = reason == BERM_STOP_INTRUDER ? call_after_intruder : call_after, from_s = in_dust ? since_s_ : std::max({since_s_, dust_s_, by_ground(reason) ? other_s_ : -1.0});
   if (!(o.latched || (by_place(reason) && o.time_s - from_s > after))) return false;
   const char* const advice = advice_for(reason, o.latched);
   if (std::find(told_.begin(), told_.end(), advice) != told_.end()) return false;
@@ -128,10 +128,7 @@ void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
   const bool in_retreat = retreating(o), moved_in_it = in_retreat && retreat_ != Joints{};
   const bool wavers = !handed_back_ && !moved_in_it && o.time_s - running_s_ < wavering;
   stopped_ = true;
-  if (!wavers) {
-    stop_s_ = o.time_s;
-    ground_s_ = -1.0;
-  }
+  if (!wavers) stop_s_ = o.time_s;
   stopped_at_ = o.angle;
   if (in_retreat) retreat_ = o.stop_reason == BERM_STOP_JOINT_RANGE ? retreat(o, 0.0) : Joints{};  // it led nowhere: not the same again
   pause_s_ = again ? std::clamp(2.0 * pause_s_, shortest_pause, longest_pause) : 0.0;
@@ -139,7 +136,7 @@ void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
     since_s_ = o.time_s;
     next_rescan_s_ = since_s_ + rescan_after;
     next_back_s_ = since_s_ + back_after;
-    dust_s_ = person_s_ = -1.0;
+    dust_s_ = other_s_ = -1.0;
     told_.clear();
     waits_for_reset_ = false;
     moved_ = false;
@@ -198,7 +195,7 @@ bool Recovery::swing_back(const Observation& o, Advice& advice) {
 }
 
 // The kernel permits motion: the retreat that it permits is used for a moment, then what is due of the pause is waited for.
-Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log, const PlaceInMap& in_map) {
+Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log) {
   Advice advice;
   if (stopped_) {
     stopped_ = false;
@@ -217,11 +214,11 @@ Recovery::Advice Recovery::running(const Observation& o, const ProgressLog& log,
   if (retreating(o)) {
     advice.velocity = short_of_range(retreat_, o);
     if (unseen_at_) look_again(o, advice);
-  } else if (unseen_at_ && !unseen_ && moved_) {
+  } else if (unseen_at_ && !in_map_.unseen && moved_) {
     hand_back(o, log, advice);
   } else if (ran < (over_high_ ? std::max(pause_s_, map_age) : pause_s_) || swing_back(o, advice)) {
     return advice;
-  } else if (over_high_ && in_map.too_high && o.time_s - since_s_ < looks_for) {
+  } else if (over_high_ && in_map_.too_high && o.time_s - since_s_ < looks_for) {
     look_again(o, advice);
   } else {
     hand_back(o, log, advice);
@@ -245,8 +242,8 @@ void Recovery::look_again(const Observation& o, Advice& advice) {
 }
 
 Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log, const PlaceInMap& in_map) {
-  unseen_ = in_map.unseen;
-  if (o.running()) return running(o, log, in_map);
+  in_map_ = in_map;
+  if (o.running()) return running(o, log);
   Advice advice;
   advice.in_charge = true;
   if (!stopped_) begin_stop(o, log);
@@ -258,16 +255,14 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log, co
     since_s_ = o.time_s;
   }
   if (o.held_by_dust) dust_s_ = o.time_s;
-  if (o.stop_reason == BERM_STOP_INTRUDER || o.stop_reason == BERM_STOP_SEPARATION) person_s_ = o.time_s;
-  if (o.held_by_dust || person_s_ == o.time_s) next_back_s_ = std::max(next_back_s_, o.time_s + back_after);
+  if (!by_ground(o.stop_reason)) other_s_ = o.time_s;
+  if (o.held_by_dust || !by_ground(o.stop_reason)) next_back_s_ = std::max(next_back_s_, o.time_s + back_after);
   advice.operator_called = call_operator(o, log);
   if (!by_place(o.stop_reason)) return advice;
   const double blocked = o.time_s - stop_s_;  // with no more than moments in which standing was permitted
   look_again(o, advice);
-  if (!by_ground(o.stop_reason)) ground_s_ = -1.0;
-  else if (ground_s_ < 0.0) ground_s_ = o.time_s;
   if (blocked > patience && by_ground(o.stop_reason)) {
-    advice.velocity = retreat_ = short_of_range(retreat(o, o.time_s - std::max(ground_s_, stop_s_ + patience)), o);
+    advice.velocity = retreat_ = retreat(o, o.time_s - std::max(other_s_, stop_s_ + patience));
     moved_ = true;
   }
   return advice;

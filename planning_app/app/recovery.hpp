@@ -46,7 +46,7 @@ private:
   Joints short_of_range(Joints v, const Observation& o) const;
   bool call_operator(const Observation& o, const ProgressLog& log);
   void begin_stop(const Observation& o, const ProgressLog& log);
-  Advice running(const Observation& o, const ProgressLog& log, const PlaceInMap& in_map);
+  Advice running(const Observation& o, const ProgressLog& log);
   bool moved_by_hand(const Observation& o) const;
   bool retreating(const Observation& o) const;
   double way_back(const Observation& o) const;
@@ -59,14 +59,13 @@ private:
   bool stopped_ = false;
   bool handed_back_ = true;      // the plan is in charge
   bool moved_ = false;
-  bool unseen_ = false;          // as the newest map has it
+  PlaceInMap in_map_;            // newest
   std::vector<std::string_view> told_;  // advices that the operator was given in this trouble
   bool waits_for_reset_ = false;        // the newest of them was for a stop that latches
   Joints stopped_at_{};          // rad
   double since_s_ = -1.0;        // begin of the trouble: a stop and those soon after it; negative: none yet
-  double dust_s_ = -1.0, person_s_ = -1.0;  // when dust, or somebody, held the machine last; negative: not in this trouble
+  double dust_s_ = -1.0, other_s_ = -1.0;  // when dust, or anything but the ground, held the machine last; negative: not in this trouble
   double stop_s_ = 0.0, running_s_ = 0.0, handed_back_s_ = 0.0;
-  double ground_s_ = -1.0;       // since when the ground keeps it; negative: it does not
   double pause_s_ = 0.0;         // of standing permitted, before the plan is in charge again
   double next_rescan_s_ = 0.0;
   Joints retreat_{};

@@ -127,7 +127,7 @@ private:
   void watch_pour(const Observation& o, double kg);
   std::optional<double> weighed_kg() const;   // what the bucket carried to the truck, which may be nothing
   double lifted_kg() const { return weighed_kg().value_or(0.0); }
-  double over_walls_kg(double poured_kg) const;
+  double over_walls_kg(double poured_kg);
   void book_pass(const Observation& o);
   void end_pass(const Observation& o);
   void go_on_after_pass(const Observation& o, bool lowered);

@@ -4,7 +4,6 @@
 
 #include "app/sequencer.hpp"
 #include "motion/bucket_weight.hpp"
-#include "planning/over_walls.hpp"
 
 namespace berm::app {
 
@@ -128,8 +127,8 @@ Joints Sequencer::pass(const Observation& o) {
 }
 
 // Of what was poured on the load as it was seen before the dump.
-double Sequencer::over_walls_kg(double poured_kg) const {
-  return dump_.observed ? falls_over_walls(dump_.heights, site_.bed->height, lies_at(poured_kg), poured_kg, dump_.density, scale_) : 0.0;
+double Sequencer::over_walls_kg(double poured_kg) {
+  return dump_.over_walls ? dump_.over_walls->falls(lies_at(poured_kg), poured_kg) : 0.0;
 }
 
 // What this pass brought, into the truck's books.

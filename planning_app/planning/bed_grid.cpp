@@ -62,6 +62,17 @@ BedGrid filled(const BedGrid& grid, const BedGrid& noted) {
   return out;
 }
 
+BedGrid poured(const BedGrid& grid, const Pour& pour) {
+  BedGrid out = grid;
+  std::vector<std::size_t> covered;
+  for (int row = 0; row < out.rows; ++row)
+    for (int column = 0; column < out.columns; ++column)
+      if (std::fabs(out.u(column) - pour.u) < 0.5 * pour.along && std::fabs(out.v(row) - pour.v) < 0.5 * pour.across) covered.push_back(out.index(column, row));
+  constexpr double area = BedGrid::cell * BedGrid::cell;
+  for (const std::size_t i : covered) out.height[i] += pour.kg / (pour.density * area * static_cast<double>(covered.size()));
+  return out;
+}
+
 BedGrid settled(const BedGrid& grid, double slope) {
   constexpr int most_rounds = 60;
   constexpr double rest_step = 0.002;  // m

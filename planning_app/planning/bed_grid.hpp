@@ -37,6 +37,10 @@ BedGrid smoothed(const BedGrid& grid, double sigma);
 // all known); afterwards all are known. A side that the walls hide is then no lower for being hidden, nor is what was seen empty beside it worth more.
 BedGrid filled(const BedGrid& grid, const BedGrid& noted);
 
+// So much soil laid evenly over the cells whose middles lie within a rectangle of these sides about (u, v), m. Nothing where there is no such cell.
+struct Pour { double u = 0.0, v = 0.0, along = 0.0, across = 0.0, kg = 0.0, density = 0.0; };
+BedGrid poured(const BedGrid& grid, const Pour& pour);
+
 // Soil slides from cell to cell until no step is steeper than the slope (rise over run), or nearly; the walls hold it.
 BedGrid settled(const BedGrid& grid, double slope);
 

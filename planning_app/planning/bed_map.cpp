@@ -22,14 +22,7 @@ void BedMap::insert(double x, double y, double z, double time_s) {
 
 void BedMap::note_dump(const BedPoint& at, double mass_kg) {
   load_.add(at, mass_kg);
-  std::vector<std::size_t> covered;
-  for (int row = 0; row < noted_.rows; ++row)
-    for (int column = 0; column < noted_.columns; ++column)
-      if (std::fabs(noted_.u(column) - at.u) < 0.5 * dump_along * scale_.width && std::fabs(noted_.v(row) - at.v) < 0.5 * dump_across * scale_.bucket)
-        covered.push_back(noted_.index(column, row));
-  constexpr double area = BedGrid::cell * BedGrid::cell;
-  for (const std::size_t i : covered) noted_.height[i] += mass_kg / (loose_density * area * static_cast<double>(covered.size()));
-  noted_ = settled(noted_, repose);
+  noted_ = settled(poured(noted_, {at.u, at.v, dump_along * scale_.width, dump_across * scale_.bucket, mass_kg, loose_density}), repose);
 }
 
 BedGrid BedMap::seen(double since_s) const {

@@ -6,7 +6,6 @@
 
 #include "planning/bed_templates.hpp"
 #include "planning/heap_top.hpp"
-#include "planning/over_walls.hpp"
 
 namespace berm::app {
 
@@ -103,14 +102,14 @@ class HeapForecast {
 public:
   HeapForecast(const BedMap& map, const BedGrid& seen, const DumpNeeds& needs)
       : bed_(map.bed()), needs_(needs), heights_(filled_nearby(seen, map.noted())), soil_(heaped_soil(seen, heights_, map.noted_load().kg)),
-        ceiling_(bed_.ceiling - (bed_.wall_top - bed_.height)), tops_(static_cast<std::size_t>(heights_.columns), -1.0), over_walls_(tops_) {}
+        ceiling_(bed_.ceiling - (bed_.wall_top - bed_.height)), tops_(static_cast<std::size_t>(heights_.columns), -1.0), falls_(tops_),
+        walls_(heights_, bed_.height, soil_.density, needs_.scale) {}
 
-  const BedGrid& heights() const { return heights_; }
-  double density() const { return soil_.density; }
+  const OverWalls& over_walls() const { return walls_; }
   // kg, that would fall over the walls.
-  double over_walls(const BedPoint& at) {
-    double& kg = over_walls_[static_cast<std::size_t>(heights_.column_of(at.u))];
-    if (kg < 0.0) kg = falls_over_walls(heights_, bed_.height, landing(bed_, at, needs_.dump_kg, needs_.scale), needs_.dump_kg, soil_.density, needs_.scale);
+  double falls(const BedPoint& at) {
+    double& kg = falls_[static_cast<std::size_t>(heights_.column_of(at.u))];
+    if (kg < 0.0) kg = walls_.falls(landing(bed_, at, needs_.dump_kg, needs_.scale), needs_.dump_kg);
     return kg;
   }
   bool well_under(double top) const { return top <= ceiling_ - under_ceiling; }
@@ -127,7 +126,8 @@ private:
   BedGrid heights_;          // not smoothed: that would lower a heap's top
   HeapedSoil soil_;
   double ceiling_;           // over the floor
-  std::vector<double> tops_, over_walls_;  // by column; negative: not asked for yet
+  std::vector<double> tops_, falls_;  // by column; negative: not asked for yet
+  OverWalls walls_;
 };
 
 }  // namespace
@@ -179,12 +179,11 @@ DumpPoint choose_dump_point(const BedMap& map, const DumpNeeds& needs) {
   const Candidate* chosen = &candidates.front();
   if (point.observed) {
     HeapForecast forecast(map, seen, needs);
-    if (forecast.over_walls(candidates.front().at) > 0.0) {
-      for (Candidate& candidate : candidates) candidate.price += over_walls_price * forecast.over_walls(candidate.at);
+    if (forecast.falls(candidates.front().at) > 0.0) {
+      for (Candidate& candidate : candidates) candidate.price += over_walls_price * forecast.falls(candidate.at);
       std::stable_sort(candidates.begin(), candidates.end(), cheaper);
     }
-    point.heights = forecast.heights();
-    point.density = forecast.density();
+    point.over_walls = forecast.over_walls();
     if (std::isfinite(bed.ceiling)) {
       double lowest = std::numeric_limits<double>::infinity();
       for (const Candidate& candidate : candidates) {

@@ -14,9 +14,11 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "motion/implement_scale.hpp"
 #include "planning/bed_map.hpp"
+#include "planning/over_walls.hpp"
 
 namespace berm::app {
 
@@ -42,8 +44,7 @@ struct DumpPoint {
   bool fits = true;                // the heap stays under the truck zone's ceiling ...
   double heap_top = std::numeric_limits<double>::quiet_NaN();  // ... to which it then stands, m over the floor; where that was in question
   BedPoint load_centre;            // of the whole load with this dump
-  BedGrid heights;                 // of the load before it: seen, and what is hidden by the books and what is seen near it; nothing where it was not observed
-  double density = 0.0;            // of the load then, kg/m3
+  std::optional<OverWalls> over_walls;  // of the load before it, where that was observed: what is hidden by the books and by what is seen near it
 };
 
 DumpPoint choose_dump_point(const BedMap& bed, const DumpNeeds& needs);

@@ -69,7 +69,7 @@ TEST(Sequencer, LoadsOneTruck) {
 TEST(Sequencer, NoPassSwingsFarBothWays) {
   const app_bench::Events events;
   Loading run(1, start_pose(), events.fd());
-  while (events.named("pass").size() < 11 && run.seconds < 400.0) run.step();
+  while (events.named("pass").size() < 9 && run.seconds < 400.0) run.step();
   const auto passes = events.named("pass"), scripts = events.named("script");
   ASSERT_GE(passes.size(), 9U);
   ASSERT_GE(scripts.size(), passes.size());

@@ -7,7 +7,6 @@
 
 #include "app_bench/bench_machine.hpp"
 #include "planning/dump_point.hpp"
-#include "planning/over_walls.hpp"
 
 namespace {
 
@@ -349,13 +348,12 @@ TEST(DumpPoint, GoesWhereLessFallsOverTheWalls) {
     look(map, load, everywhere, 5.0);
     return choose_dump_point(map, needs(11, 12));
   };
-  const DumpPoint high = choose(1.0), low = choose(0.0);
+  DumpPoint high = choose(1.0), low = choose(0.0);
   EXPECT_GT(high.at.u, 0.6) << "for balance";
   EXPECT_LT(low.at.u, high.at.u - 0.5);
-  const auto falls_at = [&](const DumpPoint& at, double walls) { return falls_over_walls(low.heights, walls, at.at, bucket_kg, low.density, {}); };
-  EXPECT_EQ(falls_at(high, bed.height + 1.0), 0.0);
-  EXPECT_GT(falls_at(high, bed.height), 100.0);
-  EXPECT_LT(falls_at(low, bed.height), 0.3 * falls_at(high, bed.height));
+  EXPECT_EQ(high.over_walls->falls(high.at, bucket_kg), 0.0);
+  EXPECT_GT(low.over_walls->falls(high.at, bucket_kg), 100.0);
+  EXPECT_LT(low.over_walls->falls(low.at, bucket_kg), 0.3 * low.over_walls->falls(high.at, bucket_kg));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ BedGrid bed(Height height) {
   return grid;
 }
 
-double falls(const BedGrid& grid, const BedPoint& at, double kg = bucket_kg) { return falls_over_walls(grid, wall, at, kg, density, {}); }
+double falls(const BedGrid& grid, const BedPoint& at, double kg = bucket_kg) { return OverWalls(grid, wall, density, {}).falls(at, kg); }
 
 // As high as it can stand between the side walls.
 double ridge(double v) { return wall + BedMap::repose * (1.2 + 0.5 * BedGrid::cell - std::fabs(v)); }
