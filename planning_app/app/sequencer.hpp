@@ -69,6 +69,8 @@ private:
   bool swing_stands_at_goal(const Observation& o) const;
   Joints dig(const Observation& o);
   Joints curl(const Observation& o);
+  Joints lift_and_curl(const Observation& o);
+  Joints lift_from_deep(const Observation& o);
   Joints pass(const Observation& o);
   Joints pass_goals(const Observation& o);
   void plan_next_dig(const Observation& o, double dump_beyond);

@@ -143,7 +143,8 @@ void Sequencer::feel(const Observation& o) {
 // bucket that fills sooner than planned curls sooner, so that a full one holds what is in it.
 void Sequencer::hold_fill(double in_bucket_kg) {
   constexpr double gain = 0.8;                            // m/s for a bucket that lacks all of its goal
-  constexpr double fastest = 0.25;                        // m/s
+  constexpr double fastest = 0.5;                         // m/s
+  constexpr double sure_share = 0.5;                      // of what the force says, for the depth: a decimetre too deep costs less than a bucket that ends its drag half full
   constexpr double deepest = 0.5;                         // m under the path
   constexpr double curl_from = 0.4;                       // of the goal
   constexpr double holding = radians(-152.0), open = radians(-95.0);
@@ -154,7 +155,7 @@ void Sequencer::hold_fill(double in_bucket_kg) {
   const double total = planned_fill_.back();
   const double planned = total > 0.0 ? planned_fill_[static_cast<std::size_t>(follower_.progress() * static_cast<double>(planned_fill_.size() - 1))] / total : 0.0;
   if (planned > 0.0 && follower_.stalled_s() == 0.0) {    // in the soil
-    const double rate = std::clamp(gain * (share - planned), -fastest, fastest);
+    const double rate = std::clamp(gain * (sure_share * share - planned), -fastest, fastest);
     // Over the floor at the attitude that it has: curled sooner than planned its shell lies lower.
     const ArmPoints planned_arm = forward(machine_, follower_.on_path());
     const double to_floor = dig_floor_.at(planned_arm.tip.r, std::min(planned_arm.bucket_attitude, departure.curl)) - planned_arm.tip.z;
@@ -264,7 +265,7 @@ void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_fro
 Joints Sequencer::curl(const Observation& o) {
   if (search_ && !search_->done()) search_->step();
   if (cut_) cut_->reach(o.angle);
-  constexpr double curls_on = radians(32.0), curls_on_deep = radians(16.0);  // what the script does
+  constexpr double curls_on = radians(60.0), curls_on_deep = radians(16.0);  // what the script does
   const bool done = !follower_.active() || follower_.finished() || o.time_s - stage_s_ > 5.0 || forward(machine_, o.angle).bucket_attitude < curled + (comes_from_deep_ ? curls_on_deep : curls_on);
   if (done && search_ && search_->done()) {
     note_cut(o);
@@ -289,10 +290,29 @@ Joints Sequencer::curl(const Observation& o) {
     return {};
   }
   if (!follower_.active()) return {};
-  // A bucket that soil holds up while it curls comes free when it is lifted. From deep under a bank slower: what it pushes up has to slide off.
-  constexpr double lifting = 0.6, lifting_deep = 0.15, most_lift = 0.5;  // m/s, m
+  return comes_from_deep_ ? lift_from_deep(o) : lift_and_curl(o);
+}
+
+// Each joint by itself: what soil holds back it holds back in all of them alike, and a path would wait for the slowest when it lets go. The bucket curls as
+// fast as it can, for its soil lies on nothing else once its lip is out; the boom is on its way to where the script has it, and beyond, so that it does not
+// brake before that takes over.
+Joints Sequencer::lift_and_curl(const Observation& o) {
+  constexpr Joints paces{1.0, 0.8, 1.0, 1.0};
+  constexpr double beyond = radians(20.0);
+  Joints goals = task_.lifted_from;
+  goals[swing] = o.angle[swing];
+  goals[boom] += beyond;
+  goals[stick] = o.angle[stick];
+  Joints command = arm_.toward(goals, paces, o.angle, o.velocity);
+  command[swing] = 0.0;  // it stands while the bucket is in the soil
+  return command;
+}
+
+// Along the way out, and slowly: what the bucket pushes up has to slide off. Lifted, a bucket that soil holds up while it curls comes free.
+Joints Sequencer::lift_from_deep(const Observation& o) {
+  constexpr double lifting = 0.15, most_lift = 0.5;  // m/s, m
   DigFollower::Departure departure = follower_.departure();
-  departure.lift = std::min(most_lift, departure.lift + (comes_from_deep_ ? lifting_deep : lifting) * machine_.cycle);
+  departure.lift = std::min(most_lift, departure.lift + lifting * machine_.cycle);
   follower_.depart(departure);
   return follower_.step(machine_, arm_, o.angle[swing], curl_speed, o.angle, o.velocity);
 }

@@ -39,7 +39,7 @@ void DigFill::add(double resistance_n, double dt) {
 }
 
 void DigFill::learn(double weighed_kg, double most_kg) {
-  constexpr double weight = 0.5, full_share = 0.93, probe = 1.04;
+  constexpr double weight = 0.5, full_share = 0.90, probe = 1.04;
   constexpr double least_impulse = 5e3;  // N s
   if (impulse_ < least_impulse || weighed_kg <= 0.0) return;
   const double seen = weighed_kg / impulse_;

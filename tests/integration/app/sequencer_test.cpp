@@ -300,6 +300,27 @@ TEST(Sequencer, IsHeldInADigAsElsewhere) {
   EXPECT_EQ(run.last.phase, BERM_PHASE_DIG);
 }
 
+// A full bucket curls as fast as it can while the boom is on its way up: soil slides off one that comes up open. Stick and swing stand.
+TEST(Sequencer, AFullBucketCurlsAndRisesAtOnce) {
+  const app_bench::Events events;
+  Loading run(1, start_pose(), events.fd());
+  while (events.named("dug").empty() && run.seconds < 60.0) run.step();
+  ASSERT_LT(run.seconds, 60.0);
+  const double stick_was = run.plant.angle()[stick];
+  double fastest_curl = 0.0, fastest_rise = 0.0;
+  int cycles = 0;
+  for (; run.last.phase == BERM_PHASE_DIG && cycles < 300; ++cycles) {
+    fastest_curl = std::min(fastest_curl, run.last.velocity[bucket]);
+    fastest_rise = std::max(fastest_rise, run.last.velocity[boom]);
+    EXPECT_EQ(run.last.velocity[swing], 0.0);
+    run.step();
+  }
+  EXPECT_LT(cycles, 150) << "the script takes over while the bucket curls";
+  EXPECT_LT(fastest_curl, -0.9 * run.machine.joint[bucket].velocity_max);
+  EXPECT_GT(fastest_rise, 0.4 * run.machine.joint[boom].velocity_max);
+  EXPECT_NEAR(run.plant.angle()[stick], stick_was, radians(3.0));
+}
+
 TEST(Sequencer, WaitsForTheTruckAndStandsMeanwhile) {
   Loading run(1, start_pose());
   run.plant.truck_parked = false;
