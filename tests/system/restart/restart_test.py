@@ -11,7 +11,8 @@ from berm_command import ROOT, load, main, run
 
 STANDBY, RUN, LATCHED = "1", "2", ("4", "5")
 STILL_RAD_S = 0.009
-STOP_S, RESET_S, OFF_S, ON_S, END_S = 25.0, 32.0, 45.0, 46.0, 80.0
+# Switched on before the ground that the standing implements hide is 20 s old: that is a reason of its own to stand by.
+STOP_S, RESET_S, OFF_S, ON_S, END_S = 25.0, 32.0, 38.0, 39.0, 80.0
 JOINTS = ("swing", "boom", "stick", "bucket")
 KEYS = (("stop", STOP_S, 0.5), ("reset", RESET_S, 0.5), ("pause", OFF_S, ON_S - OFF_S))
 
