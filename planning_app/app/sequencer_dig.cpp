@@ -144,7 +144,7 @@ void Sequencer::feel(const Observation& o) {
 void Sequencer::hold_fill(double in_bucket_kg) {
   constexpr double gain = 0.8;                            // m/s for a bucket that lacks all of its goal
   constexpr double fastest = 0.5;                         // m/s
-  constexpr double sure_share = 0.5;                      // of what the force says, for the depth: a decimetre too deep costs less than a bucket that ends its drag half full
+  constexpr double sure_share = 0.5;                      // of what the force says, for the depth: too deep costs less than a bucket that ends its drag half full
   constexpr double deepest = 0.5;                         // m under the path
   constexpr double curl_from = 0.4;                       // of the goal
   constexpr double holding = radians(-152.0), open = radians(-95.0);
