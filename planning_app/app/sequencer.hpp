@@ -29,6 +29,7 @@
 #include "planning/dump_point.hpp"
 #include "planning/face_reserve.hpp"
 #include "planning/pass_search.hpp"
+#include "planning/heaped_bucket.hpp"
 #include "planning/sticking_soil.hpp"
 #include "planning/truck_fill.hpp"
 
@@ -70,7 +71,6 @@ private:
   Joints dig(const Observation& o);
   Joints curl(const Observation& o);
   Joints lift_and_curl(const Observation& o);
-  Joints lift_from_deep(const Observation& o);
   Joints pass(const Observation& o);
   Joints pass_goals(const Observation& o);
   void plan_next_dig(const Observation& o, double dump_beyond);
@@ -82,6 +82,8 @@ private:
   double stuck_kg() const;
   bool knows_what_stuck() const;
   void learn_yield(double weighed_kg, double brought_along_kg);
+  void learn_heaped(const Observation& o, double lifted_kg);
+  double full_bucket_kg() const;
   void hold_fill(double in_bucket_kg);
   void begin_script(const Script& script);
   void begin_approach(const Observation& o, bool lower);
@@ -151,8 +153,8 @@ private:
   const ScriptSet& scripts_;
   MachineModel machine_;
   ImplementScale scale_;
-  double heaped_kg_;                          // what the bucket holds
-  double full_bucket_kg_;                     // what a pass is planned to bring at most
+  double heaped_kg_;                          // what the bucket holds of the heaviest soil
+  HeapedBucket heaped_;                       // and of this one
   SiteModel site_;
   DigFloor dig_floor_;
   ProgressLog log_;
@@ -192,6 +194,7 @@ private:
   ImplementWeight weight_;
   DigFill filled_;                            // of this dig, by force
   std::vector<double> planned_fill_;          // of this dig: bank m3 in the bucket, evenly along its path
+  bool can_lift_ = false;                     // a way out of the soil is known
   bool comes_from_deep_ = false;              // the bucket, from under a bank
   bool holds_nothing_ = true;
   double yield_ = 1.0;                        // what a modelled cubic metre brings, of what bank soil weighs

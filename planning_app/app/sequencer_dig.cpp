@@ -13,7 +13,7 @@ namespace {
 
 constexpr double bank_density = 1474.0;           // kg/m3, where nothing was learned yet
 constexpr double cut_reserve = 1.05;              // the cut is planned larger than the goal; the estimate ends it
-constexpr double air_speed = 3.0, soil_speed = 1.8, curl_speed = 2.2;  // m/s of the tip
+constexpr double air_speed = 3.6, soil_speed = 1.8;  // m/s of the tip
 constexpr double least_share_of_speed = 0.4;      // in soil, of digs for little
 constexpr double stall_patience = 1.0;            // s
 constexpr double least_share = 0.05;              // of a request that the kernel lets out; less is a stop
@@ -26,6 +26,16 @@ double milliseconds_since(std::chrono::steady_clock::time_point began) {
 }
 
 double millimetres(double metres) { return std::round(1000.0 * metres) / 1000.0; }
+
+// From where the bucket is through the drag. A tip that comes down onto the start goes on to where the drag is 0.2 m in: over the start the way turns twice,
+// and the tip would nearly stand there.
+std::vector<DigWaypoint> way_in(const ArmPoints& now, const std::vector<DigWaypoint>& drag) {
+  constexpr double comes_down = 0.3;        // m over the start
+  constexpr std::ptrdiff_t turns = 3;       // waypoints: over the start, at it, and 0.1 m on
+  std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}};
+  way.insert(way.end(), drag.begin() + (now.tip.z > drag.front().z + comes_down ? turns : 0), drag.end());
+  return way;
+}
 
 // The tip's planned way through the soil, [r, z]: without the entry above the surface and the lift at the end.
 nlohmann::ordered_json drag_points(const DigPlan& plan) {
@@ -62,7 +72,7 @@ void Sequencer::tell_region(const Observation& o, const RegionDig& next) const {
 void Sequencer::plan_next_dig(const Observation& o, double dump_beyond) {
   const auto began = std::chrono::steady_clock::now();
   ground_.observe(terrain_);
-  DigNeeds needs = needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg_);
+  DigNeeds needs = needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg());
   needs.dump_beyond = dump_beyond;
   RegionDig next = next_dig(machine_, site_, dig_floor_, ground_, needs, region_);
   const double plan_ms = milliseconds_since(began);
@@ -81,9 +91,7 @@ void Sequencer::begin_dig(const Observation& o) {
   region_.bounds.bearing = o.angle[swing];
   dig_ = plan_dig(machine_, site_, dig_floor_, ground_, needs, region_.bounds);
   const ArmPoints now = forward(machine_, arm_.predicted(o.angle, o.velocity));  // it may still be lowered
-  std::vector<DigWaypoint> way{{now.tip.r, now.tip.z, now.bucket_attitude}};
-  way.insert(way.end(), dig_.drag.begin(), dig_.drag.end());
-  auto path = DigPath::solve(machine_, way);
+  auto path = DigPath::solve(machine_, way_in(now, dig_.drag));
   if (!path) {
     miss_dig(o);
     return;
@@ -114,8 +122,23 @@ void Sequencer::learn_yield(double weighed_kg, double brought_along_kg) {
   const double modelled = cut_ ? cut_->volume() * bank_density : 0.0;
   if (modelled < 200.0 * scale_.load) return;
   const double seen = (weighed_kg - brought_along_kg) / modelled;
-  if (weighed_kg > full_share * heaped_kg_ && seen < yield_) return;
+  if (weighed_kg > full_share * heaped_.kg() && seen < yield_) return;
   yield_ = std::clamp((1.0 - weight) * yield_ + weight * seen, least, most);
+}
+
+// What a pass is planned to bring at most.
+double Sequencer::full_bucket_kg() const {
+  constexpr double share = 0.975;
+  return share * heaped_.kg();
+}
+
+void Sequencer::learn_heaped(const Observation& o, double lifted_kg) {
+  if (!filled_.known() || filled_.kg() + sticking_.left_kg() < goal_kg_) return;  // the drag was at its end, or something else ended the dig
+  const double was = heaped_.kg();
+  heaped_.learn(goal_kg_, lifted_kg, filled_.impulse());
+  if (heaped_.kg() == was) return;
+  fill_.plan_with(full_bucket_kg());
+  log_.event("heaped_bucket", {{"time_s", o.time_s}, {"kg", heaped_.kg()}, {"was_kg", was}});
 }
 
 // What is in the bucket though it is as empty as it gets: weighed on the way back, and then until the next dig's soil is on top of it.
@@ -125,7 +148,7 @@ double Sequencer::stuck_kg() const {
 
 // Whether the implements' own weight can be learned: on the first way back of a soil that sticks, and until the bucket has been weighed there, it cannot.
 bool Sequencer::knows_what_stuck() const {
-  return sticking_.sticks() ? stage_ != Stage::pass || after_.known() : recent_.kg() < empty_share * full_bucket_kg_;
+  return sticking_.sticks() ? stage_ != Stage::pass || after_.known() : recent_.kg() < empty_share * full_bucket_kg();
 }
 
 void Sequencer::feel(const Observation& o) {
@@ -135,7 +158,7 @@ void Sequencer::feel(const Observation& o) {
   if (holds_nothing_ && o.running() && knows_what_stuck()) weight_.learn(o.angle, held, machine_.cycle);
   if ((stage_ != Stage::dig && stage_ != Stage::curl) || !weight_.known(o.angle)) return;
   PlaneForce soil = force_on_bucket(machine_, o.angle, held, weight_.of(o.angle));
-  soil.z += gravity * std::min(heaped_kg_, filled_.kg());
+  soil.z += gravity * std::min(heaped_.kg(), filled_.kg());
   filled_.add(resistance(machine_, o.angle, o.velocity, soil), machine_.cycle);
 }
 
@@ -151,7 +174,8 @@ void Sequencer::hold_fill(double in_bucket_kg) {
   constexpr double curl_speed_most = radians(45.0);
   DigFollower::Departure departure = follower_.departure();
   const double share = in_bucket_kg / goal_kg_, curl = open + (holding - open) * std::clamp((share - curl_from) / (1.0 - curl_from), 0.0, 1.0);
-  departure.curl = std::max(std::min(departure.curl, curl), std::min(departure.curl, open) - curl_speed_most * machine_.cycle);
+  if (share > curl_from)                                  // from the path's own attitude on: asked for at once, the way in would wait for the bucket
+    departure.curl = std::max(std::min(departure.curl, curl), std::min(departure.curl, forward(machine_, follower_.on_path()).bucket_attitude) - curl_speed_most * machine_.cycle);
   const double total = planned_fill_.back();
   const double planned = total > 0.0 ? planned_fill_[static_cast<std::size_t>(follower_.progress() * static_cast<double>(planned_fill_.size() - 1))] / total : 0.0;
   if (planned > 0.0 && follower_.stalled_s() == 0.0) {    // in the soil
@@ -182,7 +206,7 @@ Joints Sequencer::dig(const Observation& o) {
     begin_curl(o);
   }
   // A small goal is overshot by what comes in while the bucket is told to stop.
-  const double gently = std::clamp(goal_kg_ / full_bucket_kg_, least_share_of_speed, 1.0);
+  const double gently = std::clamp(goal_kg_ / full_bucket_kg(), least_share_of_speed, 1.0);
   return follower_.step(machine_, arm_, o.angle[swing], in_soil ? gently * soil_speed : air_speed, o.angle, o.velocity);
 }
 
@@ -192,13 +216,10 @@ void Sequencer::begin_curl(const Observation& o) {
                      {"felt_kg", filled_.kg()}, {"impulse_kns", 1e-3 * filled_.impulse()}});
   constexpr double deep = 1.75;  // m
   comes_from_deep_ = bank_over(cut_->surface(), now) > deep;
-  if (auto path = DigPath::solve(machine_, way_out(machine_, cut_->surface(), now))) {
-    begin_pass_search(o, path->at(path->length()));
-    follower_.begin(std::move(*path));
-  } else {
-    begin_pass_search(o, o.angle);
-    follower_.end();
-  }
+  follower_.end();
+  const auto way = DigPath::solve(machine_, way_out(machine_, cut_->surface(), now));
+  can_lift_ = way.has_value();
+  begin_pass_search(o, way ? way->at(way->length()) : o.angle);
   enter(Stage::curl, o);
 }
 
@@ -220,7 +241,7 @@ DumpPoint Sequencer::dump_point(const Observation& o, double goal_kg, double dig
 // No more than stays in the bucket until it is over the place where it will go.
 double Sequencer::next_goal_kg(const Observation& o, double dig_bearing) const {
   const double goal_kg = fill_.next_goal_kg();
-  return std::min(goal_kg, heaped_kg_ * share_at_reach(machine_, site_.bed->wall_top, dump_point(o, goal_kg, dig_bearing).radius));
+  return std::min(goal_kg, heaped_.kg() * share_at_reach(machine_, site_.bed->wall_top, dump_point(o, goal_kg, dig_bearing).radius));
 }
 
 // Whether the next pass's soil finds a place under the truck zone's ceiling.
@@ -265,8 +286,8 @@ void Sequencer::begin_pass_search(const Observation& o, const Joints& lifted_fro
 Joints Sequencer::curl(const Observation& o) {
   if (search_ && !search_->done()) search_->step();
   if (cut_) cut_->reach(o.angle);
-  constexpr double curls_on = radians(60.0), curls_on_deep = radians(16.0);  // what the script does
-  const bool done = !follower_.active() || follower_.finished() || o.time_s - stage_s_ > 5.0 || forward(machine_, o.angle).bucket_attitude < curled + (comes_from_deep_ ? curls_on_deep : curls_on);
+  constexpr double curls_on = radians(60.0);  // what the script does
+  const bool done = !can_lift_ || o.time_s - stage_s_ > 5.0 || forward(machine_, o.angle).bucket_attitude < curled + curls_on;
   if (done && search_ && search_->done()) {
     note_cut(o);
     poses_ = search_->poses();
@@ -289,32 +310,22 @@ Joints Sequencer::curl(const Observation& o) {
     refuse_truck(o);
     return {};
   }
-  if (!follower_.active()) return {};
-  return comes_from_deep_ ? lift_from_deep(o) : lift_and_curl(o);
+  return can_lift_ ? lift_and_curl(o) : Joints{};
 }
 
 // Each joint by itself: what soil holds back it holds back in all of them alike, and a path would wait for the slowest when it lets go. The bucket curls as
 // fast as it can, for its soil lies on nothing else once its lip is out; the boom is on its way to where the script has it, and beyond, so that it does not
-// brake before that takes over.
+// brake before that takes over. From deep under a bank it is slower: what the bucket pushes up has to slide off.
 Joints Sequencer::lift_and_curl(const Observation& o) {
-  constexpr Joints paces{1.0, 0.8, 1.0, 1.0};
+  constexpr double boom_pace = 0.8, boom_pace_from_deep = 0.5;
   constexpr double beyond = radians(20.0);
   Joints goals = task_.lifted_from;
   goals[swing] = o.angle[swing];
   goals[boom] += beyond;
   goals[stick] = o.angle[stick];
-  Joints command = arm_.toward(goals, paces, o.angle, o.velocity);
+  Joints command = arm_.toward(goals, {1.0, comes_from_deep_ ? boom_pace_from_deep : boom_pace, 1.0, 1.0}, o.angle, o.velocity);
   command[swing] = 0.0;  // it stands while the bucket is in the soil
   return command;
-}
-
-// Along the way out, and slowly: what the bucket pushes up has to slide off. Lifted, a bucket that soil holds up while it curls comes free.
-Joints Sequencer::lift_from_deep(const Observation& o) {
-  constexpr double lifting = 0.15, most_lift = 0.5;  // m/s, m
-  DigFollower::Departure departure = follower_.departure();
-  departure.lift = std::min(most_lift, departure.lift + lifting * machine_.cycle);
-  follower_.depart(departure);
-  return follower_.step(machine_, arm_, o.angle[swing], curl_speed, o.angle, o.velocity);
 }
 
 }  // namespace berm::app

@@ -67,7 +67,7 @@ std::uint32_t Sequencer::pass_events(const Observation& o) {
   if (on_its_way) open_since_s_ += (1.0 - arm_.shares()[bucket] * tempos()[bucket]) * machine_.cycle;
   const double open = o.time_s - open_since_s_;
   const double stays_kg = sticking_.stays_kg(lifted_kg());
-  const bool light = o.payload_kg >= 0.0 && recent_.kg() < empty_share * full_bucket_kg_ + stays_kg;
+  const bool light = o.payload_kg >= 0.0 && recent_.kg() < empty_share * full_bucket_kg() + stays_kg;
   emptied_ = (open > open_at_least && (light || o.payload_kg < 0.0)) || open > open_at_most;
   return emptied_ ? event_emptied | event_empties | weighed : so_far;
 }
@@ -137,7 +137,7 @@ void Sequencer::book_pass(const Observation& o) {
   const double carried = seen.value_or(0.0);
   const bool weighed = carried > 0.0 && after_.known();
   // A bucket that nothing has weighed is taken for no less than the dig's force says: else the truck would be overloaded.
-  const double unweighed_kg = filled_.known() ? std::max(goal_kg_, std::min(heaped_kg_, filled_.kg())) : goal_kg_;
+  const double unweighed_kg = filled_.known() ? std::max(goal_kg_, std::min(heaped_.kg(), filled_.kg())) : goal_kg_;
   // A part leaves the rest in it, and stops may have kept a bucket whose swing had turned round from opening on: what is in it then is not in the truck.
   const double unpoured_kg = load_check_.keeps_rest() ? load_check_.rest_kg() : !emptied_ && o.payload_kg >= 0.0 ? recent_.kg() : 0.0;
   const double before = seen.value_or(unweighed_kg), after = after_.known() ? left_in_bucket(after_.kg()) : std::max(unpoured_kg, sticking_.stays_kg(carried));
@@ -149,7 +149,8 @@ void Sequencer::book_pass(const Observation& o) {
   if (weighed) {
     const double lifted = std::max(before, load_check_.lifted_kg()), brought_along = sticking_.left_kg();
     learn_yield(lifted, brought_along);
-    filled_.learn(lifted - brought_along, heaped_kg_ - brought_along);
+    learn_heaped(o, lifted);
+    filled_.learn(lifted - brought_along, heaped_.kg() - brought_along);
     if (!load_check_.keeps_rest()) sticking_.learn(lifted, after);
     if (sticking_.sticks())
       log_.event("sticking", {{"time_s", o.time_s}, {"stays_kg", after}, {"share", sticking_.share()}, {"open_farther_deg", degrees(sticking_.open_farther())}});

@@ -68,7 +68,7 @@ void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
   if (part_filled_) {
     for (const Dump& dump : dumps_) bed_->note_dump(dump.at, dump.kg);
   } else {
-    fill_ = TruckFill(site_.place.target_kg, full_bucket_kg_);
+    fill_ = TruckFill(site_.place.target_kg, full_bucket_kg());
     dumps_.clear();
     pass_ = 0;
     truck_began_s_ = o.time_s;

@@ -8,19 +8,37 @@ namespace berm::app {
 namespace {
 
 constexpr double sample_spacing = 0.04;            // m
-constexpr double joint_share = 0.85;               // of a joint's largest speed that the reference may ask for
+constexpr double joint_share = 0.95;               // of a joint's largest speed that the reference may ask for
 constexpr double error_full_stop = radians(14.0);   // the reference waits when the joints are this far behind
 
 constexpr double guard = radians(7.5);              // keeps a standing joint's stop travel inside its range
 
+std::optional<Joints> pose_with(const MachineModel& machine, const DigWaypoint& w, double attitude) {
+  if (attitude > radians(-20.0) || attitude < radians(-200.0)) return std::nullopt;
+  return inverse_tip(machine, {w.r, w.z}, attitude, guard);
+}
+
+// Between an attitude that is possible and one that is not, the nearest that is, to a hundredth of a degree: in whole degrees a path along a joint's range would
+// jump, and whoever follows it wait.
+Joints nearest_pose(const MachineModel& machine, const DigWaypoint& w, double possible, double impossible, Joints pose) {
+  while (std::fabs(possible - impossible) > radians(0.01)) {
+    const double middle = 0.5 * (possible + impossible);
+    const auto q = pose_with(machine, w, middle);
+    (q ? possible : impossible) = middle;
+    if (q) pose = *q;
+  }
+  return pose;
+}
+
 }  // namespace
 
 std::optional<Joints> pose_at(const MachineModel& machine, const DigWaypoint& w) {
-  for (int step = 0; step <= 80; ++step)
+  constexpr double step = radians(1.0);
+  if (const auto q = pose_with(machine, w, w.attitude)) return q;
+  for (int steps = 1; steps <= 80; ++steps)
     for (const double sign : {1.0, -1.0}) {
-      const double attitude = w.attitude + sign * radians(step);
-      if (attitude > radians(-20.0) || attitude < radians(-200.0)) continue;
-      if (auto q = inverse_tip(machine, {w.r, w.z}, attitude, guard)) return q;
+      const double attitude = w.attitude + sign * steps * step;
+      if (const auto q = pose_with(machine, w, attitude)) return nearest_pose(machine, w, attitude, attitude - sign * step, *q);
     }
   return std::nullopt;
 }

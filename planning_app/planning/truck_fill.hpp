@@ -9,6 +9,8 @@ public:
   TruckFill(double target_kg, double full_bucket_kg) : target_(target_kg), full_bucket_(full_bucket_kg) {}
 
   void add_pass(double before_kg, double after_kg);
+  // The bucket holds so much of this soil.
+  void plan_with(double full_bucket_kg) { full_bucket_ = full_bucket_kg; }
   double loaded_kg() const { return loaded_; }
   double target_kg() const { return target_; }
   int passes() const { return passes_; }

@@ -21,7 +21,6 @@ namespace {
 constexpr double kernel_cell = 0.3, kernel_half_side = 15.6;
 constexpr int kernel_side = 104;
 constexpr double bank_density = 1474.0;
-constexpr double most_payload = 1608.0;
 
 std::int32_t largest_urad_s(const MachineModel& machine, std::size_t joint) { return static_cast<std::int32_t>(machine.joint[joint].velocity_max * 1e6); }
 
@@ -69,10 +68,10 @@ void BenchMachine::step(const berm_request& request) {
   ++cycle_;
   decide(request);
   const Joints before = angle_;
-  const double carried = payload_;
+  pushed_ = 0.0;
   move();
   work_soil();
-  push_ = has_pressures && digging_ ? soil_push(machine_, before, angle_, std::max(0.0, payload_ - carried)) : PlaneForce{};
+  push_ = has_pressures && digging_ ? soil_push(machine_, before, angle_, pushed_) : PlaneForce{};
   site_.slump();
   measure();
   scan(request);
@@ -138,7 +137,9 @@ void BenchMachine::work_soil() {
           if (across < -0.05) continue;  // the outline's side of the heaped load
           const double c = std::cos(arm.bucket_attitude), s = std::sin(arm.bucket_attitude);
           const Point p = in_base({arm.bucket_pin.r + x * c - across * s, arm.bucket_pin.z + x * s + across * c}, angle_[swing]);
-          payload_ = std::min(most_payload, payload_ + site_.cut(p.x, p.y, angle_[swing], 0.55, p.z) * bank_density);
+          const double cut_kg = site_.cut(p.x, p.y, angle_[swing], 0.55, p.z) * bank_density;
+          pushed_ += cut_kg;
+          payload_ = std::min(holds_kg, payload_ + cut_kg);
         }
   }
   digging_ = !site_.on_truck(tip.x, tip.y) && tip.z < site_.height(tip.x, tip.y) + 0.1;

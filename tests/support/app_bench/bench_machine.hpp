@@ -61,6 +61,7 @@ public:
   double weighing_error_kg = 0.0;
   bool has_pressures = false;     // the cylinders' are published, and the soil resists
   double sticks = 0.0;            // share of a load that stays in the bucket
+  double holds_kg = 1608.0;       // the bucket, of this soil
   app::Joints most_speed{};       // rad/s, of each joint: what the kernel lets out of a request at most; by default the machine's largest
   app::Joints brake_share{1.0, 1.0, 1.0, 1.0};  // of the deceleration that was identified
 
@@ -87,6 +88,7 @@ private:
   std::array<std::int32_t, 4> commanded_{}, permitted_low_{}, permitted_high_{};  // urad/s
   std::array<double, 2> pan_{}, pan_before_{};
   double payload_ = 0.0, most_carried_ = 0.0;  // kg; since the last dig
+  double pushed_ = 0.0;                 // kg, in this cycle: into the bucket, and past it when it is full
   app::PlaneForce push_;                // of the soil on the tip
   bool digging_ = false;                // the weighing is blind
   std::uint64_t cycle_ = 0;

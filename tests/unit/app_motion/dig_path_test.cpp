@@ -28,6 +28,21 @@ TEST(DigPath, PassesItsWaypointsWithinTheJointsRanges) {
   }
 }
 
+// Far out the stick's range forbids the attitude.
+TEST(DigPath, GoesAlongAJointsRangeWithoutJumps) {
+  const MachineModel m = berm::app_bench::zx200();
+  const auto path = DigPath::solve(m, {{8.0, -1.0, radians(-95)}, {7.2, -2.2, radians(-95)}});
+  ASSERT_TRUE(path);
+  const double farthest_out = m.joint[stick].high - radians(7.5);
+  double along_range = 0.0;
+  for (double s = 0.0; s + 0.04 < path->length(); s += 0.04) {
+    const Joints q = path->at(s), next = path->at(s + 0.04);
+    if (q[stick] > farthest_out - radians(0.05)) along_range += 0.04;
+    for (const std::size_t j : {boom, stick, bucket}) EXPECT_LT(std::fabs(next[j] - q[j]), radians(0.6)) << j << " at " << s;
+  }
+  EXPECT_GT(along_range, 0.3);
+}
+
 TEST(DigPath, OutOfReachIsRefused) { EXPECT_FALSE(DigPath::solve(berm::app_bench::zx200(), {{7.0, -1.0, radians(-90)}, {11.0, -1.0, radians(-90)}})); }
 
 TEST(DigFollower, BringsTheTipAlongThePath) {
