@@ -204,6 +204,7 @@ Joints Sequencer::dig(const Observation& o) {
   const bool stalled = follower_.stalled_s() * std::max(least_share, slowest) > stall_patience;
   if (follower_.finished() || heavy || stalled) {
     begin_curl(o);
+    return can_lift_ ? lift_and_curl(o) : Joints{};
   }
   // A small goal is overshot by what comes in while the bucket is told to stop.
   const double gently = std::clamp(goal_kg_ / full_bucket_kg(), least_share_of_speed, 1.0);

@@ -30,9 +30,10 @@ bool Sequencer::runs_out_over_bed() const {
 
 // Of its load, what may still be in the bucket when the swing turns round.
 double Sequencer::share_that_may_trail() const {
-  constexpr double over_bed = 0.50, beyond = 0.30;
+  constexpr double over_bed = 0.60, over_heap = 0.50, beyond = 0.30;
+  constexpr double heaps_from = 0.6;  // of the truck's load: what runs out over a heap slides over the walls
   constexpr double sooner = 0.25;  // besides what sticks, which lets go late and all at once
-  const double share = runs_out_over_bed() ? over_bed : beyond;
+  const double share = !runs_out_over_bed() ? beyond : fill_.loaded_kg() > heaps_from * fill_.target_kg() ? over_heap : over_bed;
   return sticking_.sticks() ? share - sooner + sticking_.share() : share;
 }
 
@@ -58,7 +59,7 @@ std::uint32_t Sequencer::pass_events(const Observation& o) {
     return event_emptied | event_empties | weighed;
   }
   if (open_since_s_ < 0.0 && o.angle[bucket] > poses_.dump[bucket] - radians(30.0)) open_since_s_ = o.time_s;
-  // More than half of what was in it is gone, and the bucket opens on: known only where it was weighed on the way.
+  // Much of what was in it is gone, and the bucket opens on: known only where it was weighed on the way.
   const bool empties = o.payload_kg >= 0.0 && recent_.kg() < share_that_may_trail() * lifted_kg();
   const std::uint32_t so_far = empties ? event_empties | weighed : weighed;
   if (open_since_s_ < 0.0) return so_far;

@@ -90,6 +90,7 @@ Joints DigFollower::departed(const MachineModel& machine, const Joints& on_path,
 }
 
 Joints DigFollower::step(const MachineModel& machine, ArmController& arm, double held_swing, double speed, const Joints& angle, const Joints& velocity) {
+  if (!path_) return {};
   const Joints slope = path_->slope(s_);
   for (const std::size_t j : {boom, stick, bucket})
     if (slope[j] != 0.0) speed = std::min(speed, joint_share * machine.joint[j].velocity_max / std::fabs(slope[j]));

@@ -51,7 +51,7 @@ public:
   const Departure& departure() const { return departure_; }
   void depart(const Departure& departure) { departure_ = departure; }
 
-  // Requests for this cycle; speed: of the tip along the path, m/s; held_swing: where the swing stays.
+  // Requests for this cycle, none without a path; speed: of the tip along the path, m/s; held_swing: where the swing stays.
   Joints step(const MachineModel& machine, ArmController& arm, double held_swing, double speed, const Joints& angle, const Joints& velocity);
 
 private:

@@ -96,6 +96,15 @@ TEST(DigFollower, WaitsForJointsThatSoilHolds) {
   EXPECT_GT(follower.stalled_s(), 0.3);
 }
 
+TEST(DigFollower, AsksForNothingWithoutAPath) {
+  const MachineModel m = berm::app_bench::zx200();
+  ArmController arm(m);
+  DigFollower follower;
+  follower.begin(*DigPath::solve(m, drag));
+  follower.end();
+  for (const double v : follower.step(m, arm, 0.0, 1.0, DigPath::solve(m, drag)->at(0.0), {})) EXPECT_EQ(v, 0.0);
+}
+
 // Follows a short path without a machine that lags: the joints are where the reference was.
 Joints follow_to_end(const MachineModel& m, const DigFollower::Departure& departure) {
   ArmController arm(m);
