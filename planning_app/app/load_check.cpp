@@ -86,17 +86,18 @@ double LoadCheck::step(const Lifted& now, const TruckFill& fill, const ProgressL
       if (!now.over_bed) return nothing;
       recent_.add(now.payload_kg >= 0.0 ? now.payload_kg : now.pressed_kg);
       const double kg_per_rad = full_kg_per_rad * load_scale_;
-      const double still_in = recent_.kg() > 0.0 ? recent_.kg() : lifted_, excess = still_in - rest_;
+      const double still_in = recent_.kg() > 0.0 ? recent_.kg() : lifted_, rest = std::max(0.0, rest_ - now.beside_kg), excess = still_in - rest;
       const double slow = lifted_ - still_in < slides_kg * load_scale_ ? not_yet : slowest;
       const double under_way_kg = std::min(slowest * kg_per_rad * under_way_s, under_way_share * fill.target_kg());
       if (excess <= under_way_kg || now.attitude >= steepest) {
         keeps_rest_ = true;
+        rest_ = rest;
         enter(Stage::passed, now.time_s);
         return nothing;
       }
       if (now.attitude < lies_still_until(lifted_, load_scale_)) return fastest;
       const bool fast = under_way_kg < under_way_share * fill.target_kg();  // not held to a small truck's share
-      if (fast && now.attitude < lies_still_until(rest_, load_scale_)) return with_arm;
+      if (fast && now.attitude < lies_still_until(rest, load_scale_)) return with_arm;
       return sliding_rate(excess, kg_per_rad, slow, fast);
     }
     case Stage::passed: return nothing;

@@ -26,6 +26,7 @@ public:
     bool lifts = false;       // on its way up: may be in the soil yet, and the weighing blind until some seconds after it
     double pressed_kg = -1.0; // by the cylinders' pressures, now; negative: unknown
     double carried_kg = -1.0; // by them, before anything slid; negative: unknown
+    double beside_kg = 0.0;   // was seen to fall beside the bed: as much more may go into it
   };
   // Once a cycle from then on. How fast the bucket is to tilt towards the dump, rad/s; negative: nothing is asked for.
   double step(const Lifted& now, const TruckFill& fill, const ProgressLog& log);
@@ -33,7 +34,7 @@ public:
   bool weighed() const { return stage_ == Stage::pours || stage_ == Stage::passed; }  // or need not be, or cannot: it may go over the bed
   bool pours_part() const { return stage_ == Stage::pours; }                          // as soon as it is there
   bool keeps_rest() const { return keeps_rest_; }                                     // has poured a part
-  double rest_kg() const { return rest_; }                                            // what was to stay in it then
+  double rest_kg() const { return rest_; }                                            // what was to stay in it then, less what fell beside
   bool passed() const { return stage_ == Stage::passed; }
   // What was in it before anything was poured; negative when it was not weighed.
   double lifted_kg() const { return lifted_; }

@@ -105,7 +105,8 @@ Joints Sequencer::pass(const Observation& o) {
                                  .stays_kg = sticking_.stays_kg(std::max(0.0, o.payload_kg >= 0.0 ? o.payload_kg : by_pressures)),
                                  .lifts = !script_.of(swing).reached(RuleMark::leaves),
                                  .pressed_kg = by_pressures,
-                                 .carried_kg = pour_.carried_known() ? pour_.carried_kg() : -1.0};
+                                 .carried_kg = pour_.carried_known() ? pour_.carried_kg() : -1.0,
+                                 .beside_kg = filled_.known() ? pour_.beside_kg() : 0.0};
   const double tilt = load_check_.step(lifted, fill_, log_);
   Joints command = run_script(o, pass_events(o));
   if (tilt >= 0.0) command[bucket] = tilt;

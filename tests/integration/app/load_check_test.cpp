@@ -37,7 +37,7 @@ struct Bucket {
 struct Outcome { double poured = 0.0, lifted = 0.0, seconds = 0.0; bool tilted = false, keeps = false; };
 
 // lifted_s: until then it is on its way up. pressures: what it weighs by them is known, too, a hundred times a second.
-Outcome run(double loaded, double in_bucket, unsigned seed, double blind_s = 3.0, double over_bed_s = 5.0, double lifted_s = 0.0, bool pressures = false, double truck = target) {
+Outcome run(double loaded, double in_bucket, unsigned seed, double blind_s = 3.0, double over_bed_s = 5.0, double lifted_s = 0.0, bool pressures = false, double truck = target, double beside_kg = 0.0) {
   TruckFill fill(truck, full_bucket);
   fill.add_pass(loaded, 0.0);
   Bucket bucket(in_bucket, seed);
@@ -49,7 +49,7 @@ Outcome run(double loaded, double in_bucket, unsigned seed, double blind_s = 3.0
   for (; !check.passed() && k < 6000; ++k) {
     const double t = k * cycle;
     const double pressed = pressures ? bucket.kg + 16.0 * bucket.noise(bucket.random) : -1.0;
-    const double rate = check.step({t, t < blind_s ? -1.0 : bucket.weighed(k), bucket.attitude, t >= over_bed_s, 0.0, t < lifted_s, pressed, pressures ? in_bucket : -1.0}, fill, log);
+    const double rate = check.step({t, t < blind_s ? -1.0 : bucket.weighed(k), bucket.attitude, t >= over_bed_s, 0.0, t < lifted_s, pressed, pressures ? in_bucket : -1.0, beside_kg}, fill, log);
     if (rate > 0.0) {
       EXPECT_GE(t, over_bed_s) << "it is not over the bed yet";
       out.tilted = true;
@@ -80,6 +80,19 @@ TEST(LoadCheck, OfWhatIsTooMuchAPartIsPoured) {
       EXPECT_LE(loaded + out.poured, 1.0 * target) << loaded << " loaded, seed " << seed;
       EXPECT_LT(out.seconds, 12.0);
     }
+}
+
+// Shaken off a full bucket before its lip was over the bed.
+TEST(LoadCheck, AsMuchMoreIsPouredAsFellBeside) {
+  constexpr double beside_kg = 60.0;
+  double more = 0.0;
+  constexpr unsigned seeds = 20;
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    const Outcome all_in = run(3050.0, 1600.0, seed), some_beside = run(3050.0, 1600.0, seed, 3.0, 5.0, 0.0, false, target, beside_kg);
+    EXPECT_TRUE(some_beside.keeps);
+    more += (some_beside.poured - all_in.poured) / seeds;
+  }
+  EXPECT_NEAR(more, beside_kg, 10.0);
 }
 
 TEST(LoadCheck, WhatFitsGoesWholeAsSoonAsItIsWeighed) {
