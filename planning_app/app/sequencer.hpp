@@ -28,8 +28,8 @@
 #include "planning/dig_regions.hpp"
 #include "planning/dump_point.hpp"
 #include "planning/face_reserve.hpp"
-#include "planning/pass_search.hpp"
 #include "planning/heaped_bucket.hpp"
+#include "planning/pass_search.hpp"
 #include "planning/sticking_soil.hpp"
 #include "planning/truck_fill.hpp"
 
@@ -153,8 +153,7 @@ private:
   const ScriptSet& scripts_;
   MachineModel machine_;
   ImplementScale scale_;
-  double heaped_kg_;                          // what the bucket holds of the heaviest soil
-  HeapedBucket heaped_;                       // and of this one
+  HeapedBucket heaped_;                       // what the bucket holds of this soil
   SiteModel site_;
   DigFloor dig_floor_;
   ProgressLog log_;

@@ -133,9 +133,10 @@ double Sequencer::full_bucket_kg() const {
 }
 
 void Sequencer::learn_heaped(const Observation& o, double lifted_kg) {
-  if (!filled_.known() || filled_.kg() + sticking_.left_kg() < goal_kg_) return;  // the drag was at its end, or something else ended the dig
   const double was = heaped_.kg();
-  heaped_.learn(goal_kg_, lifted_kg, filled_.impulse());
+  heaped_.held(lifted_kg);
+  // Else the drag was at its end, or something else ended the dig.
+  if (filled_.known() && filled_.kg() + sticking_.left_kg() >= goal_kg_) heaped_.learn(goal_kg_, lifted_kg, filled_.impulse());
   if (heaped_.kg() == was) return;
   fill_.plan_with(full_bucket_kg());
   log_.event("heaped_bucket", {{"time_s", o.time_s}, {"kg", heaped_.kg()}, {"was_kg", was}});
@@ -174,14 +175,14 @@ void Sequencer::hold_fill(double in_bucket_kg) {
   constexpr double curl_speed_most = radians(45.0);
   DigFollower::Departure departure = follower_.departure();
   const double share = in_bucket_kg / goal_kg_, curl = open + (holding - open) * std::clamp((share - curl_from) / (1.0 - curl_from), 0.0, 1.0);
+  const ArmPoints planned_arm = forward(machine_, follower_.on_path());
   if (share > curl_from)                                  // from the path's own attitude on: asked for at once, the way in would wait for the bucket
-    departure.curl = std::max(std::min(departure.curl, curl), std::min(departure.curl, forward(machine_, follower_.on_path()).bucket_attitude) - curl_speed_most * machine_.cycle);
+    departure.curl = std::max(std::min(departure.curl, curl), std::min(departure.curl, planned_arm.bucket_attitude) - curl_speed_most * machine_.cycle);
   const double total = planned_fill_.back();
   const double planned = total > 0.0 ? planned_fill_[static_cast<std::size_t>(follower_.progress() * static_cast<double>(planned_fill_.size() - 1))] / total : 0.0;
   if (planned > 0.0 && follower_.stalled_s() == 0.0) {    // in the soil
     const double rate = std::clamp(gain * (sure_share * share - planned), -fastest, fastest);
     // Over the floor at the attitude that it has: curled sooner than planned its shell lies lower.
-    const ArmPoints planned_arm = forward(machine_, follower_.on_path());
     const double to_floor = dig_floor_.at(planned_arm.tip.r, std::min(planned_arm.bucket_attitude, departure.curl)) - planned_arm.tip.z;
     departure.lift = std::clamp(departure.lift + rate * machine_.cycle, std::max(to_floor, -deepest), std::max(to_floor, 0.0));
   }
@@ -204,7 +205,7 @@ Joints Sequencer::dig(const Observation& o) {
   const bool stalled = follower_.stalled_s() * std::max(least_share, slowest) > stall_patience;
   if (follower_.finished() || heavy || stalled) {
     begin_curl(o);
-    return can_lift_ ? lift_and_curl(o) : Joints{};
+    return lift_and_curl(o);
   }
   // A small goal is overshot by what comes in while the bucket is told to stop.
   const double gently = std::clamp(goal_kg_ / full_bucket_kg(), least_share_of_speed, 1.0);
@@ -217,7 +218,6 @@ void Sequencer::begin_curl(const Observation& o) {
                      {"felt_kg", filled_.kg()}, {"impulse_kns", 1e-3 * filled_.impulse()}});
   constexpr double deep = 1.75;  // m
   comes_from_deep_ = bank_over(cut_->surface(), now) > deep;
-  follower_.end();
   const auto way = DigPath::solve(machine_, way_out(machine_, cut_->surface(), now));
   can_lift_ = way.has_value();
   begin_pass_search(o, way ? way->at(way->length()) : o.angle);
@@ -231,8 +231,8 @@ DumpPoint Sequencer::dump_point(const Observation& o, double goal_kg, double dig
   needs.scale = scale_;
   needs.since_s = o.time_s - bed_points_age;
   needs.dump_kg = goal_kg;
-  needs.may_be_part = fill_.must_weigh(heaped_kg_);
-  needs.most_kg = needs.may_be_part ? goal_kg : heaped_kg_;
+  needs.may_be_part = fill_.must_weigh(machine_.bucket_payload_kg);
+  needs.most_kg = needs.may_be_part ? goal_kg : machine_.bucket_payload_kg;
   needs.rest_kg = std::max(0.0, fill_.rest_kg() - goal_kg);
   needs.farthest_radius = farthest_dump(machine_, site_.bed->wall_top);
   needs.dig_beyond = wrapped(middle_of_digs(site_) - dig_bearing);
@@ -299,7 +299,7 @@ Joints Sequencer::curl(const Observation& o) {
     after_.reset();
     pour_.begin();
     recent_ = {};  // of the empty bucket; the weighing is blind for a while yet
-    load_check_.begin(o.time_s, fill_.must_weigh(heaped_kg_));
+    load_check_.begin(o.time_s, fill_.must_weigh(machine_.bucket_payload_kg));
     log_.event("script", {{"swing_start_boom_deg", degrees(search_->thresholds().swing_start_boom)}, {"hover_offset_deg", degrees(search_->thresholds().hover_offset)}, {"hover_deg", degrees(poses_.hover[boom])}, {"brake_rad_s2", brakes_.known()}, {"lower_offset_deg", degrees(search_->thresholds().lower_offset)},
                           {"extend_offset_deg", degrees(search_->thresholds().extend_offset)}, {"open_offset_deg", degrees(search_->thresholds().open_offset)},
                           {"truck_bearing_deg", degrees(dump_.bearing)}, {"clear", search_->clear()}, {"model_seconds", search_->seconds()}});
@@ -311,7 +311,7 @@ Joints Sequencer::curl(const Observation& o) {
     refuse_truck(o);
     return {};
   }
-  return can_lift_ ? lift_and_curl(o) : Joints{};
+  return lift_and_curl(o);
 }
 
 // Each joint by itself: what soil holds back it holds back in all of them alike, and a path would wait for the slowest when it lets go. The bucket curls as
@@ -320,6 +320,7 @@ Joints Sequencer::curl(const Observation& o) {
 Joints Sequencer::lift_and_curl(const Observation& o) {
   constexpr double boom_pace = 0.8, boom_pace_from_deep = 0.5;
   constexpr double beyond = radians(20.0);
+  if (!can_lift_) return {};
   Joints goals = task_.lifted_from;
   goals[swing] = o.angle[swing];
   goals[boom] += beyond;

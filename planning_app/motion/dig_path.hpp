@@ -39,19 +39,17 @@ private:
 class DigFollower {
 public:
   void begin(DigPath path) { path_ = std::move(path); s_ = stalled_ = 0.0; departure_ = last_departure_ = {}; }
-  bool active() const { return path_.has_value(); }
-  void end() { path_.reset(); }
   bool finished() const { return path_ && s_ >= path_->length(); }
   double progress() const { return path_ ? s_ / path_->length() : 0.0; }
   double stalled_s() const { return stalled_; }   // for how long the joints have not come after the reference
-  Joints on_path() const { return path_->at(s_); }  // where the reference would be had it not departed
+  Joints on_path() const { return path_ ? path_->at(s_) : Joints{}; }  // where the reference would be had it not departed
   // How the reference departs from the path: the tip over it, m (negative: under it); the bucket curled at least as far as the attitude. As far as
   // the joints reach.
   struct Departure { double lift = 0.0, curl = 0.0; };
   const Departure& departure() const { return departure_; }
   void depart(const Departure& departure) { departure_ = departure; }
 
-  // Requests for this cycle, none without a path; speed: of the tip along the path, m/s; held_swing: where the swing stays.
+  // Requests for this cycle, none before a path was begun; speed: of the tip along the path, m/s; held_swing: where the swing stays.
   Joints step(const MachineModel& machine, ArmController& arm, double held_swing, double speed, const Joints& angle, const Joints& velocity);
 
 private:

@@ -20,7 +20,7 @@ double bank_over(const SurfaceProfile& surface, const ArmPoints& now);
 // A tip's way out of the soil from where it is to above the surface, with the bucket curled (stentz-1999, Figure 14, begins there). Straight up, for what
 // lies over the bucket falls into it and what lies inward would be pushed, and curled so that the shell goes no deeper, for soil under it holds a curl up
 // more than all else; then up on, and inward a little, to where the bucket can be curled wholly: low and far out the arm does not reach that. Planned
-// with for every dig, its end is where the boom is going; followed from deep under a bank only.
+// with, and where the boom is going; the joints themselves move each by itself.
 std::vector<DigWaypoint> way_out(const MachineModel& machine, const SurfaceProfile& surface, const ArmPoints& now);
 
 // Where the bucket has passed the ground is no higher than after: over its width along the bearing.

@@ -4,13 +4,16 @@
 
 namespace berm::app {
 
+void HeapedBucket::held(double weighed_kg) {
+  if (weighed_kg > kg_) kg_ = std::min(weighed_kg, most_kg_);
+}
+
 void HeapedBucket::learn(double goal_kg, double weighed_kg, double impulse) {
   constexpr std::size_t digs = 3;
   constexpr double brought = 0.93;      // of the goal
   constexpr double alike = 0.02;        // of the weight
   constexpr double more_force = 1.12;
   constexpr double lightest_soil = 0.6;  // of the heaviest
-  if (weighed_kg > kg_) kg_ = std::min(weighed_kg, most_kg_);
   if (weighed_kg <= 0.0 || weighed_kg > brought * goal_kg) {
     short_.clear();
     return;

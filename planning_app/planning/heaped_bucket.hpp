@@ -12,8 +12,10 @@ public:
 
   double kg() const { return kg_; }
 
-  // Of a dig that the force ended at its goal: the goal, what the bucket held when it had been lifted, and the force's impulse, N s. Where three in a row come up short
-  // and alike, though the soil took more in one than in another, the bucket was full. One that holds more says so, and corrects what was taken too low.
+  // What it was weighed with: it holds that at least.
+  void held(double weighed_kg);
+  // Of a dig that the force ended at its goal: the goal, what the bucket held when it had been lifted, and the force's impulse, N s. Where three in a row
+  // come up short and alike, though one took more force than another, the bucket was full.
   void learn(double goal_kg, double weighed_kg, double impulse);
 
 private:

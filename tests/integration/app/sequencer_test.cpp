@@ -400,6 +400,39 @@ TEST(Sequencer, LearnsWhatABucketOfALightSoilWeighs) {
   EXPECT_LT(events.named("dig").back().at("goal_kg").get<double>(), run.plant.holds_kg);
 }
 
+// What runs out over the way back falls into the bed while that holds no heap; over one it slides over the walls. The shares are those that are still in the
+// bucket a fifth of a second after they were weighed.
+TEST(Sequencer, TurnsBackWithMoreInTheBucketWhileTheBedHoldsNoHeap) {
+  const app_bench::Events events;
+  Loading run(1, start_pose(), events.fd());
+  run.plant.has_pressures = true;
+  double carried_kg = 0.0;
+  std::uint32_t phase = 0;
+  int empty_bed = 0, heap = 0;
+  for (std::size_t turns = 0; turns < 11 && run.seconds < 300.0; run.step()) {
+    if (run.last.phase == BERM_PHASE_SWING_TO_TRUCK) carried_kg = run.plant.payload_kg();
+    if (run.last.phase == BERM_PHASE_SWING_TO_DIG && phase == BERM_PHASE_DUMP) {
+      ++turns;
+      const auto passes = events.named("pass");
+      const double loaded_kg = passes.empty() ? 0.0 : passes.back().at("loaded_kg").get<double>(), left = run.plant.payload_kg() / carried_kg;
+      const bool leaves_at_once = events.named("dump").back().at("u_m").get<double>() > 1.0, heaped = loaded_kg > 0.6 * app_bench::bench().place.target_kg;
+      if (leaves_at_once) {
+        EXPECT_LT(left, 0.25) << "turn " << turns;
+      } else if (heaped) {
+        EXPECT_LT(left, 0.45) << "turn " << turns;
+        EXPECT_GT(left, 0.30) << "turn " << turns;
+      } else {
+        EXPECT_GT(left, 0.45) << "turn " << turns;
+        EXPECT_LT(left, 0.60) << "turn " << turns;
+      }
+      ++(heaped ? heap : empty_bed);
+    }
+    phase = run.last.phase;
+  }
+  EXPECT_GE(empty_bed, 5);
+  EXPECT_GE(heap, 3);
+}
+
 // So little sticks that nothing is done for it; but it is weighed after a dump, and the pressures are not to take it for the bucket's own.
 TEST(Sequencer, BooksWhatComesIntoTheTruckWhereSoilHardlySticks) {
   const app_bench::Events events;

@@ -96,12 +96,10 @@ TEST(DigFollower, WaitsForJointsThatSoilHolds) {
   EXPECT_GT(follower.stalled_s(), 0.3);
 }
 
-TEST(DigFollower, AsksForNothingWithoutAPath) {
+TEST(DigFollower, AsksForNothingBeforeAPathWasBegun) {
   const MachineModel m = berm::app_bench::zx200();
   ArmController arm(m);
   DigFollower follower;
-  follower.begin(*DigPath::solve(m, drag));
-  follower.end();
   for (const double v : follower.step(m, arm, 0.0, 1.0, DigPath::solve(m, drag)->at(0.0), {})) EXPECT_EQ(v, 0.0);
 }
 

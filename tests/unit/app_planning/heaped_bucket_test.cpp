@@ -46,9 +46,11 @@ TEST(HeapedBucket, HoldsNoLessThanWasWeighedInIt) {
   HeapedBucket bucket(nominal_kg);
   for (const double more : {1.0, 1.2, 1.4}) bucket.learn(goal_kg, 1300.0, more * impulse);
   ASSERT_EQ(bucket.kg(), 1300.0);
-  bucket.learn(1250.0, 1340.0, impulse);  // a heavier soil has come
+  bucket.held(1340.0);  // a heavier soil has come
   EXPECT_EQ(bucket.kg(), 1340.0);
-  bucket.learn(1300.0, 1700.0, impulse);
+  bucket.held(1200.0);
+  EXPECT_EQ(bucket.kg(), 1340.0);
+  bucket.held(1700.0);
   EXPECT_EQ(bucket.kg(), nominal_kg) << "and no more than of the heaviest soil";
 }
 
