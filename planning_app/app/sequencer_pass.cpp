@@ -30,7 +30,7 @@ bool Sequencer::runs_out_over_bed() const {
 
 // Of its load, what may still be in the bucket when the swing turns round.
 double Sequencer::share_that_may_trail() const {
-  constexpr double over_bed = 0.60, over_heap = 0.50, beyond = 0.30;
+  constexpr double over_bed = 0.52, over_heap = 0.42, beyond = 0.22;
   constexpr double heaps_from = 0.6;  // of the truck's load: what runs out over a heap slides over the walls
   constexpr double sooner = 0.25;  // besides what sticks, which lets go late and all at once
   const double share = !runs_out_over_bed() ? beyond : fill_.loaded_kg() > heaps_from * fill_.target_kg() ? over_heap : over_bed;

@@ -9,9 +9,9 @@ namespace {
 
 // Shares of what the machine file promises. The rest is for payload, shared pump flow and the kernel's own error bounds.
 constexpr double swing_share = 0.775;  // faster no pass was shorter, and a stop from there reaches over ground that no sweep has seen lately
-constexpr double arm_share = 0.95;
+constexpr double arm_share = 0.99;
 constexpr double brake_share = 0.90;
-constexpr double empty_swing_brake_share = 0.60;  // of what was identified; landings at 0.9 of it made no pass shorter
+constexpr double empty_swing_brake_share = 0.75;  // of what was identified; harder landings made no pass shorter, and overrun by more where a brake is weak
 constexpr double acceleration_share = 0.85;  // the file's is an upper bound, measured on an empty machine too: a loaded one does less
 constexpr double bus_step = 0.0005;       // rad/s; the kernel cuts every command to whole ones
 constexpr double landing_gain = 4.5;      // 1/s; the dead time is predicted away, noise and a slower joint than its model remain
@@ -46,16 +46,19 @@ ControllerLimits limits_of(const MachineModel& machine, std::size_t joint, doubl
   return limits;
 }
 
-double JointController::ramped(double wanted, double from, const ControllerLimits& limits) const {
+double JointController::ramped(double wanted, double from, const ControllerLimits& limits, const Ramp& ramp) const {
   const double up = limits.acceleration * step_;
   // Slowing is never delayed beyond what the deceleration profile asks for; only growth of speed is ramped.
-  if (std::fabs(wanted) > std::fabs(from) || wanted * from < 0.0) wanted = std::clamp(wanted, from - up, from + up);
-  return wanted;
+  if (std::fabs(wanted) <= std::fabs(from) && wanted * from >= 0.0) return wanted;
+  // Of a joint that is faster than it is asked to be, and is slowed, nothing more is asked for at once.
+  const double most = from >= ramp.then ? std::max(from, ramp.then + ramp.ahead) : from, least = from <= ramp.then ? std::min(from, ramp.then - ramp.ahead) : from;
+  return std::clamp(wanted, least - up, most + up);
 }
 
-double JointController::proposed(double wanted, const ControllerLimits& limits) {
-  uncut_ = ramped(wanted, uncut_, limits);
-  proposal_ = std::clamp(ramped(wanted, last_, limits), low_, high_);
+double JointController::proposed(double wanted, const ControllerLimits& limits, const Ramp& ramp) {
+  const bool whole = std::fabs(uncut_ - last_) < bus_step;  // a speed that was cut does not jump
+  uncut_ = ramped(wanted, uncut_, limits, ramp);
+  proposal_ = std::clamp(ramped(wanted, last_, limits, whole ? ramp : Ramp{ramp.then}), low_, high_);
   return *proposal_;
 }
 
@@ -81,14 +84,15 @@ double JointController::toward(double goal, double measured_angle, double measur
   const double switching = limits.deceleration / (limits.landing_gain * limits.landing_gain);
   const double profile = distance > switching ? std::sqrt(limits.deceleration * (2.0 * distance - switching)) : limits.landing_gain * distance;
   const double speed = std::min(limits.velocity, profile);
-  return proposed(std::copysign(speed, left), limits);
+  // A joint that lags behind its command speeds up as it can only while the command is so far ahead.
+  return proposed(std::copysign(speed, left), limits, {then.velocity, limits.acceleration * model_.response().up.lag});
 }
 
 double JointController::follow(double reference, double reference_velocity, double measured_angle, double measured_velocity, const ControllerLimits& limits) {
   const JointModel::State then = model_.predict(measured_angle, measured_velocity);
   const double off = reference - then.angle + (reference_velocity - then.velocity) * model_.response().up.lag;  // a lag later
   const double wanted = reference_velocity + limits.landing_gain * off;
-  return proposed(std::clamp(wanted, -limits.velocity, limits.velocity), limits);
+  return proposed(std::clamp(wanted, -limits.velocity, limits.velocity), limits, {then.velocity});
 }
 
 void JointController::asked(double command) {

@@ -53,8 +53,10 @@ public:
   JointModel::State predict(double measured_angle, double measured_velocity) const { return model_.predict(measured_angle, measured_velocity); }
 
 private:
-  double ramped(double wanted, double from, const ControllerLimits& limits) const;
-  double proposed(double wanted, const ControllerLimits& limits);
+  // How fast a request may grow: by the acceleration from the one before; ahead: besides to so much more than the joint's speed when it acts.
+  struct Ramp { double then, ahead = 0.0; };  // rad/s
+  double ramped(double wanted, double from, const ControllerLimits& limits, const Ramp& ramp) const;
+  double proposed(double wanted, const ControllerLimits& limits, const Ramp& ramp);
 
   JointModel model_;
   double step_;

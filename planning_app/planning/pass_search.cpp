@@ -11,17 +11,18 @@ namespace {
 constexpr double hover_lowest = 0.20, hover_step = 0.35;  // m over the bench's level, of the search
 constexpr double lowers_after = 0.8;                       // at most, of where the arm reaches out over the dig
 constexpr double arrived = radians(1.0);
-constexpr double soonest_lead = 1.0, latest_lead = 0.0, lead_step = 0.05;  // s before the swing stands that the bucket begins to open; nothing slides in the first half second
+// s before the swing stands that the bucket begins to open: of one that is level nothing slides in the first half second; one that cannot be held level pours at once.
+constexpr double soonest_lead = 1.0, soonest_lead_tilted = 0.5, latest_lead = 0.0, lead_step = 0.05;
 constexpr double empties_before = radians(40.0);         // of the open bucket, when what is left no longer holds up the swing
 
 }  // namespace
 
 PassSearch::PassSearch(const ScriptSet& scripts, const MachineModel& machine, const Skyline& skyline, const PassTask& task, const PassPoses& poses)
     : scripts_(&scripts), machine_(machine), skyline_(skyline), task_(task), poses_(poses) {
-  lead_ = soonest_lead;
-  set_reach_over_bed();
   // It is there when the load slides. Far out, where the bucket cannot be held level, soil slides as soon as it opens.
   const bool level = forward(machine, poses.spill).bucket_attitude < attitude_rests;
+  lead_ = level ? soonest_lead : soonest_lead_tilted;
+  set_reach_over_bed();
   thresholds_.open_stick = poses.spill[stick] - (level ? radians(14.0) : radians(6.0));
   thresholds_.pour_bucket = poses.spill[bucket] + (attitude_pour - attitude_spill);
   const double rise = poses.carry[boom] - task.lifted_from[boom];
@@ -186,9 +187,10 @@ PassSearch::Outcome PassSearch::simulate(const PassThresholds& thresholds) const
       const ReachIntervals box = preview(machine_, angle, velocity);
       const double beyond = side > 0.0 ? task_.next_bearing - box.low[swing] : box.high[swing] - task_.next_bearing;
       const bool extends = script.of(stick).reached(RuleMark::extends);
-      auto blocking = skyline_.blocking(box);
-      // What no threshold helps against. Beside the truck stands its cab: how fast the swing goes towards it with folded implements is the kernel's to
+      // What no threshold helps against. Near its range's end a joint is slowed by itself, whenever it comes there: a bucket that opens far for what sticks in it
+      // comes there in every pass. Beside the truck stands its cab: how fast the swing goes towards it with folded implements is the kernel's to
       // say, which slows it smoothly. What the arm meets of its own body it meets however late the swing begins: the guard slows the arm.
+      auto blocking = skyline_.blocking(box, Skyline::Ranges::left_to_guard);
       if (blocking && !extends && blocking->what != Skyline::Blocking::What::ground) blocking.reset();
       if (blocking || (returning && beyond > most_beyond_dig)) {
         (returning ? outcome.clear_back : extends ? outcome.clear_over_bed : outcome.clear_out) = false;

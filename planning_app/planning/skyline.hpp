@@ -48,7 +48,9 @@ public:
     bool unseen() const { return of_ground() && std::isinf(height); }
     const char* name() const;  // as an operator reads it
   };
-  std::optional<Blocking> blocking(const ReachIntervals& box) const;
+  // Ranges::left_to_guard: intervals that go beyond a joint's range block nothing, and do not hide what else they meet.
+  enum class Ranges { kept, left_to_guard };
+  std::optional<Blocking> blocking(const ReachIntervals& box, Ranges ranges = Ranges::kept) const;
   // Whether it may not be passed over with the implements up either: ground that is too near below them is what a box meets first. Not of unseen ground.
   bool stands_too_high(const Blocking& blocking) const;
 

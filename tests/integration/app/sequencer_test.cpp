@@ -417,13 +417,13 @@ TEST(Sequencer, TurnsBackWithMoreInTheBucketWhileTheBedHoldsNoHeap) {
       const double loaded_kg = passes.empty() ? 0.0 : passes.back().at("loaded_kg").get<double>(), left = run.plant.payload_kg() / carried_kg;
       const bool leaves_at_once = events.named("dump").back().at("u_m").get<double>() > 1.0, heaped = loaded_kg > 0.6 * app_bench::bench().place.target_kg;
       if (leaves_at_once) {
-        EXPECT_LT(left, 0.25) << "turn " << turns;
+        EXPECT_LT(left, 0.17) << "turn " << turns;
       } else if (heaped) {
-        EXPECT_LT(left, 0.45) << "turn " << turns;
-        EXPECT_GT(left, 0.30) << "turn " << turns;
+        EXPECT_LT(left, 0.37) << "turn " << turns;
+        EXPECT_GT(left, 0.22) << "turn " << turns;
       } else {
-        EXPECT_GT(left, 0.45) << "turn " << turns;
-        EXPECT_LT(left, 0.60) << "turn " << turns;
+        EXPECT_GT(left, 0.37) << "turn " << turns;
+        EXPECT_LT(left, 0.52) << "turn " << turns;
       }
       ++(heaped ? heap : empty_bed);
     }

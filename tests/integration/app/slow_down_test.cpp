@@ -71,6 +71,7 @@ Heights one_pass(Loading& run, int pass, double share, int* at_most_spans = null
 TEST(SlowedSwing, IsNeverAskedBeyondWhatIsPermitted) {
   Loading run(1, start_pose());
   int cut = 0;
+  const double lag = response_of(run.machine, swing).lag, dead_time = response_of(run.machine, swing).dead_time, acceleration = limits_of(run.machine, swing, 8.0, 0.0).acceleration;
   double before_urad_s = 0.0, most_jump = 0.0;
   for (int k = 0; k < 6000; ++k) {
     run.plant.most_speed[swing] = k / 150 % 2 == 0 ? run.machine.joint[swing].velocity_max : at_most(run, 0.1 + 0.2 * (k / 300 % 4));
@@ -82,13 +83,15 @@ TEST(SlowedSwing, IsNeverAskedBeyondWhatIsPermitted) {
     }
     // Against what was let out, as the machine saw it.
     const double asked = run.request.joint_velocity_urad_s[swing];
-    if (std::fabs(asked) > std::fabs(before_urad_s)) most_jump = std::max(most_jump, std::fabs(asked - before_urad_s));
+    // A joint that lags, and is to speed up as it can, is asked for so much more than its speed when that acts.
+    const double way = asked < 0.0 ? -1.0 : 1.0, speed = std::max(0.0, way * now.joint_velocity_urad_s[swing]), ahead = speed + 1e6 * acceleration * (dead_time + lag);
+    if (std::fabs(asked) > std::fabs(before_urad_s)) most_jump = std::max(most_jump, way * asked - std::max(way * before_urad_s, ahead));
     before_urad_s = run.plant.state().commanded_urad_s[swing];
     cut += std::fabs(asked - before_urad_s) >= 500.0;
   }
   EXPECT_GT(cut, 200) << "hardly anything was cut: the test shows nothing";
   constexpr double bus_step = 500.0;
-  EXPECT_LE(most_jump, limits_of(run.machine, swing, 8.0, 0.0).acceleration * run.machine.cycle * 1e6 + bus_step + 1.0);
+  EXPECT_LE(most_jump, acceleration * run.machine.cycle * 1e6 + bus_step + 1.0);
 }
 
 TEST(SlowedSwing, AtAQuarterOfItsSpeedStillDumpsIntoTheBedAndReturns) {

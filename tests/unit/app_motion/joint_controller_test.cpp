@@ -74,6 +74,28 @@ TEST(CutJoint, GoesOnFromWhatWasLetOut) {
   EXPECT_EQ(joint.controller.share(), 1.0);
 }
 
+// A joint that follows its command with a lag: to full speed it takes no longer than it can, and the request is never farther ahead of it than that asks for.
+TEST(JointController, AJointThatLagsSpeedsUpAsFastAsItCan) {
+  constexpr double lag = 0.12, acceleration = 0.35, step = 0.01;
+  const JointResponse response{0.06, acceleration, 0.87, lag};
+  const ControllerLimits limits{0.7, acceleration, 0.3, 4.5};
+  for (const double goal : {2.5, -2.5}) {
+    JointModel model(response, step);
+    JointController controller(response, step);
+    double ahead = 0.0, reached_s = 0.0;
+    for (int k = 0; k < 400 && reached_s == 0.0; ++k) {
+      const double asked = controller.toward(goal, model.angle(), model.velocity(), limits);
+      ahead = std::max(ahead, std::fabs(asked - controller.predict(model.angle(), model.velocity()).velocity));
+      controller.sent(asked);
+      EXPECT_EQ(controller.share(), 1.0);
+      model.advance(asked);
+      if (std::fabs(model.velocity()) > 0.6) reached_s = (k + 1) * step;
+    }
+    EXPECT_NEAR(reached_s, response.dead_time + 0.6 / acceleration, 0.02);
+    EXPECT_LE(ahead, acceleration * (lag + 2.0 * step) + 1e-9);
+  }
+}
+
 TEST(CutJoint, PredictsFromWhatWasLetOut) {
   CutJoint joint;
   for (int k = 0; k < 400; ++k) {
@@ -144,7 +166,7 @@ TEST(CutJoint, AtALowerTempoPassesTheSameAnglesAtThatShareOfTheSpeeds) {
     const double angle = slow.model.angle();
     if (angle < radians(5.0) || angle > radians(55.0)) continue;  // the dead time at the start is not slower; the landing is noise
     while (way[at].first < angle) ++at;
-    EXPECT_NEAR(slow.model.velocity(), tempo * way[at].second, 0.006) << "at " << degrees(angle) << " deg";
+    EXPECT_NEAR(slow.model.velocity(), tempo * way[at].second, 0.007) << "at " << degrees(angle) << " deg";
     ++compared;
   }
   EXPECT_GT(compared, 200);

@@ -21,18 +21,18 @@ TEST(BucketUnderside, IsTheShellsLowestPointWhenCurledAndTheTeethWhenHanging) {
 TEST(BucketUnderside, ClearsTheTruckInTheCarryingPose) {
   const MachineModel m = berm::app_bench::zx200();
   EXPECT_GT(bucket_underside(m, carry), 0.30 + 0.30 + 0.5);  // wall, the kernel's margin, the spread of a stop
-  EXPECT_LT(reach_of(m, carry), 6.5);                        // second row of the braking table
+  EXPECT_LT(reach_of(m, carry), m.braking.reach.front());    // first row of the braking table
 }
 
 TEST(StopTravel, GrowsWithSpeedAndReachAndCoversTheTable) {
   const MachineModel m = berm::app_bench::zx200();
   double before = 0.0;
   for (double speed = 0.0; speed <= radians(50.0); speed += radians(1.0)) {
-    const double travel = stop_travel(m, swing, 6.5, speed);
+    const double travel = stop_travel(m, swing, m.braking.reach[1], speed);
     EXPECT_GE(travel, before);
     before = travel;
   }
-  // Full speed at 6.5 m: the table's last column in its second row, and the way during the latencies and until a machine that hears nothing brakes by itself.
+  // Full speed at the second row's reach: the table's last column in its second row, and the way during the latencies and until a machine that hears nothing brakes by itself.
   const double known = m.braking.angle[swing][1].back() + radians(50.0) * (m.state_latency + m.command_latency + heartbeat_silence + kernel_sends_within);
   EXPECT_GE(before, known);
   EXPECT_LE(before, known + radians(1.0));

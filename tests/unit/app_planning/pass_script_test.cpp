@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <tuple>
 
 #include "app_bench/bench_machine.hpp"
 #include "app_bench/bench_site.hpp"
@@ -68,16 +70,21 @@ TEST(PassScript, TheBucketOpensEarlierWhereItIsHeldLevel) {
     task.dump_radius = dump_radius;
     const auto poses = pass_poses(m, task);
     EXPECT_TRUE(poses) << dump_radius;
-    if (!poses) return std::pair(0.0, 0.0);
+    if (!poses) return std::tuple(0.0, 0.0, 0.0);
     task.lifted_from = poses->carry;
-    return std::pair(degrees(forward(m, poses->spill).bucket_attitude), degrees(poses->spill[stick] - PassSearch(scripts, m, sky, task, *poses).thresholds().open_stick));
+    const PassThresholds first = PassSearch(scripts, m, sky, task, *poses).thresholds();
+    // The swing's landing is v = sqrt(2 a d) with a as it is at that reach.
+    const double brake = limits_of(m, swing, reach_of(m, poses->spill)).deceleration;
+    return std::tuple(degrees(forward(m, poses->spill).bucket_attitude), degrees(poses->spill[stick] - first.open_stick), std::sqrt(2.0 * first.open_offset / brake));
   };
-  const auto [level, early] = before_spill(6.4);
-  const auto [tilted, late] = before_spill(farthest_dump(m, task.wall_top));
+  const auto [level, early, before_s] = before_spill(6.4);
+  const auto [tilted, late, tilted_before_s] = before_spill(farthest_dump(m, task.wall_top));
   EXPECT_LT(level, -160.0);
   EXPECT_GT(tilted, -157.0);
   EXPECT_NEAR(early, 14.0, 1e-9);
   EXPECT_NEAR(late, 6.0, 1e-9);
+  EXPECT_NEAR(before_s, 1.0, 1e-9) << "s before the swing stands, at the soonest";
+  EXPECT_NEAR(tilted_before_s, 0.5, 0.03) << "no nearer than 2 degrees";
 }
 
 // Beyond the easy reach a heap slides off short of the near wall: the farther, the less is to be in the bucket.

@@ -114,24 +114,68 @@ TEST(Skyline, NamesWhatBlocks) {
   EXPECT_EQ(sky.blocking(preview(m, *folded, {}))->what, Skyline::Blocking::What::own_body);
 }
 
-TEST(PassSearch, FindsASwingThatStartsBeforeTheBoomIsUpAndStaysClear) {
+TEST(Skyline, IntervalsBeyondARangeHideNothingThatTheyMeet) {
   const MachineModel m = berm::app_bench::zx200();
   const SiteModel site = berm::app_bench::bench_with_truck();
+  const Skyline low(m, site, [](double, double) { return -2.0; }), unseen(m, site, [](double, double) { return INFINITY; });
+  auto opening = inverse_pin(m, {6.4, 3.6}, radians(-30.0), radians(7.0));
+  ASSERT_TRUE(opening);
+  (*opening)[bucket] = m.joint[bucket].high - radians(8.0);
+  const ReachIntervals box = preview(m, *opening, {0.0, 0.0, 0.0, radians(50.0)});
+  ASSERT_TRUE(low.blocking(box));
+  EXPECT_EQ(low.blocking(box)->what, Skyline::Blocking::What::joint_range);
+  EXPECT_FALSE(low.blocking(box, Skyline::Ranges::left_to_guard));
+  ASSERT_TRUE(unseen.blocking(box, Skyline::Ranges::left_to_guard));
+  EXPECT_EQ(unseen.blocking(box, Skyline::Ranges::left_to_guard)->what, Skyline::Blocking::What::ground);
+}
+
+// A bench with a truck beside it, and a pass over it.
+struct BenchPass {
+  BenchPass() : machine(berm::app_bench::zx200()), site(berm::app_bench::bench_with_truck()), scripts(berm::app_bench::shipped_scripts()) {
+    for (double x = -12.0; x < 12.0; x += 0.1)
+      for (double y = -12.0; y < 12.0; y += 0.1) terrain.insert(x, y, x < 6.0 && y < 3.6 ? 0.0 : -2.2, 1.0);
+    task.lifted_from = *inverse_tip(machine, {5.6, 0.4}, radians(-170.0), radians(7.0));
+    task.truck_bearing = radians(96.0);
+    task.dump_radius = 6.8;
+    task.next_bearing = 0.0;
+    task.next_entry = {7.4, -1.6};
+    task.truck_top = task.wall_top = berm::app_bench::bench_bed().wall_top;
+  }
+  PassSearch begin(const PassPoses& poses) const { return PassSearch(scripts, machine, Skyline(machine, site, ground_of(terrain)), task, poses); }
+
+  MachineModel machine;
+  SiteModel site;
+  ScriptSet scripts;
   TerrainMap terrain;
-  for (double x = -12.0; x < 12.0; x += 0.1)
-    for (double y = -12.0; y < 12.0; y += 0.1) terrain.insert(x, y, x < 6.0 && y < 3.6 ? 0.0 : -2.2, 1.0);
-  const Skyline sky(m, site, ground_of(terrain));
   PassTask task;
-  task.lifted_from = *inverse_tip(m, {5.6, 0.4}, radians(-170.0), radians(7.0));
-  task.truck_bearing = radians(96.0);
-  task.dump_radius = 6.8;
-  task.next_bearing = 0.0;
-  task.next_entry = {7.4, -1.6};
-  task.truck_top = task.wall_top = berm::app_bench::bench_bed().wall_top;
+};
+
+// What sticks is let out by a bucket that opens almost to its range's end, which says nothing of where the arm may reach out over the dig.
+TEST(PassSearch, ABucketThatOpensFarDoesNotKeepTheArmFromReachingOutOverTheDig) {
+  BenchPass pass;
+  const auto reaches_out = [&](double farther) {
+    pass.task.open_farther = farther;
+    const auto poses = pass_poses(pass.machine, pass.task);
+    EXPECT_TRUE(poses);
+    PassSearch search = pass.begin(poses.value());
+    for (int steps = 0; !search.done() && steps < 100; ++steps) search.step();
+    EXPECT_TRUE(search.clear()) << degrees(farther);
+    return std::pair(degrees(poses->dump[bucket]), degrees(search.thresholds().hover_offset));
+  };
+  const auto [opens, offset] = reaches_out(0.0);
+  const auto [opens_far, offset_far] = reaches_out(radians(38.0));
+  EXPECT_GT(opens_far, opens + 20.0);
+  EXPECT_GT(offset, 20.0);
+  EXPECT_EQ(offset_far, offset);
+}
+
+TEST(PassSearch, FindsASwingThatStartsBeforeTheBoomIsUpAndStaysClear) {
+  const BenchPass pass;
+  const MachineModel& m = pass.machine;
+  const PassTask& task = pass.task;
   const auto poses = pass_poses(m, task);
   ASSERT_TRUE(poses);
-  const ScriptSet scripts = berm::app_bench::shipped_scripts();
-  PassSearch search(scripts, m, sky, task, *poses);
+  PassSearch search = pass.begin(*poses);
   int steps = 0;
   while (!search.done() && ++steps < 100) search.step();
   ASSERT_TRUE(search.done());

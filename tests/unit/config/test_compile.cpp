@@ -53,7 +53,7 @@ TEST(Compile, DecimalsThatAreWholeStayWhole) {
   EXPECT_EQ(p.request_hold_us, 50000);
   EXPECT_EQ(p.request_silent_us, 500000);
   EXPECT_EQ(p.acceleration_max_urad_s2[2], 3210000);
-  EXPECT_EQ(p.brake_time_us[0][3][7], 4098000);
+  EXPECT_EQ(p.brake_time_us[0][3][7], 4097000);
   EXPECT_EQ(p.dig_zone[0].floor_mm, -3400);
   EXPECT_EQ(p.dig_zone[0].ceiling_mm, 1100);
   EXPECT_EQ(p.dig_zone[0].x_low_mm, 3900);

@@ -25,8 +25,8 @@ TEST(MachineFileTest, TheDefaultInSiUnits) {
   EXPECT_DOUBLE_EQ(m.bucket_payload, 1600.0);
   EXPECT_DOUBLE_EQ(m.command_latency, 0.09);
   ASSERT_EQ(m.braking.reach.size(), 4u);
-  EXPECT_DOUBLE_EQ(m.braking.angle[0][3][7], 102.87 * kPi / 180.0);
-  EXPECT_DOUBLE_EQ(m.braking.time[0][3][7], 4.098);
+  EXPECT_DOUBLE_EQ(m.braking.angle[0][3][7], 102.97 * kPi / 180.0);
+  EXPECT_DOUBLE_EQ(m.braking.time[0][3][7], 4.097);
   ASSERT_EQ(m.part.size(), 4u);
   EXPECT_EQ(m.part[3].link, 3);
   EXPECT_DOUBLE_EQ(m.part[3].outline[3][0], 1.62);
