@@ -51,8 +51,9 @@ double JointController::ramped(double wanted, double from, const ControllerLimit
   // Slowing is never delayed beyond what the deceleration profile asks for; only growth of speed is ramped.
   if (std::fabs(wanted) <= std::fabs(from) && wanted * from >= 0.0) return wanted;
   // Of a joint that is faster than it is asked to be, and is slowed, nothing more is asked for at once.
-  const double most = from >= ramp.then ? std::max(from, ramp.then + ramp.ahead) : from, least = from <= ramp.then ? std::min(from, ramp.then - ramp.ahead) : from;
-  return std::clamp(wanted, least - up, most + up);
+  const double most = from >= ramp.then ? std::max(from + up, ramp.then + ramp.ahead) : from + up;
+  const double least = from <= ramp.then ? std::min(from - up, ramp.then - ramp.ahead) : from - up;
+  return std::clamp(wanted, least, most);
 }
 
 double JointController::proposed(double wanted, const ControllerLimits& limits, const Ramp& ramp) {

@@ -8,7 +8,7 @@ namespace berm::app {
 namespace {
 
 constexpr double lowest = 0.5;
-constexpr double spare = 0.95;             // beyond what the last overrun alone asks for
+constexpr double spare = 0.90;             // beyond what the last overrun alone asks for
 constexpr double unlearned = 0.004;        // by a landing that kept to goal and model
 constexpr double says_something = radians(10.0);  // rad/s, peak of such a landing
 

@@ -1,5 +1,5 @@
-"""A person walks into the swing path: the machine stands still before the oracle sees a contact, and the summary says why. Mostly the kernel keeps it
-standing; the app waits by itself before what it sees in time. What the kernel only slowed is counted (of dust: sight_test.py)."""
+"""A person walks into the swing path: the machine stands still before the oracle sees a contact, and the summary says why. What the
+kernel only slowed is counted (of dust: sight_test.py)."""
 import csv
 import shutil
 
@@ -12,9 +12,8 @@ WHY = ("collision_predicted", "overpass")  # whichever the map knew first: his h
 
 
 def seconds_of_standstill(trace):
-    """Longest standstill with the person on the bench (x below 6 m), and the longest in which the kernel was STOPPED: what the app does not ask for while it
-    waits is no motion to stop."""
-    longest = by_kernel = since = 0.0
+    """Longest standstill with the person on the bench (x below 6 m) in which the kernel was STOPPED: what the app does not ask for while it waits is no motion to stop."""
+    longest = since = 0.0
     stopped = False
     with open(trace, newline="") as file:
         for row in csv.DictReader(file):
@@ -22,13 +21,11 @@ def seconds_of_standstill(trace):
             held = stands and float(row["person_x_m"]) < 6.0
             since = since + 0.01 if held else 0.0
             stopped = held and (stopped or int(row["stop_state"]) == STOPPED)
-            longest = max(longest, since)
-            by_kernel = max(by_kernel, since if stopped else 0.0)
-    return longest, by_kernel
+            longest = max(longest, since if stopped else 0.0)
+    return longest
 
 
 def stands_for_a_person():
-    kept_by_kernel = 0
     for seed in (1, 2, 3):
         status, result, out, text = load("--scenario", "person", "--seed", seed)
         assert result is not None, text[-500:]
@@ -40,13 +37,11 @@ def stands_for_a_person():
         assert own < sum(result["kernel_stops"].values()), f"seed {seed}: the stop for the person counts as the app's own: {result['own_motion_stops']}"
         line = [row for row in text.splitlines() if row.strip().startswith("kernel stops")]
         assert len(line) == 1 and any(why in line[0] for why in WHY), f"seed {seed}: the summary does not say why: {line}"
-        stood, by_kernel = seconds_of_standstill(out / "trace.csv")
+        stood = seconds_of_standstill(out / "trace.csv")
         assert stood >= 2.0, f"seed {seed}: stood still for only {stood:.1f} s while the person was there"
-        kept_by_kernel += by_kernel >= 2.0
-        print(f"seed {seed}: closest {result['closest_approach_m']:.2f} m, stood {stood:.1f} s, {by_kernel:.1f} s kept by the kernel, kernel stops {result['kernel_stops']}")
+        print(f"seed {seed}: closest {result['closest_approach_m']:.2f} m, stood {stood:.1f} s, kernel stops {result['kernel_stops']}")
         assert status == 0, f"seed {seed}: the truck was not loaded after the person had left"
         shutil.rmtree(out)
-    assert kept_by_kernel >= 2, f"the kernel kept the machine standing with {kept_by_kernel} of three seeds"
 
 
 main([stands_for_a_person])

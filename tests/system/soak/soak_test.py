@@ -67,7 +67,7 @@ def by_hand():
     text = (ROOT / "fault_injection/scenarios/shift.toml").read_text()
     for old, new in (("max_time_s = 36000.0", "max_time_s = 160.0"),
                      ("farthest_back_m = 84.0\n", "farthest_back_m = 84.0\nresets_after_s = [5.0, 10.0]\n\n"
-                      '[[panel]]\naction = "stop"\nat_s = 21.4\nfor_s = 0.5\n\n[[panel]]\naction = "relearn"\nat_s = 25.0\nfor_s = 0.5\n')):
+                      '[[panel]]\naction = "stop"\nat_s = 22.0\nfor_s = 0.5\n\n[[panel]]\naction = "relearn"\nat_s = 25.0\nfor_s = 0.5\n')):
         assert text.count(old) == 1, old
         text = text.replace(old, new)
     (folder / "by_hand.toml").write_text(text)
@@ -82,8 +82,7 @@ def by_hand():
     called = [e["reason"] for e in events if e["event"] == "operator_needed"]
     # The lift itself is a fault to the kernel, which latches: that a reset is needed is said, too. Which of SK-MS-1 and 4 sees it first, both beyond
     # two errors of the speed, is a matter of the noise of the reading in which it begins: of this seed, and this second.
-    # What the bucket hides is ground that nobody has seen since, or not for too long: by when the map was learned anew.
-    assert len(called) == 3 and called[0] == "operator" and called[1] in ("unknown ground", "stale ground") and called[2] == "uncommanded", called
+    assert called == ["operator", "unknown ground", "uncommanded"], called
     assert result["passes"] >= 2 and result["contacts"] == 0 and result["own_motion_stops"] == {}, result
     shutil.rmtree(out)
     shutil.rmtree(folder)

@@ -118,7 +118,7 @@ TEST(Scenario, PersonWaitsForTheSwing) {
   EXPECT_EQ(w.movers[0].height, 1.8);
   ASSERT_TRUE(w.movers[0].start_swing_above.has_value());
   ASSERT_EQ(w.movers[0].waypoints.size(), 3u);
-  EXPECT_EQ(w.movers[0].waypoints[1].wait_s, 25.0);
+  EXPECT_EQ(w.movers[0].waypoints[1].wait_s, 35.0);
 }
 
 TEST(Scenario, EveryKindOfMistakeIsNamed) {
