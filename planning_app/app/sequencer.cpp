@@ -192,7 +192,9 @@ void Sequencer::log_held(const Observation& o, const Joints& wanted) const {
 // Through the guard. What the guard holds back for long is looked at again; if that does not help the kernel decides, at creep speed.
 Joints Sequencer::slowed(const Observation& o, const Joints& wanted) {
   constexpr double look_after = 1.0;
-  const Joints allowed = guarded(machine_, *skyline_, arm_.predicted(o.angle, o.velocity), wanted);
+  // A bucket comes down into a dig until it is slowed before the zone's floor, and goes on meanwhile as it came.
+  const Joints then = stage_ == Stage::dig ? arm_.taken_up(o.angle, o.velocity) : arm_.predicted(o.angle, o.velocity);
+  const Joints allowed = guarded(machine_, *skyline_, then, wanted);
   const double held_before = hold_.seconds();
   const bool by_script = stage_ != Stage::dig && stage_ != Stage::curl;
   hold_.step(o.time_s, o.angle, cut_short(o.angle, wanted, allowed, by_script ? std::optional(script_.goals()) : std::nullopt));

@@ -73,4 +73,13 @@ Joints ArmController::predicted(const Joints& angle, const Joints& velocity) con
   return then;
 }
 
+Joints ArmController::taken_up(const Joints& angle, const Joints& velocity) const {
+  Joints later{};
+  for (std::size_t j = 0; j < joints; ++j) {
+    const JointModel::State then = controller_[j].predict(angle[j], velocity[j]);
+    later[j] = then.angle + 0.5 * controller_[j].lag() * then.velocity;
+  }
+  return later;
+}
+
 }  // namespace berm::app

@@ -50,6 +50,7 @@ public:
   double share() const;
   // What it asked for last was more than is permitted now, which is more than nothing.
   bool cut() const { return cut_; }
+  double lag() const { return model_.response().up.lag; }  // s
   JointModel::State predict(double measured_angle, double measured_velocity) const { return model_.predict(measured_angle, measured_velocity); }
 
 private:

@@ -9,7 +9,7 @@ import tempfile
 from berm_command import ROOT, load, main
 
 LEARNED_S = 70.0         # by then the Workspace Monitor has learned the ground
-INTO_DIG_S = (0.6, 2.2)  # of some 4 s
+INTO_DIG_S = (0.6, 1.9)  # of some 2.5 s
 COMES_IN_S = 0.5         # from setting out to the machine's stop, or less
 STANDS_S = 22.0          # longer than kernel.fresh
 
