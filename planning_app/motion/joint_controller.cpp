@@ -79,19 +79,19 @@ void JointController::heard(double commanded, double low, double high, int steps
 double JointController::toward(double goal, double measured_angle, double measured_velocity, const ControllerLimits& limits) {
   const JointModel::State then = model_.predict(measured_angle, measured_velocity);
   // What is asked for has been taken up only a lag later: what is left then decides.
-  const double left = goal - then.angle - then.velocity * model_.response().up.lag;
+  const double left = goal - then.angle - then.velocity * lag();
   const double distance = std::fabs(left);
   // Below the switching distance a proportional landing replaces the square root, whose slope has no bound at zero.
   const double switching = limits.deceleration / (limits.landing_gain * limits.landing_gain);
   const double profile = distance > switching ? std::sqrt(limits.deceleration * (2.0 * distance - switching)) : limits.landing_gain * distance;
   const double speed = std::min(limits.velocity, profile);
   // A joint that lags behind its command speeds up as it can only while the command is so far ahead.
-  return proposed(std::copysign(speed, left), limits, {then.velocity, limits.acceleration * model_.response().up.lag});
+  return proposed(std::copysign(speed, left), limits, {then.velocity, limits.acceleration * lag()});
 }
 
 double JointController::follow(double reference, double reference_velocity, double measured_angle, double measured_velocity, const ControllerLimits& limits) {
   const JointModel::State then = model_.predict(measured_angle, measured_velocity);
-  const double off = reference - then.angle + (reference_velocity - then.velocity) * model_.response().up.lag;  // a lag later
+  const double off = reference - then.angle + (reference_velocity - then.velocity) * lag();  // a lag later
   const double wanted = reference_velocity + limits.landing_gain * off;
   return proposed(std::clamp(wanted, -limits.velocity, limits.velocity), limits, {then.velocity});
 }

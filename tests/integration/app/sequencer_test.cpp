@@ -300,70 +300,6 @@ TEST(Sequencer, IsHeldInADigAsElsewhere) {
   EXPECT_EQ(run.last.phase, BERM_PHASE_DIG);
 }
 
-// Over the start its way turns, and the bucket is not to be curled yet.
-TEST(Sequencer, TheBucketComesDownIntoTheSoilWithoutStandingOverIt) {
-  Loading run(1, start_pose());
-  run.plant.has_pressures = true;
-  std::uint32_t phase = 0;
-  ArmPoints before;
-  double began_s = 0.0, way = 0.0;
-  int cycles = 0;
-  for (int digs = 0; digs < 7 && run.seconds < 200.0; run.step()) {
-    const ArmPoints now = forward(run.machine, run.plant.angle());
-    const double speed = std::hypot(now.tip.r - before.tip.r, now.tip.z - before.tip.z) / run.machine.cycle;
-    before = now;
-    if (run.last.phase == BERM_PHASE_DIG && phase != BERM_PHASE_DIG) ++digs, began_s = run.seconds;
-    phase = run.last.phase;
-    if (digs > 1 && phase == BERM_PHASE_DIG && run.seconds < began_s + 0.5) {
-      ASSERT_GT(speed, 1.2) << "dig " << digs << ", " << run.seconds - began_s << " s";
-      way += speed * run.machine.cycle;
-      ++cycles;
-    }
-  }
-  ASSERT_GT(cycles, 200);
-  EXPECT_GT(way / (cycles * run.machine.cycle), 2.75) << "m/s in the mean";
-}
-
-// Nothing but the app slows a bucket that comes down into a dig before the kernel foresees its stop under the zone's floor: where the soil lies low, the soil does not.
-TEST(Sequencer, TheBucketComesDownIntoADigSlowlyEnoughToStopOverTheZonesFloor) {
-  Loading run(2, start_pose());
-  run.plant.has_pressures = true;
-  double zone_floor = -9.0, least = 9.0;
-  for (const DigZone& zone : app_bench::bench().dig_zones) zone_floor = std::max(zone_floor, zone.floor);
-  int digs = 0;
-  std::uint32_t phase = 0;
-  for (; digs < 12 && run.seconds < 250.0; run.step()) {
-    digs += run.last.phase == BERM_PHASE_DIG && phase != BERM_PHASE_DIG;
-    phase = run.last.phase;
-    const Observation o = observe(run.plant.state());
-    if (phase == BERM_PHASE_DIG) least = std::min(least, LowerEdge(run.machine, preview(run.machine, o.angle, o.velocity)).lowest() - zone_floor);
-  }
-  EXPECT_EQ(digs, 12);
-  EXPECT_GT(least, Skyline::over_floor);
-  EXPECT_LT(least, 0.5) << "no dig comes near the floor: the test shows nothing";
-}
-
-// A full bucket curls as fast as it can while the boom is on its way up: soil slides off one that comes up open. Stick and swing stand.
-TEST(Sequencer, AFullBucketCurlsAndRisesAtOnce) {
-  const app_bench::Events events;
-  Loading run(1, start_pose(), events.fd());
-  while (events.named("dug").empty() && run.seconds < 60.0) run.step();
-  ASSERT_LT(run.seconds, 60.0);
-  const double stick_was = run.plant.angle()[stick];
-  double fastest_curl = 0.0, fastest_rise = 0.0;
-  int cycles = 0;
-  for (; run.last.phase == BERM_PHASE_DIG && cycles < 300; ++cycles) {
-    fastest_curl = std::min(fastest_curl, run.last.velocity[bucket]);
-    fastest_rise = std::max(fastest_rise, run.last.velocity[boom]);
-    EXPECT_EQ(run.last.velocity[swing], 0.0);
-    run.step();
-  }
-  EXPECT_LT(cycles, 150) << "the script takes over while the bucket curls";
-  EXPECT_LT(fastest_curl, -0.9 * run.machine.joint[bucket].velocity_max);
-  EXPECT_GT(fastest_rise, 0.4 * run.machine.joint[boom].velocity_max);
-  EXPECT_NEAR(run.plant.angle()[stick], stick_was, radians(3.0));
-}
-
 TEST(Sequencer, WaitsForTheTruckAndStandsMeanwhile) {
   Loading run(1, start_pose());
   run.plant.truck_parked = false;
@@ -491,26 +427,6 @@ TEST(Sequencer, BooksNotWhatSlidesOverTheWalls) {
   }
   EXPECT_GT(over, 120.0);
   EXPECT_NEAR(left, over, 60.0) << "what stays in the bucket";
-}
-
-// Dug for a truck that stands as usual, and for one whose bed lies at the end of the arm's reach: there a heap would slide off before the near wall.
-TEST(Sequencer, DigsLessForADumpThatTheArmHardlyReaches) {
-  const auto first_goal_kg = [](double farther) {
-    const app_bench::Events events;
-    Loading run(1, start_pose(), events.fd());
-    run.finder.truck.pose.middle[1] += farther;
-    while (events.named("dig").empty() && run.seconds < 60.0)
-      for (int k = 0; k < 10; ++k) run.step();
-    const auto digs = events.named("dig");
-    return digs.empty() ? 0.0 : digs[0].at("goal_kg").get<double>();
-  };
-  const TruckBed bed = app_bench::bench_bed();
-  const double heaped_kg = app_bench::zx200().bucket_payload_kg, whole_kg = TruckFill::aim_share * app_bench::bench().place.target_kg / 12.0;
-  ASSERT_GT(whole_kg, 0.92 * heaped_kg);
-  EXPECT_NEAR(first_goal_kg(0.0), whole_kg, 1.0);
-  const double at_the_end = first_goal_kg(farthest_dump(app_bench::zx200(), bed.wall_top) - std::hypot(bed.centre_x, bed.centre_y));
-  EXPECT_LT(at_the_end, 0.91 * heaped_kg);
-  EXPECT_GT(at_the_end, 0.84 * heaped_kg);
 }
 
 // A part that the weighing takes for poured before the bucket has tilted: the arm waits for no pour, but goes on to the dig.

@@ -15,6 +15,8 @@ RESET_S = 85.0
 TAIL_RADIUS = 2.907  # m: of the plant's upper body, [-2.60, 1.30]
 PERSON_RADIUS = 0.25
 SCENARIOS = ROOT / "fault_injection" / "scenarios"
+STOPPING = 3
+SWING_STANDS_WITHIN_S = 1.5
 JOINTS = ("swing", "boom", "stick", "bucket")
 
 
@@ -58,6 +60,31 @@ def person_behind():
         shutil.rmtree(out)
 
 
+def person_behind_a_swing():
+    """He sets out as the swing comes over the truck, and is there while it goes back as fast as it does: it stands before the tail has reached him."""
+    text = (SCENARIOS / "person_behind.toml").read_text()
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
+    scenario = folder / "behind_a_swing.toml"
+    for old, new in (("start_s = 32.0", "start_s = 36.0\nstart_swing_above_deg = 60.0"), ("max_time_s = 1800.0", "max_time_s = 55.0")):
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    scenario.write_text(text)
+    for seed in (1, 2):
+        _, result, out, text = load("--scenario", scenario, "--seed", seed)
+        assert result is not None, text[-500:]
+        assert result["contacts"] == 0 and result["kernel_stops"] == {"tail": 1}, f"seed {seed}: {result['contacts']} contacts, kernel stops {result['kernel_stops']}"
+        trace = list(rows(out / "trace.csv"))
+        stopped = next(row for row in trace if int(row["stop_state"]) == STOPPING)
+        stopped_s, swing = float(stopped["time_s"]), abs(float(stopped["swing_rad_s"]))
+        assert swing > 0.4, f"seed {seed}: stopped from {swing:.2f} rad/s: the test asks for a swing"
+        late = [row["time_s"] for row in trace if float(row["time_s"]) > stopped_s + SWING_STANDS_WITHIN_S and speed(row) > STILL_RAD_S]
+        assert not late, f"seed {seed}: moves at {late[:3]} s, stopped at {stopped_s:.2f} s"
+        assert result["closest_approach_m"] > 0.3, f"seed {seed}: closest approach {result['closest_approach_m']}"
+        print(f"seed {seed}: stopped from {swing:.2f} rad/s at {stopped_s:.2f} s, closest approach {result['closest_approach_m']:.2f} m")
+        shutil.rmtree(out)
+    shutil.rmtree(folder)
+
+
 def held_while(scenario, reasons, from_s, until_s, within_s):
     status, result, out, text = load("--scenario", scenario, "--seed", 1)
     assert result is not None, text[-500:]
@@ -92,4 +119,4 @@ def stalled_lidar():
     silent_lidar("stalled")
 
 
-main([person_behind, blocked_lidar, silent_lidar, stalled_lidar])
+main([person_behind, person_behind_a_swing, blocked_lidar, silent_lidar, stalled_lidar])
