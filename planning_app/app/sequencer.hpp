@@ -225,6 +225,7 @@ private:
   PourWatch pour_;
   RecentWeight recent_;
   MeanWeight before_, after_;
+  MeanWeight swung_;                          // by the pressures on the way to the truck, at any tilt
 };
 
 }  // namespace berm::app

@@ -296,6 +296,7 @@ Joints Sequencer::curl(const Observation& o) {
     emptied_ = pours_ = false;
     open_since_s_ = -1.0;
     before_.reset();
+    swung_.reset();
     after_.reset();
     pour_.begin();
     recent_ = {};  // of the empty bucket; the weighing is blind for a while yet

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double poor_share = 0.1;                // a pass that brings less of its goal found nothing
 constexpr int most_poor_passes = 4;               // in a row; then there is nothing left to dig from here
+constexpr std::size_t least_swung = 50;           // cycles of pressures that weigh a bucket on its way at any tilt
 constexpr double resting = radians(-165.0);       // bucket: before this tilt nothing slides
 
 }  // namespace
@@ -32,7 +33,7 @@ bool Sequencer::runs_out_over_bed() const {
 double Sequencer::share_that_may_trail() const {
   constexpr double over_bed = 0.52, over_heap = 0.42, beyond = 0.22;
   constexpr double heaps_from = 0.6;  // of the truck's load: what runs out over a heap slides over the walls
-  constexpr double sooner = 0.25;  // besides what sticks, which lets go late and all at once
+  constexpr double sooner = 0.12;  // besides what sticks, which lets go late and all at once
   const double share = !runs_out_over_bed() ? beyond : fill_.loaded_kg() > heaps_from * fill_.target_kg() ? over_heap : over_bed;
   return sticking_.sticks() ? share - sooner + sticking_.share() : share;
 }
@@ -41,7 +42,7 @@ double Sequencer::share_that_may_trail() const {
 BedPoint Sequencer::lies_at(double payload_kg) const {
   constexpr double trails = 0.10;
   const BedPoint at = landing(*site_.bed, dump_.at, payload_kg, scale_);
-  if (sticking_.sticks() || load_check_.keeps_rest() || !runs_out_over_bed()) return at;
+  if (load_check_.keeps_rest() || !runs_out_over_bed()) return at;
   const BedPoint from = along_way_back(0.0, task_.dump_radius), to = along_way_back(trails * scale_.arm, task_.dump_radius);
   return {at.u + to.u - from.u, at.v + to.v - from.v};
 }
@@ -89,9 +90,13 @@ void Sequencer::watch_pour(const Observation& o, double kg) {
 }
 
 // The on-board weighing is blind for a while after the soil, at times until the load slides, and then seen for a few readings only: the pressures say it too.
+// A bucket that is never held level, so that it may be losing soil, is weighed by them as it swings.
 std::optional<double> Sequencer::weighed_kg() const {
   if (!before_.known() && load_check_.lifted_kg() >= 0.0) return load_check_.lifted_kg();
-  if (!pour_.carried_known()) return before_.known() ? std::optional(before_.kg()) : std::nullopt;
+  if (!pour_.carried_known()) {
+    if (before_.known()) return before_.kg();
+    return swung_.count() >= least_swung ? std::optional(swung_.kg()) : std::nullopt;
+  }
   return before_.known() ? 0.5 * (before_.kg() + pour_.carried_kg()) : pour_.carried_kg();
 }
 
@@ -117,6 +122,7 @@ Joints Sequencer::pass(const Observation& o) {
   // amid the pour has left in it.
   pours_ = pours_ || (phase_ == BERM_PHASE_DUMP && !carries_level(o));
   if (!pours_ && (phase_ == BERM_PHASE_SWING_TO_TRUCK || carries_level(o))) before_.add(o.payload_kg);
+  if (phase_ == BERM_PHASE_SWING_TO_TRUCK) swung_.add(by_pressures);
   watch_pour(o, by_pressures);
   if (emptied_ && !(load_check_.keeps_rest() && script_.of(swing).at_last())) after_.add(o.payload_kg);  // what it keeps it lets go over the dig
   const Joints goals = script_.goals();

@@ -17,6 +17,7 @@ public:
     ++count_;
   }
   bool known() const { return count_ > 0; }
+  std::size_t count() const { return count_; }
   double kg() const { return count_ > 0 ? sum_ / static_cast<double>(count_) : 0.0; }
 
 private:

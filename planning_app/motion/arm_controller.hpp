@@ -33,7 +33,7 @@ public:
   void sent(const Joints& command);
   // Angles when a request made now begins to act, by what the kernel let out.
   Joints predicted(const Joints& angle, const Joints& velocity) const;
-  // Angles half a lag later, until when joints have gone on as they were.
+  // Angles most of a lag later, until when joints have gone on as they were.
   Joints taken_up(const Joints& angle, const Joints& velocity) const;
 
   // Of each joint, as JointController's.

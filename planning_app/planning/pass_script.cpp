@@ -24,8 +24,9 @@ constexpr double attitude_carry = radians(-178.0);
 constexpr double attitude_open = radians(-48.0);
 constexpr double attitude_back = radians(-122.0);
 constexpr double attitude_dig = radians(-92.0);
-constexpr double spill_ahead = 0.55;              // pin beyond the dump point while the lip points inward, by the scale of the bucket ...
+constexpr double spill_ahead = 0.36;              // pin beyond the dump point while the lip points inward, by the scale of the bucket ...
 constexpr double dump_behind = 0.25;              // ... and short of it when the bucket hangs open, lip outward
+constexpr double easy_ahead = 0.55;               // pin beyond the farthest dump point that is easily reached: so far out a heap slides off before the lip is over the bed
 constexpr double part_lip_beyond = 0.3;           // lip beyond the dump point, at most, while a part of a load is poured: by the scale of the bucket
 constexpr double part_ahead = radians(15.0);      // the arm follows late, and a lip too far out may be held by what stands beside the bed, and the arm with it: so far ahead of the bucket
 constexpr double dig_above = -0.15;               // tip over the entry of the drag, which is above the surface: nearer to that, for the drag takes over on the way down
@@ -78,7 +79,7 @@ std::optional<Joints> pose_clear_of_body(const MachineModel& machine, const Plan
 double easy_reach(const MachineModel& machine, double wall_top) {
   const ImplementScale scale = scale_of(machine);
   double radius = carry_radius * scale.arm;
-  while (pose_at(machine, {radius + reach_step + spill_ahead * scale.bucket, wall_top + pin_over_top(scale)}, attitude_carry)) radius += reach_step;
+  while (pose_at(machine, {radius + reach_step + easy_ahead * scale.bucket, wall_top + pin_over_top(scale)}, attitude_carry)) radius += reach_step;
   return radius;
 }
 

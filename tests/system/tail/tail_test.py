@@ -65,7 +65,7 @@ def person_behind_a_swing():
     text = (SCENARIOS / "person_behind.toml").read_text()
     folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
     scenario = folder / "behind_a_swing.toml"
-    for old, new in (("start_s = 32.0", "start_s = 36.0\nstart_swing_above_deg = 60.0"), ("max_time_s = 1800.0", "max_time_s = 55.0")):
+    for old, new in (("start_s = 20.0", "start_s = 36.0"), ("at = [-11.5, -1.0]\nwait_s = 4.7", "at = [-11.0, -1.0]\nwait_s = 0.0"), ("max_time_s = 1800.0", "max_time_s = 55.0")):
         assert text.count(old) == 1, old
         text = text.replace(old, new)
     scenario.write_text(text)
