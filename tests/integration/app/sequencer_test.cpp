@@ -471,6 +471,31 @@ TEST(Sequencer, ABucketThatTheWeighingHasNotSeenIsWeighedByThePressures) {
   expect_no_contact(run);
 }
 
+// Nor is it ever held level, as where the bucket's range ends: it is weighed as it swings, not booked by what it was to bring.
+TEST(Sequencer, ABucketThatIsNeverLevelIsWeighedAsItSwings) {
+  const app_bench::Events events;
+  Loading run(1, start_pose(), events.fd());
+  run.plant.has_pressures = true;
+  while (events.named("pass").empty() && run.seconds < 90.0) run.step();
+  const double first_kg = run.plant.site().bed_mass();
+  run.plant.weighs = false;
+  while (run.last.phase != BERM_PHASE_SWING_TO_TRUCK && run.seconds < 120.0) run.step();
+  run.plant.take(0.3 * run.plant.payload_kg());
+  const double carried_kg = run.plant.payload_kg();
+  constexpr double lowest = radians(-160.0);
+  while (events.named("pass").size() < 2 && run.seconds < 150.0) {
+    const Joints angle = run.plant.angle();
+    run.plant.put(bucket, std::max(angle[bucket], lowest - angle[boom] - angle[stick]));
+    run.step();
+  }
+  ASSERT_EQ(events.named("pass").size(), 2U);
+  const auto pass = events.named("pass")[1];
+  EXPECT_GT(std::abs(events.named("dig")[1].at("goal_kg").get<double>() - carried_kg), 200.0) << "it brought what it was to: the test shows nothing";
+  EXPECT_NEAR(pass.at("carried_kg").get<double>(), carried_kg, 30.0);
+  EXPECT_NEAR(pass.at("payload_kg").get<double>(), run.plant.site().bed_mass() - first_kg, 30.0);
+  expect_no_contact(run);
+}
+
 // Somebody else took the soil: the weighing shows nothing, and that is what is booked, not what was planned.
 TEST(Sequencer, ABucketThatWasWeighedToHoldNothingIsBookedEmpty) {
   const app_bench::Events events;

@@ -2,6 +2,7 @@
 // bucket that cuts and pours, two panning scanners, and a kernel that permits what its own simple checks permit. Nothing of kernel or plant.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <memory>
@@ -52,6 +53,7 @@ public:
   double payload_kg() const { return payload_; }
   const app::Joints& angle() const { return angle_; }
   void put(app::Joint joint, double angle) { angle_[joint] = angle; }  // by hand
+  void take(double kg) { payload_ = std::max(0.0, payload_ - kg); }           // out of the bucket
   void put_pan(std::size_t scanner, double pan) { pan_[scanner] = pan; }
 
   bool truck_parked = true, truck_leaves = false;
