@@ -33,9 +33,9 @@ bool Sequencer::runs_out_over_bed() const {
 double Sequencer::share_that_may_trail() const {
   constexpr double over_bed = 0.52, over_heap = 0.42, beyond = 0.22;
   constexpr double heaps_from = 0.6;  // of the truck's load: what runs out over a heap slides over the walls
-  constexpr double sooner = 0.12;  // besides what sticks, which lets go late and all at once
+  constexpr double less = 0.12;  // besides what sticks, which lets go late and all at once
   const double share = !runs_out_over_bed() ? beyond : fill_.loaded_kg() > heaps_from * fill_.target_kg() ? over_heap : over_bed;
-  return sticking_.sticks() ? share - sooner + sticking_.share() : share;
+  return sticking_.sticks() ? share - less + sticking_.share() : share;
 }
 
 // Where the middle of what this pass brought lies: what runs out over the way back is 0.10 m off in the mean.

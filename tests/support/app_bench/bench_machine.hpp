@@ -53,7 +53,7 @@ public:
   double payload_kg() const { return payload_; }
   const app::Joints& angle() const { return angle_; }
   void put(app::Joint joint, double angle) { angle_[joint] = angle; }  // by hand
-  void take(double kg) { payload_ = std::max(0.0, payload_ - kg); }           // out of the bucket
+  void take(double kg) { payload_ = std::max(0.0, payload_ - kg); }  // out of the bucket
   void put_pan(std::size_t scanner, double pan) { pan_[scanner] = pan; }
 
   bool truck_parked = true, truck_leaves = false;

@@ -29,6 +29,19 @@ def speed(row):
     return max(abs(float(row[f"{joint}_rad_s"])) for joint in JOINTS)
 
 
+def stopped(trace):
+    """The row in which the kernel first begins to stop the machine."""
+    return next(row for row in trace if int(row["stop_state"]) == STOPPING)
+
+
+def moves(trace, from_s, until_s):
+    return [row["time_s"] for row in trace if from_s < float(row["time_s"]) < until_s and speed(row) > STILL_RAD_S]
+
+
+def gap(row):
+    return math.hypot(float(row["person_x_m"]), float(row["person_y_m"])) - PERSON_RADIUS - TAIL_RADIUS
+
+
 def person_behind():
     for seed in (1, 2):
         status, result, out, text = load("--scenario", "person_behind", "--seed", seed)
@@ -36,24 +49,19 @@ def person_behind():
         assert result["contacts"] == 0, f"seed {seed}: {result['contacts']} contacts"
         assert result["tail_watched"] is True
         assert result["kernel_stops"].get("tail", 0) >= 1, f"seed {seed}: kernel stops {result['kernel_stops']}"
-        stood = moved_again = None
-        nearest = 1e9
-        for row in rows(out / "trace.csv"):
-            t = float(row["time_s"])
-            gap = math.hypot(float(row["person_x_m"]), float(row["person_y_m"])) - PERSON_RADIUS - TAIL_RADIUS
-            nearest = min(nearest, gap)
-            if stood is None and t > 40.0 and speed(row) < STILL_RAD_S and gap < 0.6:
-                stood = t
-            if stood is not None and t < RESET_S:
-                assert speed(row) < STILL_RAD_S, f"seed {seed}: moves at {t:.2f} s, before the reset"
-            if gap < 0.35:  # as near as he comes, and he stays there
-                assert speed(row) < STILL_RAD_S, f"seed {seed}: moves at {t:.2f} s with the person {gap:.2f} m from the tail's circle"
-            if t > RESET_S and moved_again is None and speed(row) > 0.1:
-                moved_again = t
-        assert stood is not None and moved_again is not None, f"seed {seed}: stood at {stood}, moved again at {moved_again}"
+        trace = list(rows(out / "trace.csv"))
+        stop = stopped(trace)
+        stopped_s = float(stop["time_s"])
+        assert stopped_s < 40.0 and 0.6 < gap(stop) < 2.0, f"seed {seed}: stopped at {stopped_s:.2f} s with the person {gap(stop):.2f} m from the tail's circle: not for him"
+        late = moves(trace, stopped_s + SWING_STANDS_WITHIN_S, RESET_S)
+        assert not late, f"seed {seed}: moves at {late[:3]} s, stopped at {stopped_s:.2f} s, before the reset"
+        near = [row["time_s"] for row in trace if gap(row) < 0.35 and speed(row) >= STILL_RAD_S]  # as near as he comes, and he stays there
+        assert not near, f"seed {seed}: moves at {near[:3]} s with the person there"
+        moved_again = next((float(row["time_s"]) for row in trace if float(row["time_s"]) > RESET_S and speed(row) > 0.1), None)
+        assert moved_again is not None, f"seed {seed}: does not go on after the reset"
         assert result["closest_approach_m"] > 0.3, f"seed {seed}: closest approach {result['closest_approach_m']}"
         assert status == 0, f"seed {seed}: the truck was not loaded after the reset"
-        print(f"seed {seed}: stood at {stood:.2f} s, person within {nearest:.2f} m of the tail's circle, "
+        print(f"seed {seed}: stopped at {stopped_s:.2f} s, person within {min(map(gap, trace)):.2f} m of the tail's circle, "
               f"closest approach {result['closest_approach_m']:.2f} m, moves again at {moved_again:.2f} s")
         replayed = run("berm_replay", out / "journal.mcap")
         assert replayed.returncode == 0, replayed.stdout[-500:]
@@ -61,27 +69,29 @@ def person_behind():
 
 
 def person_behind_a_swing():
-    """He sets out as the swing comes over the truck, and is there while it goes back as fast as it does: it stands before the tail has reached him."""
+    """He comes while it swings to the truck, and on its way back, as fast as it does: it stands before the tail has reached him."""
     text = (SCENARIOS / "person_behind.toml").read_text()
     folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
-    scenario = folder / "behind_a_swing.toml"
-    for old, new in (("start_s = 20.0", "start_s = 36.0"), ("at = [-11.5, -1.0]\nwait_s = 4.7", "at = [-11.0, -1.0]\nwait_s = 0.0"), ("max_time_s = 1800.0", "max_time_s = 55.0")):
-        assert text.count(old) == 1, old
-        text = text.replace(old, new)
-    scenario.write_text(text)
-    for seed in (1, 2):
-        _, result, out, text = load("--scenario", scenario, "--seed", seed)
-        assert result is not None, text[-500:]
-        assert result["contacts"] == 0 and result["kernel_stops"] == {"tail": 1}, f"seed {seed}: {result['contacts']} contacts, kernel stops {result['kernel_stops']}"
-        trace = list(rows(out / "trace.csv"))
-        stopped = next(row for row in trace if int(row["stop_state"]) == STOPPING)
-        stopped_s, swing = float(stopped["time_s"]), abs(float(stopped["swing_rad_s"]))
-        assert swing > 0.4, f"seed {seed}: stopped from {swing:.2f} rad/s: the test asks for a swing"
-        late = [row["time_s"] for row in trace if float(row["time_s"]) > stopped_s + SWING_STANDS_WITHIN_S and speed(row) > STILL_RAD_S]
-        assert not late, f"seed {seed}: moves at {late[:3]} s, stopped at {stopped_s:.2f} s"
-        assert result["closest_approach_m"] > 0.3, f"seed {seed}: closest approach {result['closest_approach_m']}"
-        print(f"seed {seed}: stopped from {swing:.2f} rad/s at {stopped_s:.2f} s, closest approach {result['closest_approach_m']:.2f} m")
-        shutil.rmtree(out)
+    for way, start, wait in (("there", 20.0, 7.2), ("back", 36.0, 0.0)):
+        scenario = folder / f"behind_a_swing_{way}.toml"
+        changed = text
+        for old, new in (("start_s = 20.0", f"start_s = {start}"), ("wait_s = 4.7", f"wait_s = {wait}"), ("max_time_s = 1800.0", "max_time_s = 55.0")):
+            assert changed.count(old) == 1, old
+            changed = changed.replace(old, new)
+        scenario.write_text(changed)
+        for seed in (1, 2):
+            _, result, out, output = load("--scenario", scenario, "--seed", seed)
+            assert result is not None, output[-500:]
+            assert result["contacts"] == 0 and result["kernel_stops"] == {"tail": 1}, f"{way}, seed {seed}: {result['contacts']} contacts, kernel stops {result['kernel_stops']}"
+            trace = list(rows(out / "trace.csv"))
+            stop = stopped(trace)
+            stopped_s, swing = float(stop["time_s"]), abs(float(stop["swing_rad_s"]))
+            assert swing > 0.4, f"{way}, seed {seed}: stopped from {swing:.2f} rad/s: the test asks for a swing"
+            late = moves(trace, stopped_s + SWING_STANDS_WITHIN_S, math.inf)
+            assert not late, f"{way}, seed {seed}: moves at {late[:3]} s, stopped at {stopped_s:.2f} s"
+            assert result["closest_approach_m"] > 0.3, f"{way}, seed {seed}: closest approach {result['closest_approach_m']}"
+            print(f"{way}, seed {seed}: stopped from {swing:.2f} rad/s at {stopped_s:.2f} s, closest approach {result['closest_approach_m']:.2f} m")
+            shutil.rmtree(out)
     shutil.rmtree(folder)
 
 
