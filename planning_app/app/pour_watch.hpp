@@ -34,9 +34,9 @@ public:
   double carried_kg() const { return rested_ > 0 ? rested_sum_ / rested_ : 0.0; }
   // Fell beside the bed, at least: 0 where it cannot be told from the noise, else less by the noise, for a truck must not be overloaded for it.
   double beside_kg() const;
-  // With what falls off the heap meanwhile, which no lip shows: in simulation 0.3 to 1.6 times as much (measured terrain, four trucks).
+  // With what falls off a heap meanwhile, which no lip shows: in simulation 0.3 to 1.6 times as much (measured terrain, four trucks).
   static constexpr double falls_unseen = 0.3;
-  double booked_beside_kg() const { return (1.0 + falls_unseen) * beside_kg(); }
+  double booked_beside_kg(bool onto_heap) const { return (onto_heap ? 1.0 + falls_unseen : 1.0) * beside_kg(); }
 
 private:
   void weighed(double kg, double share);

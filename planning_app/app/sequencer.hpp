@@ -123,6 +123,7 @@ private:
   static constexpr double empty_share = 0.05;  // of a full bucket: what holds no more than that and what sticks is empty
   BedPoint along_way_back(double way, double radius) const;
   bool runs_out_over_bed() const;
+  bool pours_onto_heap() const;
   double share_that_may_trail() const;
   BedPoint lies_at(double payload_kg) const;
   std::uint32_t pass_events(const Observation& o);

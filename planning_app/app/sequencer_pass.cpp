@@ -29,12 +29,17 @@ bool Sequencer::runs_out_over_bed() const {
   return std::fabs(there.u) + 0.5 * bucket_width(machine_) < 0.5 * site_.bed->length && std::fabs(there.v) < 0.5 * site_.bed->width;
 }
 
+// Whether what is poured comes onto a heap, off whose sides it slides over the walls.
+bool Sequencer::pours_onto_heap() const {
+  constexpr double heaps_from = 0.6;  // of the truck's load
+  return fill_.loaded_kg() > heaps_from * fill_.target_kg();
+}
+
 // Of its load, what may still be in the bucket when the swing turns round.
 double Sequencer::share_that_may_trail() const {
   constexpr double over_bed = 0.52, over_heap = 0.42, beyond = 0.22;
-  constexpr double heaps_from = 0.6;  // of the truck's load: what runs out over a heap slides over the walls
   constexpr double less = 0.12;  // besides what sticks, which lets go late and all at once
-  const double share = !runs_out_over_bed() ? beyond : fill_.loaded_kg() > heaps_from * fill_.target_kg() ? over_heap : over_bed;
+  const double share = !runs_out_over_bed() ? beyond : pours_onto_heap() ? over_heap : over_bed;
   return sticking_.sticks() ? share - less + sticking_.share() : share;
 }
 
@@ -150,7 +155,7 @@ void Sequencer::book_pass(const Observation& o) {
   const double unpoured_kg = load_check_.keeps_rest() ? load_check_.rest_kg() : !emptied_ && o.payload_kg >= 0.0 ? recent_.kg() : 0.0;
   const double before = seen.value_or(unweighed_kg), after = after_.known() ? left_in_bucket(after_.kg()) : std::max(unpoured_kg, sticking_.stays_kg(carried));
   // Before a bucket came back empty from over a bed, what the implements weigh out there is extrapolated.
-  const double beside_kg = filled_.known() ? pour_.booked_beside_kg() : 0.0;
+  const double beside_kg = filled_.known() ? pour_.booked_beside_kg(pours_onto_heap()) : 0.0;
   const double had = fill_.loaded_kg(), over_kg = over_walls_kg(before - beside_kg - after);
   fill_.add_pass(before - beside_kg - over_kg, after);
   const double payload = fill_.loaded_kg() - had;
