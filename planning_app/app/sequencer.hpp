@@ -87,6 +87,7 @@ private:
   void hold_fill(double in_bucket_kg);
   void begin_script(const Script& script);
   void begin_approach(const Observation& o, bool lower);
+  static constexpr double over_heaps = 0.4;  // z, on the ground that it stands on: what raised implements are clear of
   std::optional<Script> raised(const Observation& o, double bearing) const;  // to that bearing, the implements up
   void begin_look(const Observation& o);
   void wait_raised(const Observation& o);

@@ -1,6 +1,7 @@
 // The sequencer between two stands of the machine: when the face is dug out, what the operator is told, and how work is taken up after the move.
 #include <cmath>
 
+#include "app/move_bearing.hpp"
 #include "app/sequencer.hpp"
 #include "contract/horn_signals.h"
 
@@ -40,7 +41,9 @@ void Sequencer::begin_move_back(const Observation& o, const char* why) {
   log_.event("move_back", {{"time_s", o.time_s}, {"truck", truck_}, {"distance_m", back_m_}, {"why", why}, {"face_m3", face.volume}, {"crest_m", face.crest}});
   log_.event("operator_needed", {{"time_s", o.time_s}, {"reason", "move back"},
                                  {"advice", "switch run off, have the truck make way, tram the machine straight back by the distance, press relearn and reset, switch run on"}});
-  if (const auto script = raised(o, 0.5 * (site_.dig_swing_left + site_.dig_swing_right))) begin_script(*script);
+  const double middle = 0.5 * (site_.dig_swing_left + site_.dig_swing_right);
+  const auto pose = raised_pose(machine_, over_heaps, brings_load_);
+  if (const auto script = raised(o, pose ? move_bearing(machine_, *pose, middle, kernel_map_.cell()) : middle)) begin_script(*script);
   else script_s_ = -1.0;
   enter(Stage::raise_for_move, o);
 }
@@ -51,7 +54,8 @@ Joints Sequencer::raise_for_move(const Observation& o) {
     const Joints command = run_script(o, event_none);
     const Joints goals = script_.goals();
     const bool near = std::equal(goals.begin(), goals.end(), o.angle.begin(), [](double g, double a) { return std::fabs(g - a) < radians(4.0); });
-    if (!(script_.at_last() && near)) return command;
+    const bool over_cells = std::fabs(goals[swing] - o.angle[swing]) < radians(0.5);  // move_bearing
+    if (!(script_.at_last() && near && over_cells)) return command;
   }
   saw_run_ = false;
   enter(Stage::ask_move, o);

@@ -14,7 +14,6 @@ constexpr double full_leaves_within_s = 90.0, next_comes_within_s = 300.0;  // t
 }  // namespace
 
 std::optional<Script> Sequencer::raised(const Observation& o, double bearing) const {
-  constexpr double over_heaps = 0.4;  // z, on the ground that it stands on
   return approach_script(scripts_, machine_, {o.angle, bearing, over_heaps, std::nullopt, brings_load_});
 }
 

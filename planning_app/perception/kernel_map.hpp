@@ -53,6 +53,7 @@ public:
     blocked   // infinitely high, as the kernel takes it
   };
   CellGround ground(Unseen unseen) const;  // refers to this map
+  double cell() const { return cell_; }    // m
 
 private:
   double cell_ = 0.3, origin_ = 0.0;  // m

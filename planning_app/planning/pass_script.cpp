@@ -172,9 +172,13 @@ std::vector<ScriptAngle> approach_angles(const ApproachTask& task, const Approac
           {"end_boom", boom, p.end[boom]}, {"end_stick", stick, p.end[stick]}, {"end_bucket", bucket, p.end[bucket]}};
 }
 
-std::optional<Script> approach_script(const ScriptSet& scripts, const MachineModel& machine, const ApproachTask& task) {
+std::optional<Joints> raised_pose(const MachineModel& machine, double top, bool keeps_load) {
   const ImplementScale scale = scale_of(machine);
-  const auto back = pose_clear_of_body(machine, {back_radius * scale.arm, task.top + pin_over_top(scale)}, task.keeps_load ? attitude_carry : attitude_back);
+  return pose_clear_of_body(machine, {back_radius * scale.arm, top + pin_over_top(scale)}, keeps_load ? attitude_carry : attitude_back);
+}
+
+std::optional<Script> approach_script(const ScriptSet& scripts, const MachineModel& machine, const ApproachTask& task) {
+  const auto back = raised_pose(machine, task.top, task.keeps_load);
   const auto dig = task.entry ? tip_pose_near(machine, {task.entry->r, task.entry->z + dig_above}, attitude_dig) : back;
   if (!back || !dig) return std::nullopt;
   return scripts.approach.bind(values_of(approach_angles(task, {*back, *dig})), task.bearing >= task.from[swing] ? 1.0 : -1.0);

@@ -76,6 +76,8 @@ struct ApproachTask {
   std::optional<PlanePoint> entry;  // where the drag begins; without: stay high
   bool keeps_load = false;          // the bucket stays level on the way
 };
+// High and folded, top below it. Nothing where the machine does not reach that.
+std::optional<Joints> raised_pose(const MachineModel& machine, double top, bool keeps_load);
 // Where the implements are over the way, and at its end. Swing entries are not used.
 struct ApproachPoses { Joints back{}, end{}; };
 // Parameters of the script "approach" by name.

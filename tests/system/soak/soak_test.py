@@ -1,6 +1,7 @@
 """A few minutes of a shift end with a whole report and a scenario that runs again; and a bench that is soon dug out is moved back from, the work goes on."""
 import csv
 import json
+import math
 import pathlib
 import shutil
 import subprocess
@@ -58,6 +59,10 @@ def bench_move():
     truth = json.loads((out / "truth.json").read_text())
     assert truth["bench_moves"][0]["distance_m"] == asked["distance_m"], truth["bench_moves"]
     assert any(e["event"] == "moved" for e in events)
+    moved_s = truth["bench_moves"][0]["from_s"]
+    with open(out / "trace.csv", encoding="utf-8") as trace:
+        swing_deg = next(math.degrees(float(row["swing_rad"])) for row in csv.DictReader(trace) if float(row["time_s"]) >= moved_s)
+    assert 1.0 < abs(swing_deg) < 3.1, f"{swing_deg:.2f} degrees: straight ahead the implements' sides lie on the edges of the kernel's cells"
     shutil.rmtree(out)
     shutil.rmtree(folder)
 
