@@ -76,7 +76,7 @@ struct ApproachTask {
   std::optional<PlanePoint> entry;  // where the drag begins; without: stay high
   bool keeps_load = false;          // the bucket stays level on the way
 };
-// High and folded, top below it. Nothing where the machine does not reach that.
+// High and folded, over what is as high as top (z). Nothing where the machine cannot stand so.
 std::optional<Joints> raised_pose(const MachineModel& machine, double top, bool keeps_load);
 // Where the implements are over the way, and at its end. Swing entries are not used.
 struct ApproachPoses { Joints back{}, end{}; };

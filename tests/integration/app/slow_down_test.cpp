@@ -149,6 +149,25 @@ TEST(SlowedSwing, IsCounted) {
   EXPECT_EQ(slowed.spans(), spans);
 }
 
+// Every joint at a tenth of its speed, as while the kernel learns a truck's lane: the arm, which is drawn in as the bucket opens, keeps to the bucket, or what
+// is poured falls short of the bed.
+TEST(SlowedJoints, TheArmIsDrawnInAsTheBucketOpens) {
+  Loading free(1, start_pose()), slow(1, start_pose());
+  for (Loading* run : {&free, &slow}) {
+    go_to_swing(*run, 2);
+    const double had = run->plant.site().bed_mass();
+    if (run == &slow)
+      for (std::size_t j = 0; j < joints; ++j) run->plant.most_speed[j] = 0.1 * run->machine.joint[j].velocity_max;
+    for (const double end = run->seconds + 120.0; run->seconds < end && run->last.phase != BERM_PHASE_SWING_TO_DIG;) run->step();
+    for (std::size_t j = 0; j < joints; ++j) run->plant.most_speed[j] = run->machine.joint[j].velocity_max;
+    for (const double end = run->seconds + 60.0; run->seconds < end && run->last.phase != BERM_PHASE_DIG;) run->step();
+    EXPECT_GT(run->plant.site().bed_mass(), had + 700.0) << "nothing was dumped";
+  }
+  EXPECT_GT(slow.seconds, free.seconds + 15.0) << "it was not slowed: the test shows nothing";
+  EXPECT_GE(slow.plant.site().bed_mass(), 0.95 * free.plant.site().bed_mass());
+  EXPECT_LE(slow.plant.site().spilled_mass(), 20.0);
+}
+
 // Which ends of the scanners' ranges are asked for during a swing to the truck whose first seconds are slowed to a tenth.
 int ends_asked_for(double slowed_s) {
   Loading run(1, start_pose());
