@@ -90,7 +90,7 @@ void Sequencer::watch_joints(const Observation& o) {
 // swing angle finds the implements where the search for the script's parameters had them. The other rules go ahead, into safer poses.
 Joints Sequencer::tempos() const {
   constexpr double least = 0.2;  // a swing that hardly moves may be waiting for the very joint
-  constexpr double least_of_bucket = 0.05;
+  constexpr double least_of_bucket = 0.05;  // less is a stop
   const double share = std::max(least, arm_.shares()[swing]);
   Joints tempo{1.0, 1.0, 1.0, 1.0};
   if (reach_again_.active()) return tempo;
@@ -98,7 +98,7 @@ Joints Sequencer::tempos() const {
     if (script_.of(j).waited_for(swing)) tempo[j] = share;
   // A bucket that still opens when the swing has turned round is timed by it no more.
   if (script_.of(swing).reached(RuleMark::returns) && script_.of(bucket).rules()[static_cast<std::size_t>(script_.of(bucket).active())].mark == RuleMark::opens) tempo[bucket] = 1.0;
-  // So is what waited for the bucket: an arm that is drawn in as the bucket opens, at a share of its speed, would be drawn in before a slowed one has opened.
+  // What waited for the bucket is timed by the bucket: an arm that is drawn in as it opens, at a share of its speed, would be drawn in before a slowed one has opened.
   const double opens = std::max(least_of_bucket, tempo[bucket] * arm_.shares()[bucket]);
   for (const Joint j : {boom, stick})
     if (script_.of(j).waited_for(bucket)) tempo[j] = std::min(tempo[j], opens);

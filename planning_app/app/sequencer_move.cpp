@@ -43,7 +43,7 @@ void Sequencer::begin_move_back(const Observation& o, const char* why) {
                                  {"advice", "switch run off, have the truck make way, tram the machine straight back by the distance, press relearn and reset, switch run on"}});
   const double middle = 0.5 * (site_.dig_swing_left + site_.dig_swing_right);
   const auto pose = raised_pose(machine_, over_heaps, brings_load_);
-  if (const auto script = raised(o, pose ? move_bearing(machine_, *pose, middle, kernel_map_.cell()) : middle)) begin_script(*script);
+  if (const auto script = pose ? raised(o, move_bearing(machine_, *pose, middle, kernel_map_.cell())) : std::nullopt) begin_script(*script);
   else script_s_ = -1.0;
   enter(Stage::raise_for_move, o);
 }
@@ -53,9 +53,10 @@ Joints Sequencer::raise_for_move(const Observation& o) {
   if (o.time_s - stage_s_ < raising_patience) {
     const Joints command = run_script(o, event_none);
     const Joints goals = script_.goals();
-    const bool near = std::equal(goals.begin(), goals.end(), o.angle.begin(), [](double g, double a) { return std::fabs(g - a) < radians(4.0); });
-    const bool over_cells = std::fabs(goals[swing] - o.angle[swing]) < radians(0.5);  // move_bearing
-    if (!(script_.at_last() && near && over_cells)) return command;
+    constexpr Joints close{radians(0.5), radians(4.0), radians(4.0), radians(4.0)};  // of the swing: move_bearing
+    bool near = true;
+    for (std::size_t j = 0; j < joints; ++j) near = near && std::fabs(goals[j] - o.angle[j]) < close[j];
+    if (!(script_.at_last() && near)) return command;
   }
   saw_run_ = false;
   enter(Stage::ask_move, o);

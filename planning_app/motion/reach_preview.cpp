@@ -202,6 +202,15 @@ double bucket_width(const MachineModel& machine) {
   return 1.85 * half;  // the prism covers the bucket with some room
 }
 
+Extent extent_of(const MachineModel& machine, const Prism& part, const Joints& pose) {
+  Extent extent{INFINITY, -INFINITY};
+  for_points(machine, part, outline_points(part, corners_only), pose, [&](const PlanePoint& p) {
+    extent.near = std::min(extent.near, p.r);
+    extent.far = std::max(extent.far, p.r);
+  });
+  return extent;
+}
+
 double reach_of(const MachineModel& machine, const Joints& pose) {
   double reach = 0.0;
   for (const Prism& part : machine.parts)

@@ -55,6 +55,10 @@ double bucket_underside(const MachineModel& machine, const Joints& pose);
 // Of the bucket's cutting edge.
 double bucket_width(const MachineModel& machine);
 
+// From how near to how far from the swing axis a part lies in a pose, in the swing plane, m.
+struct Extent { double near, far; };
+Extent extent_of(const MachineModel& machine, const Prism& part, const Joints& pose);
+
 // Farthest point of the implements from the swing axis in a pose.
 double reach_of(const MachineModel& machine, const Joints& pose);
 

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "app_bench/bench_machine.hpp"
 #include "motion/arm_kinematics.hpp"
 #include "motion/reach_preview.hpp"
@@ -22,6 +24,21 @@ TEST(BucketUnderside, ClearsTheTruckInTheCarryingPose) {
   const MachineModel m = berm::app_bench::zx200();
   EXPECT_GT(bucket_underside(m, carry), 0.30 + 0.30 + 0.5);  // wall, the kernel's margin, the spread of a stop
   EXPECT_LT(reach_of(m, carry), m.braking.reach.front());    // first row of the braking table
+}
+
+// Level and straight a link's frame lies along the swing plane's r: the outline's own x, from its pin on.
+TEST(ExtentOf, IsTheOutlinesWhereTheLinkLiesLevelAndNoFartherThanTheReach) {
+  const MachineModel m = berm::app_bench::zx200();
+  const Joints level{};
+  const ArmPoints arm = forward(m, level);
+  for (const Prism& part : m.parts) {
+    double low = 1e9, high = -1e9;
+    for (const auto& point : part.outline) low = std::min(low, point[0]), high = std::max(high, point[0]);
+    const double pin = part.link == boom ? arm.boom_pin.r : part.link == stick ? arm.stick_pin.r : arm.bucket_pin.r;
+    EXPECT_NEAR(extent_of(m, part, level).near, pin + low, 1e-9) << part.link;
+    EXPECT_NEAR(extent_of(m, part, level).far, pin + high, 1e-9) << part.link;
+    EXPECT_LE(extent_of(m, part, carry).far, reach_of(m, carry)) << part.link;
+  }
 }
 
 TEST(StopTravel, GrowsWithSpeedAndReachAndCoversTheTable) {
