@@ -151,8 +151,8 @@ static void take_up(sk_stop_state *s, stop_demand d)
   @ ensures sk_stop_valid(s);
   @ ensures fault: s->code == SK_STATE_FAULT <==> d.rank == SK_RANK_FAULT;
   @ ensures latch: s->code == SK_STATE_STOPPED <==> d.rank == SK_RANK_LATCH && \old(s->code) == SK_STATE_STANDBY;
-  @ ensures run: s->code == SK_STATE_RUN <==>
-  @   d.rank == SK_RANK_NONE && d.go == true && \old(s->code) == SK_STATE_STANDBY && \old(s->run_release) == SK_RELEASE_SEEN;
+  @ ensures run: s->code == SK_STATE_RUN <==> d.rank == SK_RANK_NONE && d.go == true && settled == true &&
+  @   \old(s->code) == SK_STATE_STANDBY && \old(s->run_release) == SK_RELEASE_SEEN;
   @ ensures release: s->latched == false ==> s->run_release ==
   @   (\old(s->code) == SK_STATE_STANDBY && s->code == SK_STATE_STANDBY && d.off == true ? SK_RELEASE_SEEN : \old(s->run_release));
   @ ensures init: s->code == SK_STATE_INIT ==> \old(s->code) == SK_STATE_INIT;
@@ -160,7 +160,7 @@ static void take_up(sk_stop_state *s, stop_demand d)
   @ ensures cut: d.cut == true && s->code != SK_STATE_INIT ==> s->category == SK_CATEGORY_0;
   @ ensures rest: s->code != SK_STATE_STOPPING && (s->code == SK_STATE_STOPPED ==> s->latched == true);
   @*/
-static void step_idle(sk_stop_state *s, stop_demand d, bool inputs_ready)
+static void step_idle(sk_stop_state *s, stop_demand d, bool inputs_ready, bool settled)
 {
   uint8_t category = d.cut ? SK_CATEGORY_0 : SK_CATEGORY_1;
   if (d.rank == SK_RANK_FAULT) {
@@ -171,7 +171,7 @@ static void step_idle(sk_stop_state *s, stop_demand d, bool inputs_ready)
     enter_latched(s, SK_STATE_STOPPED, SK_RANK_LATCH, d.reason, category);
   } else if (d.off) {
     s->run_release = SK_RELEASE_SEEN;
-  } else if (d.rank == SK_RANK_NONE && d.go && s->run_release == SK_RELEASE_SEEN) {
+  } else if (d.rank == SK_RANK_NONE && d.go && settled && s->run_release == SK_RELEASE_SEEN) {
     enter_idle(s, SK_STATE_RUN);
   }
 }
@@ -315,8 +315,8 @@ static void step_latched(sk_stop_state *s, stop_demand d, bool standstill, bool 
   @ assigns s->code, s->run_release, s->rank, s->reason, s->category, s->latched, s->reset_seen_released;
   @ ensures sk_stop_valid(s);
   @ ensures run: s->code == SK_STATE_RUN <==> d.rank == SK_RANK_NONE && d.go == true && \old(s->latched) == false &&
-  @   ((\old(s->code) == SK_STATE_STANDBY && \old(s->run_release) == SK_RELEASE_SEEN) || \old(s->code) == SK_STATE_RUN ||
-  @    (\old(s->code) == SK_STATE_STOPPED && sk_stop_settled{Pre}(s, in)));
+  @   (\old(s->code) == SK_STATE_RUN || (sk_stop_settled{Pre}(s, in) && (\old(s->code) == SK_STATE_STOPPED ||
+  @    (\old(s->code) == SK_STATE_STANDBY && \old(s->run_release) == SK_RELEASE_SEEN))));
   @ ensures release: s->latched == false ==> s->run_release ==
   @   (\old(s->code) == SK_STATE_STANDBY && s->code == SK_STATE_STANDBY && d.off == true ? SK_RELEASE_SEEN : \old(s->run_release));
   @ ensures init: s->code == SK_STATE_INIT ==> \old(s->code) == SK_STATE_INIT;
@@ -340,7 +340,7 @@ static void advance(sk_stop_state *s, stop_demand d, const sk_stop_input *in)
   else if (s->code == SK_STATE_STOPPING) { step_stopping(s, d, in->standstill, is_overdue(s, in)); }
   else if (s->latched) { step_latched(s, d, in->standstill, in->operator_reset); }
   else if (s->code == SK_STATE_STOPPED) { step_held(s, d, is_settled(s, in)); }
-  else { step_idle(s, d, in->inputs_ready); }
+  else { step_idle(s, d, in->inputs_ready, is_settled(s, in)); }
 }
 
 /*@ requires \valid_read(s) && sk_stop_shaped(s);

@@ -30,7 +30,7 @@ SK_BEGIN
 #define SK_CATEGORY_NONE 255u
 
 #define SK_STOPPING_LIMIT_US 6000000 /* a stop that has not come to standstill by then is a fault (BERM_STOP_BRAKING), category 0 */
-#define SK_RESUME_QUIET_US 300000    /* a held stop resumes when no hold reason was seen for so long: noise must not start and stop the machine */
+#define SK_RESUME_QUIET_US 300000    /* RUN begins, and resumes, when no hold reason was seen for so long: noise must not start and stop the machine */
 
 /* Inputs of one cycle. reason codes are BERM_STOP_* of the contract; a code that is none of them is read as the fault BERM_STOP_INTERNAL. */
 typedef struct sk_stop_input {
@@ -56,7 +56,7 @@ typedef struct sk_stop_state {
   bool latched;
   bool reset_seen_released;  /* a reset counts only after the key was seen released in this latched stop */
   int64_t since_us;          /* when this state was entered */
-  int64_t hold_seen_us;      /* the last cycle with a hold reason */
+  int64_t hold_seen_us;      /* the last cycle with a hold reason; -1: none yet */
 } sk_stop_state;
 
 typedef struct sk_stop_output {
@@ -106,7 +106,7 @@ typedef struct sk_stop_output {
 
 /*@ requires \valid(s);
   @ assigns *s;
-  @ ensures sk_stop_valid(s) && s->code == SK_STATE_INIT && s->run_release == SK_RELEASE_AWAITED && s->since_us == 0 && s->hold_seen_us == 0;
+  @ ensures sk_stop_valid(s) && s->code == SK_STATE_INIT && s->run_release == SK_RELEASE_AWAITED && s->since_us == 0 && s->hold_seen_us == -1;
   @*/
 void sk_stop_init(sk_stop_state *s);
 
@@ -153,11 +153,11 @@ bool sk_stop_is_valid(const sk_stop_state *s);
   @   s->run_release == SK_RELEASE_SEEN;
   @ ensures interlock_kept: \old(s->run_release) == SK_RELEASE_SEEN && s->latched == false ==> s->run_release == SK_RELEASE_SEEN;
   @ ensures starts: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_STANDBY && \old(s->run_release) == SK_RELEASE_SEEN &&
-  @   sk_stop_quiet{Pre}(in) && sk_stop_go{Pre}(in) ==> s->code == SK_STATE_RUN;
+  @   sk_stop_quiet{Pre}(in) && sk_stop_go{Pre}(in) && sk_stop_settled{Pre}(s, in) ==> s->code == SK_STATE_RUN;
   @ ensures runs_on: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_RUN && sk_stop_quiet{Pre}(in) && sk_stop_go{Pre}(in) ==> s->code == SK_STATE_RUN;
   @ ensures resumes: sk_stop_valid{Pre}(s) && \old(s->code) == SK_STATE_STOPPED && \old(s->latched) == false && sk_stop_quiet{Pre}(in) &&
   @   sk_stop_go{Pre}(in) && sk_stop_settled{Pre}(s, in) ==> s->code == SK_STATE_RUN;
-  @ ensures waits: \old(s->code) == SK_STATE_STOPPED && s->code == SK_STATE_RUN ==> sk_stop_settled{Pre}(s, in);
+  @ ensures waits: s->code == SK_STATE_RUN && \old(s->code) != SK_STATE_RUN ==> sk_stop_settled{Pre}(s, in);
   @ ensures resets: sk_stop_valid{Pre}(s) && (\old(s->code) == SK_STATE_STOPPED || \old(s->code) == SK_STATE_FAULT) &&
   @   \old(s->latched) == true && sk_stop_reset{Pre}(s, in) ==> s->code == SK_STATE_STANDBY;
   @ ensures since: s->code != \old(s->code) ==> s->since_us == in->now_us;

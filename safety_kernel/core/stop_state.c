@@ -11,7 +11,7 @@ void sk_stop_init(sk_stop_state *s)
   s->latched = false;
   s->reset_seen_released = false;
   s->since_us = 0;
-  s->hold_seen_us = 0;
+  s->hold_seen_us = -1;
 }
 
 /*@ requires \valid_read(s);

@@ -22,7 +22,8 @@ std::uint8_t Cycle::published_reason() const {
   if (held()) return last_hold_reason_;
   if (stop_.reason != BERM_STOP_NONE || stop_.code != SK_STATE_STANDBY) return stop_.reason;
   // In STANDBY nothing is stopped, but the app should know why RUN does not begin.
-  return app_.heard ? hold_reason_ : static_cast<std::uint8_t>(BERM_STOP_NONE);
+  if (!app_.heard) return BERM_STOP_NONE;
+  return settling_ ? last_hold_reason_ : hold_reason_;
 }
 
 // The blocking cell of this cycle; of a latched stop that has one, the one that it was latched for.
@@ -37,9 +38,10 @@ Cycle::ShownCell Cycle::cell_of(std::uint8_t reason) const {
   return cell;
 }
 
-// While a held stop waits for its reason to stay away the place of that is shown, not none.
+// While a held stop, or the start, waits for a reason to stay away the place of that is shown, not none.
 Cycle::ShownCell Cycle::shown_cell() const {
-  return held() && hold_reason_ == BERM_STOP_NONE ? last_hold_cell_ : cell_of(published_reason());
+  const bool waits = held() || (settling_ && stop_.code == SK_STATE_STANDBY && app_.heard);
+  return waits && hold_reason_ == BERM_STOP_NONE ? last_hold_cell_ : cell_of(published_reason());
 }
 
 std::uint32_t Cycle::panel_flags(std::int64_t now_us) const {

@@ -58,7 +58,7 @@ Goal goal(const sk_stop_state& s, const sk_stop_input& in) {
     case SK_STATE_STANDBY:
       if (ask.rank == 3) return {SK_STATE_FAULT, 3, ask.reason, ask.cut ? 0 : 1, false};
       if (ask.rank == 2) return {SK_STATE_STOPPED, 2, ask.reason, ask.cut ? 0 : 1, false};
-      return ask.rank == 0 && go && s.run_release == kSeen ? run : idle_here;
+      return ask.rank == 0 && go && settled && s.run_release == kSeen ? run : idle_here;
     case SK_STATE_RUN:
       if (ask.rank == 0 && go) return idle_here;
       if (ask.rank == 3 && ask.cut) return {SK_STATE_FAULT, 3, ask.reason, 0, false};

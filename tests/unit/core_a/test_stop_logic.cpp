@@ -51,6 +51,34 @@ TEST_F(StopLogic, Starts) {
   EXPECT_TRUE(out.heartbeat_enable);
 }
 
+// verifies: SK-ST-5
+TEST_F(StopLogic, DoesNotBeginInNoise) {
+  ASSERT_EQ(step(), SK_STATE_STANDBY);
+  ASSERT_EQ(step_switched_off(), SK_STATE_STANDBY);
+  for (int cycle = 0; cycle < 250; ++cycle) {
+    in.hold_reason = cycle % 29 == 0 ? BERM_STOP_UNKNOWN_GROUND : 0;
+    ASSERT_EQ(step(), SK_STATE_STANDBY) << "cycle " << cycle;
+  }
+  in.hold_reason = BERM_STOP_UNKNOWN_GROUND;
+  step();
+  in.hold_reason = 0;
+  for (int cycle = 1; cycle < 30; ++cycle) ASSERT_EQ(step(), SK_STATE_STANDBY) << "cycle " << cycle;
+  EXPECT_EQ(step(), SK_STATE_RUN);
+}
+
+// verifies: SK-ST-5, SK-ST-13
+TEST_F(StopLogic, ASwitchTurnedOffAndOnDoesNotCutTheWaitShort) {
+  start();
+  in.standstill = true;
+  in.hold_reason = BERM_STOP_STALE_GROUND;
+  step();
+  ASSERT_EQ(step(), SK_STATE_STOPPED);
+  in.hold_reason = 0;
+  ASSERT_EQ(step_switched_off(), SK_STATE_STANDBY);
+  for (int cycle = 2; cycle < 30; ++cycle) ASSERT_EQ(step(), SK_STATE_STANDBY) << "cycle " << cycle;
+  EXPECT_EQ(step(), SK_STATE_RUN);
+}
+
 // verifies: SK-ST-10, SK-ST-11, SK-ST-13, SK-ST-32
 TEST_F(StopLogic, AHoldResumesByItself) {
   start();
@@ -141,6 +169,7 @@ TEST_F(StopLogic, ARunSwitchThatWasLeftOnStartsNothing) {
   EXPECT_EQ(step_switched_off(), SK_STATE_STANDBY);
   EXPECT_EQ(step(), SK_STATE_STANDBY);
   in.hold_reason = 0;
+  in.now_us += SK_RESUME_QUIET_US;
   EXPECT_EQ(step(), SK_STATE_RUN) << "what held meanwhile is another matter";
 }
 

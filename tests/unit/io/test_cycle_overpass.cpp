@@ -83,6 +83,30 @@ TEST_F(CycleOverpass, UntilItGoesOnItSaysWhereItWasStopped) {
   EXPECT_EQ(rig->state().blocked_height_mm, 0);
 }
 
+// verifies: SK-CY-2, SK-CY-27
+TEST_F(CycleOverpass, WhatStandsByForItSaysSo) {
+  begin();
+  swing(1500);
+  ASSERT_EQ(rig->state().stop_reason, BERM_STOP_OVERPASS);
+  rig->machine.run_switch = false;
+  rig->steps(5);
+  ASSERT_EQ(rig->state().kernel_state, BERM_STATE_STANDBY);
+  ASSERT_EQ(rig->state().stop_reason, BERM_STOP_OVERPASS);
+  rig->machine.run_switch = true;
+  rig->wanted_urad_s[0] = -300000;  // away from it
+  int waited = 0;
+  for (rig->steps(1); rig->state().kernel_state == BERM_STATE_STANDBY && waited < 100; ++waited) {
+    EXPECT_EQ(rig->state().stop_reason, BERM_STOP_OVERPASS) << waited;
+    EXPECT_GT(rig->state().blocked_height_mm, parameters.pass_over_mm) << waited;
+    EXPECT_GT(rig->state().blocked_y_mm, 6000) << waited;
+    rig->steps(1);
+  }
+  EXPECT_EQ(rig->state().kernel_state, BERM_STATE_RUN);
+  EXPECT_GE(waited, SK_RESUME_QUIET_US / 10'000 - 2);
+  EXPECT_EQ(rig->state().stop_reason, BERM_STOP_NONE);
+  EXPECT_EQ(rig->state().blocked_height_mm, 0);
+}
+
 // verifies: SK-CY-36
 TEST_F(CycleOverpass, AnAdmittedTruckInItsZoneIsPassedOverAndNoOther) {
   parameters.truck_zones = 1;
