@@ -8,6 +8,8 @@
 #include "app/pour_watch.hpp"
 #include "app_bench/bench_machine.hpp"
 #include "app_bench/bench_site.hpp"
+#include "app_bench/events.hpp"
+#include "app_bench/loading.hpp"
 
 namespace {
 
@@ -190,6 +192,41 @@ TEST(PourWatch, AStreamIsBesideTheBedShortOfTheWallAndBeyondIt) {
   EXPECT_EQ(share(middle, bearing), 0.0);
   EXPECT_EQ(share(middle - bed.width, bearing), 1.0);
   EXPECT_EQ(share(middle, bearing - radians(70.0)), 1.0) << "on the way there";
+}
+
+// Each bucket is tilted by hand short of the wall and loses as much there. What slides off a heap meanwhile is booked on top once there is one: from six tenths of
+// a truck's load on.
+TEST(PourWatch, TheTruckHasAHeapFromSixTenthsOfItsLoadOn) {
+  constexpr double lost_kg = 200.0, noise_kg = 16.0, target_kg = 18000.0;
+  constexpr int tilted_cycles = 40;
+  const berm::app_bench::Events events;
+  berm::app_bench::Loading run(1, berm::app_bench::start_pose(), events.fd());
+  run.plant.has_pressures = true;
+  const TruckBed bed = berm::app_bench::bench_bed();
+  int tilted = 0;
+  const auto passes = [&events] { return events.named("pass"); };
+  const auto loaded_kg = [](const std::vector<nlohmann::json>& all) { return all.empty() ? 0.0 : all.back().at("loaded_kg").get<double>(); };
+  for (long k = 0; run.seconds < 400.0 && (k % 100 != 0 || loaded_kg(passes()) < 0.8 * target_kg); ++k) {
+    run.step();
+    if (run.last.phase == BERM_PHASE_DIG) tilted = 0;
+    const Joints& q = run.plant.angle();
+    const bool arrives = run.last.phase == BERM_PHASE_SWING_TO_TRUCK && q[swing] > radians(60.0) && share_beside(run.machine, bed, q, 0.5) == 1.0;
+    if (!arrives || tilted >= tilted_cycles) continue;
+    run.plant.put(bucket, q[bucket] + radians(-158.0) - forward(run.machine, q).bucket_attitude);
+    run.plant.take(lost_kg / tilted_cycles);
+    ++tilted;
+  }
+  int onto_floor = 0, onto_heap = 0;
+  double had_kg = 0.0;
+  for (const nlohmann::json& pass : passes()) {
+    const bool heap = had_kg > 0.6 * target_kg;
+    had_kg = pass.at("loaded_kg");
+    if (pass.at("pass") < 4) continue;  // what a bucket weighs out there is learned first
+    ++(heap ? onto_heap : onto_floor);
+    EXPECT_NEAR(pass.at("beside_kg").get<double>(), (heap ? 1.3 : 1.0) * (lost_kg - noise_kg), 12.0) << pass;
+  }
+  EXPECT_GE(onto_floor, 3);
+  EXPECT_GE(onto_heap, 2);
 }
 
 }  // namespace
