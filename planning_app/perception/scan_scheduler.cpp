@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "contract/berm_contract.h"
 
@@ -26,6 +27,13 @@ ScanScheduler::ScanScheduler(const MachineModel& machine) : machine_(machine) {}
 
 void ScanScheduler::begin_full_sweep() {
   for (Head& h : head_) h.low_seen = h.high_seen = false;
+  slowed_ = false;
+}
+
+void ScanScheduler::sweep_while_slowed() {
+  begin_full_sweep();
+  slowed_ = slowed_now_ = true;
+  at_end_s_ = 0.0;
 }
 
 bool ScanScheduler::full_sweep_done() const {
@@ -71,9 +79,25 @@ PanSector ScanScheduler::sector(std::size_t scanner, std::uint16_t phase, double
 // fall: the swing does not wait until it comes in its turn.
 PanSector ScanScheduler::unseen_sector(std::size_t scanner, bool leads_to_dig) const {
   const PanSector whole{machine_.scanner[scanner].pan_low, machine_.scanner[scanner].pan_high};
-  if (!leads_to_dig) return whole;
-  if (scanner == right) return head_[right].low_seen ? whole : PanSector{whole.low, whole.low + narrowest};
-  return head_[left].high_seen ? whole : PanSector{whole.high - narrowest, whole.high};
+  const bool end_seen = scanner == right ? head_[right].low_seen : head_[left].high_seen;
+  return !leads_to_dig || end_seen ? whole : end_beyond_dig(scanner);
+}
+
+PanSector ScanScheduler::end_beyond_dig(std::size_t scanner) const {
+  const ScannerMount& mount = machine_.scanner[scanner];
+  return scanner == right ? PanSector{mount.pan_low, mount.pan_low + narrowest} : PanSector{mount.pan_high - narrowest, mount.pan_high};
+}
+
+// beyond_dig_by: of where a scanner looks, rad. One that goes beyond the dig has seen its end there when the swing has carried it past, or will not.
+void ScanScheduler::note_seen(std::size_t scanner, double pan, bool goes_beyond, double beyond_dig_by) {
+  constexpr double waits_at_most_s = 3.0;
+  const ScannerMount& mount = machine_.scanner[scanner];
+  const bool at_low = pan < mount.pan_low + 2.0 * at_end, at_high = pan > mount.pan_high - 2.0 * at_end;
+  const bool waits = goes_beyond && (scanner == right ? at_low : at_high);
+  if (waits) at_end_s_ += machine_.cycle;
+  if (waits && beyond_dig_by < before_dig && at_end_s_ < waits_at_most_s) return;
+  head_[scanner].low_seen = head_[scanner].low_seen || at_low;
+  head_[scanner].high_seen = head_[scanner].high_seen || at_high;
 }
 
 // While the other scanner looks at the truck.
@@ -122,8 +146,11 @@ PanRequest ScanScheduler::look(double swing_angle, double pan) {
 std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, double truck, double swing_angle, double swing_speed, const std::array<double, 2>& pan) {
   std::array<PanRequest, 2> request;
   const std::size_t ahead = truck >= dig ? left : right;
+  const double side = truck >= dig ? 1.0 : -1.0;
+  const bool slow = std::exchange(slowed_now_, false);
+  const bool back_soon = slowed_ && !slow && (phase == BERM_PHASE_DUMP || phase == BERM_PHASE_SWING_TO_DIG);
   if (phase != BERM_PHASE_SWING_TO_TRUCK) far_seen_ = false;
-  else if ((truck >= dig ? 1.0 : -1.0) * (pan[ahead] + swing_angle - truck) > past_truck) far_seen_ = true;
+  else if (side * (pan[ahead] + swing_angle - truck) > past_truck) far_seen_ = true;
   for (std::size_t i = 0; i < head_.size(); ++i) {
     const ScannerMount& mount = machine_.scanner[i];
     Head& head = head_[i];
@@ -131,16 +158,17 @@ std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, d
       request[i] = look(swing_angle, pan[i]);
       continue;
     }
-    if (pan[i] < mount.pan_low + 2.0 * at_end) head.low_seen = true;
-    if (pan[i] > mount.pan_high - 2.0 * at_end) head.high_seen = true;
+    if (!slow) note_seen(i, pan[i], back_soon && i != ahead, side * (dig - pan[i] - swing_angle));
     const bool whole = !(head.low_seen && head.high_seen);
+    const bool to_dig = whole && i != ahead && (back_soon || phase == BERM_PHASE_SWING_TO_DIG);
     const PanSector beside = beside_look(i, dig, truck, swing_angle);
     if (i != looker_ && (i == right ? pan[i] > beside.high - at_end : pan[i] < beside.low + at_end)) feet_seen_ = true;
-    const PanSector s = whole ? unseen_sector(i, i != ahead && phase == BERM_PHASE_SWING_TO_DIG) : look_ != Look::none ? beside : sector(i, phase, dig, truck, swing_angle);
+    const PanSector s = whole ? unseen_sector(i, to_dig) : look_ != Look::none ? beside : sector(i, phase, dig, truck, swing_angle);
     if (pan[i] > s.high - at_end) head.up = false;
     if (pan[i] < s.low + at_end) head.up = true;
     const double direction = head.up ? 1.0 : -1.0;
-    const double rate = std::max(radians(1.0), azimuth_rate - direction * swing_speed);
+    const bool hurries = to_dig && back_soon && s.high - s.low < 2.0 * narrowest && (pan[i] < s.low || pan[i] > s.high);
+    const double rate = hurries ? mount.pan_rate_max : std::max(radians(1.0), azimuth_rate - direction * swing_speed);
     request[i] = {head.up ? s.high : s.low, std::min(rate, mount.pan_rate_max)};
   }
   return request;

@@ -23,7 +23,11 @@ public:
 
   // Both scanners sweep their whole range once, and count again from now.
   void begin_full_sweep();
-  // Both have seen their whole range since begin_full_sweep.
+  // In every cycle of a motion that is let out slowly for long: both sweep their whole ranges meanwhile. As soon as it is slow no more, over the truck or on the
+  // swing back, the scanner on the dig's side hurries to its end there and stays until the swing has carried it past what lies beyond the dig: a head over the truck
+  // does not reach so far, and to what it saw before the swing out the ground has grown old.
+  void sweep_while_slowed();
+  // Both have seen their whole range since begin_full_sweep or sweep_while_slowed.
   bool full_sweep_done() const;
 
   // Sweeps one scanner over these bearings (base frame) once, from the end that is nearer, slowly enough for the truck recogniser (a scanline a degree);
@@ -47,6 +51,8 @@ private:
 
   PanRequest look(double swing_angle, double pan);
   PanSector unseen_sector(std::size_t scanner, bool leads_to_dig) const;
+  PanSector end_beyond_dig(std::size_t scanner) const;
+  void note_seen(std::size_t scanner, double pan, bool goes_beyond, double beyond_dig_by);
   PanSector beside_look(std::size_t scanner, double dig_bearing, double truck_bearing, double swing_angle) const;
   PanSector to_pans(std::size_t scanner, const PanSector& bearings, double swing_angle) const;
 
@@ -56,6 +62,8 @@ private:
   std::size_t looker_ = 0;
   PanSector look_bearings_;
   bool look_up_ = true;
+  bool slowed_ = false, slowed_now_ = false;  // the whole sweep is one for slowness; it was asked for in this cycle
+  double at_end_s_ = 0.0;  // waits at the end beyond the dig
   bool feet_seen_ = false;
   bool far_seen_ = false;  // during this swing to the truck the leading scanner has seen the ground beyond the truck
 };
