@@ -24,8 +24,8 @@ public:
   // Both scanners sweep their whole range once, and count again from now.
   void begin_full_sweep();
   // In every cycle of a motion that is let out slowly for long: both sweep their whole ranges meanwhile. As soon as it is slow no more, over the truck or on the
-  // swing back, the scanner on the dig's side hurries to its end there and stays until the swing has carried it past what lies beyond the dig: a head over the truck
-  // does not reach so far, and to what it saw before the swing out the ground has grown old.
+  // swing back, the scanner on the dig's side hurries to its end there and stays until the swing has carried it past what lies beyond the dig: from over the truck
+  // it does not reach so far, and what it saw there before the swing out is old by then.
   void sweep_while_slowed();
   // Both have seen their whole range since begin_full_sweep or sweep_while_slowed.
   bool full_sweep_done() const;
