@@ -261,11 +261,11 @@ Answer Sequencer::step(const Observation& o) {
   if (o.running())
     for (std::size_t j = 0; j < joints; ++j) answer.velocity[j] = std::clamp(answer.velocity[j], o.permitted_low[j], o.permitted_high[j]);
   arm_.asked(answer.velocity);
-  // A motion that is let out slowly for long: ground grows old on which the looks of its phase do not fall.
-  if (slow_down_.lasts_s() > slow_for_long) scanners_.sweep_while_slowed();
   const double truck_bearing = site_.bed ? std::atan2(site_.bed->centre_y, site_.bed->centre_x) : std::atan2(site_.place.y, site_.place.x);
   const bool lifts_soon = stage_ == Stage::curl || (stage_ == Stage::dig && follower_.progress() > 0.6);
-  answer.pan = scanners_.step(lifts_soon ? std::uint16_t{BERM_PHASE_LIFT} : phase_, task_.next_bearing, truck_bearing, o.angle[swing], o.velocity[swing], o.pan);
+  // A motion that is let out slowly for long: ground grows old on which the looks of its phase do not fall.
+  const bool slowed_long = slow_down_.lasts_s() > slow_for_long;
+  answer.pan = scanners_.step(lifts_soon ? std::uint16_t{BERM_PHASE_LIFT} : phase_, task_.next_bearing, truck_bearing, o.angle[swing], o.velocity[swing], o.pan, slowed_long);
   answer.phase = phase_;
   answer.horn = sounds_full(o) || (stage_ == Stage::ask_move && sounds_move_back(o.time_s - stage_s_, back_m_));
   return answer;

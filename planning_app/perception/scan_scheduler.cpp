@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "contract/berm_contract.h"
 
@@ -27,12 +26,7 @@ ScanScheduler::ScanScheduler(const MachineModel& machine) : machine_(machine) {}
 
 void ScanScheduler::begin_full_sweep() {
   for (Head& h : head_) h.low_seen = h.high_seen = false;
-  slowed_ = false;
-}
-
-void ScanScheduler::sweep_while_slowed() {
-  begin_full_sweep();
-  slowed_ = slowed_now_ = true;
+  was_slowed_ = false;
   at_end_s_ = 0.0;
 }
 
@@ -75,13 +69,7 @@ PanSector ScanScheduler::sector(std::size_t scanner, std::uint16_t phase, double
   return to_pans(scanner, bearings, swing_angle);
 }
 
-// Of a scanner that has not seen its whole range since it was to. On the swing back the ground beyond the dig comes first, on which only the looks of a dig
-// fall: the swing does not wait until it comes in its turn.
-PanSector ScanScheduler::unseen_sector(std::size_t scanner, bool leads_to_dig) const {
-  const PanSector whole{machine_.scanner[scanner].pan_low, machine_.scanner[scanner].pan_high};
-  const bool end_seen = scanner == right ? head_[right].low_seen : head_[left].high_seen;
-  return !leads_to_dig || end_seen ? whole : end_beyond_dig(scanner);
-}
+bool ScanScheduler::end_beyond_dig_seen(std::size_t scanner) const { return scanner == right ? head_[right].low_seen : head_[left].high_seen; }
 
 PanSector ScanScheduler::end_beyond_dig(std::size_t scanner) const {
   const ScannerMount& mount = machine_.scanner[scanner];
@@ -143,12 +131,14 @@ PanRequest ScanScheduler::look(double swing_angle, double pan) {
   return {end, std::min(look_rate, mount.pan_rate_max)};
 }
 
-std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, double truck, double swing_angle, double swing_speed, const std::array<double, 2>& pan) {
+std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, double truck, double swing_angle, double swing_speed, const std::array<double, 2>& pan,
+                                              bool slowed) {
   std::array<PanRequest, 2> request;
   const std::size_t ahead = truck >= dig ? left : right;
   const double side = truck >= dig ? 1.0 : -1.0;
-  const bool slow = std::exchange(slowed_now_, false);
-  const bool back_soon = slowed_ && !slow && (phase == BERM_PHASE_DUMP || phase == BERM_PHASE_SWING_TO_DIG);
+  if (slowed) begin_full_sweep();
+  was_slowed_ = was_slowed_ || slowed;
+  const bool back_soon = was_slowed_ && !slowed && (phase == BERM_PHASE_DUMP || phase == BERM_PHASE_SWING_TO_DIG);
   if (phase != BERM_PHASE_SWING_TO_TRUCK) far_seen_ = false;
   else if (side * (pan[ahead] + swing_angle - truck) > past_truck) far_seen_ = true;
   for (std::size_t i = 0; i < head_.size(); ++i) {
@@ -158,16 +148,17 @@ std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, d
       request[i] = look(swing_angle, pan[i]);
       continue;
     }
-    if (!slow) note_seen(i, pan[i], back_soon && i != ahead, side * (dig - pan[i] - swing_angle));
+    if (!slowed) note_seen(i, pan[i], back_soon && i != ahead, side * (dig - pan[i] - swing_angle));
     const bool whole = !(head.low_seen && head.high_seen);
-    const bool to_dig = whole && i != ahead && (back_soon || phase == BERM_PHASE_SWING_TO_DIG);
+    // On the swing back the ground beyond the dig comes first, on which only the looks of a dig fall: the swing does not wait until it comes in its turn.
+    const bool end_first = whole && i != ahead && (back_soon || phase == BERM_PHASE_SWING_TO_DIG) && !end_beyond_dig_seen(i);
     const PanSector beside = beside_look(i, dig, truck, swing_angle);
     if (i != looker_ && (i == right ? pan[i] > beside.high - at_end : pan[i] < beside.low + at_end)) feet_seen_ = true;
-    const PanSector s = whole ? unseen_sector(i, to_dig) : look_ != Look::none ? beside : sector(i, phase, dig, truck, swing_angle);
+    const PanSector s = end_first ? end_beyond_dig(i) : whole ? PanSector{mount.pan_low, mount.pan_high} : look_ != Look::none ? beside : sector(i, phase, dig, truck, swing_angle);
     if (pan[i] > s.high - at_end) head.up = false;
     if (pan[i] < s.low + at_end) head.up = true;
     const double direction = head.up ? 1.0 : -1.0;
-    const bool hurries = to_dig && back_soon && s.high - s.low < 2.0 * narrowest && (pan[i] < s.low || pan[i] > s.high);
+    const bool hurries = end_first && back_soon && (pan[i] < s.low || pan[i] > s.high);
     const double rate = hurries ? mount.pan_rate_max : std::max(radians(1.0), azimuth_rate - direction * swing_speed);
     request[i] = {head.up ? s.high : s.low, std::min(rate, mount.pan_rate_max)};
   }

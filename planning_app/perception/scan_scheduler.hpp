@@ -23,11 +23,7 @@ public:
 
   // Both scanners sweep their whole range once, and count again from now.
   void begin_full_sweep();
-  // In every cycle of a motion that is let out slowly for long: both sweep their whole ranges meanwhile. As soon as it is slow no more, over the truck or on the
-  // swing back, the scanner on the dig's side hurries to its end there and stays until the swing has carried it past what lies beyond the dig: from over the truck
-  // it does not reach so far, and what it saw there before the swing out is old by then.
-  void sweep_while_slowed();
-  // Both have seen their whole range since begin_full_sweep or sweep_while_slowed.
+  // Both have seen their whole range since begin_full_sweep, or since the motion was slowed.
   bool full_sweep_done() const;
 
   // Sweeps one scanner over these bearings (base frame) once, from the end that is nearer, slowly enough for the truck recogniser (a scanline a degree);
@@ -41,8 +37,11 @@ public:
   bool feet_seen() const { return feet_seen_; }
 
   // phase: BERM_PHASE_*, the one the motion is about to enter where that is known (LIFT before a dig ends); bearings of dig and truck; measured pans, swing angle and speed.
+  // slowed: the motion is let out slowly for long, and both sweep their whole ranges meanwhile. As soon as it is slow no more, over the truck or on the swing back,
+  // the scanner on the dig's side hurries to its end there and stays until the swing has carried it past what lies beyond the dig: from over the truck it does not
+  // reach so far, and what it saw there before the swing out is old by then.
   std::array<PanRequest, 2> step(std::uint16_t phase, double dig_bearing, double truck_bearing, double swing_angle, double swing_speed,
-                                 const std::array<double, 2>& pan);
+                                 const std::array<double, 2>& pan, bool slowed = false);
 
   PanSector sector(std::size_t scanner, std::uint16_t phase, double dig_bearing, double truck_bearing, double swing_angle) const;
 
@@ -50,7 +49,7 @@ private:
   struct Head { bool up = true; bool low_seen = false, high_seen = false; };
 
   PanRequest look(double swing_angle, double pan);
-  PanSector unseen_sector(std::size_t scanner, bool leads_to_dig) const;
+  bool end_beyond_dig_seen(std::size_t scanner) const;
   PanSector end_beyond_dig(std::size_t scanner) const;
   void note_seen(std::size_t scanner, double pan, bool goes_beyond, double beyond_dig_by);
   PanSector beside_look(std::size_t scanner, double dig_bearing, double truck_bearing, double swing_angle) const;
@@ -62,8 +61,8 @@ private:
   std::size_t looker_ = 0;
   PanSector look_bearings_;
   bool look_up_ = true;
-  bool slowed_ = false, slowed_now_ = false;  // the whole sweep is one for slowness; it was asked for in this cycle
-  double at_end_s_ = 0.0;  // waits at the end beyond the dig
+  bool was_slowed_ = false;  // the whole sweep is one for slowness
+  double at_end_s_ = 0.0;    // waits at the end beyond the dig
   bool feet_seen_ = false;
   bool far_seen_ = false;  // during this swing to the truck the leading scanner has seen the ground beyond the truck
 };

@@ -251,11 +251,7 @@ static void step_stopping(sk_stop_state *s, stop_demand d, bool standstill, bool
 }
 
 /* A time of the last hold reason that cannot be is none: nothing but the wait depends on it. */
-/*@ requires \valid_read(s) && \valid_read(in);
-  @ assigns \nothing;
-  @ ensures \result == true <==> sk_stop_settled(s, in);
-  @*/
-static bool is_settled(const sk_stop_state *s, const sk_stop_input *in)
+bool sk_stop_is_settled(const sk_stop_state *s, const sk_stop_input *in)
 {
   return s->hold_seen_us < 0 || in->now_us < s->hold_seen_us || in->now_us - s->hold_seen_us >= SK_RESUME_QUIET_US;
 }
@@ -339,8 +335,8 @@ static void advance(sk_stop_state *s, stop_demand d, const sk_stop_input *in)
   if (s->code == SK_STATE_RUN) { step_run(s, d); }
   else if (s->code == SK_STATE_STOPPING) { step_stopping(s, d, in->standstill, is_overdue(s, in)); }
   else if (s->latched) { step_latched(s, d, in->standstill, in->operator_reset); }
-  else if (s->code == SK_STATE_STOPPED) { step_held(s, d, is_settled(s, in)); }
-  else { step_idle(s, d, in->inputs_ready, is_settled(s, in)); }
+  else if (s->code == SK_STATE_STOPPED) { step_held(s, d, sk_stop_is_settled(s, in)); }
+  else { step_idle(s, d, in->inputs_ready, sk_stop_is_settled(s, in)); }
 }
 
 /*@ requires \valid_read(s) && sk_stop_shaped(s);

@@ -116,6 +116,13 @@ void sk_stop_init(sk_stop_state *s);
   @*/
 bool sk_stop_is_valid(const sk_stop_state *s);
 
+/* Whether no hold reason was seen for so long that RUN may begin or resume. */
+/*@ requires \valid_read(s) && \valid_read(in);
+  @ assigns \nothing;
+  @ ensures \result == true <==> sk_stop_settled(s, in);
+  @*/
+bool sk_stop_is_settled(const sk_stop_state *s, const sk_stop_input *in);
+
 /* Total: a state that is none of the valid ones is read as FAULT (BERM_STOP_INTERNAL), category 0. */
 /*@ requires \valid(s) && \valid_read(in) && \valid(out) && \separated(s, in, out);
   @ assigns *s, *out;

@@ -258,7 +258,7 @@ void Cycle::step_stop_logic(const CycleInputs& in) {
   stop_in.operator_reset = panel_fresh && panel.reset;
   const sk_stop_state before = stop_;
   sk_stop_step(&stop_, &stop_in, &permit_);
-  settling_ = hold_reason_ == BERM_STOP_NONE && last_hold_reason_ != BERM_STOP_NONE && in.now_us - stop_.hold_seen_us < SK_RESUME_QUIET_US;
+  settled_ = sk_stop_is_settled(&stop_, &stop_in);
   count_stop(before);
 }
 

@@ -163,7 +163,7 @@ class Cycle {
   std::uint8_t motion_fault_ = BERM_STOP_NONE;
   std::uint8_t last_hold_reason_ = BERM_STOP_NONE;
   ShownCell last_hold_cell_{};
-  bool settling_ = false;  // nothing holds, but the last that held has not stayed away for long enough
+  bool settled_ = true;  // the last that held has stayed away for long enough
   MotionVerdict tail_met_{};  // when the tail was last stopped: while that is latched its place is shown
   std::int32_t sent_urad_s_[4] = {};
   std::uint32_t map_points_ = 0;

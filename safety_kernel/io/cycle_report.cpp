@@ -23,7 +23,7 @@ std::uint8_t Cycle::published_reason() const {
   if (stop_.reason != BERM_STOP_NONE || stop_.code != SK_STATE_STANDBY) return stop_.reason;
   // In STANDBY nothing is stopped, but the app should know why RUN does not begin.
   if (!app_.heard) return BERM_STOP_NONE;
-  return settling_ ? last_hold_reason_ : hold_reason_;
+  return settled_ ? hold_reason_ : last_hold_reason_;
 }
 
 // The blocking cell of this cycle; of a latched stop that has one, the one that it was latched for.
@@ -40,7 +40,7 @@ Cycle::ShownCell Cycle::cell_of(std::uint8_t reason) const {
 
 // While a held stop, or the start, waits for a reason to stay away the place of that is shown, not none.
 Cycle::ShownCell Cycle::shown_cell() const {
-  const bool waits = held() || (settling_ && stop_.code == SK_STATE_STANDBY && app_.heard);
+  const bool waits = held() || (!settled_ && stop_.code == SK_STATE_STANDBY && app_.heard);
   return waits && hold_reason_ == BERM_STOP_NONE ? last_hold_cell_ : cell_of(published_reason());
 }
 

@@ -13,8 +13,8 @@ using namespace berm::app;
 
 struct Pans {
   explicit Pans(const MachineModel& m, double truck_bearing = radians(96.0), double dig_bearing = 0.0) : machine(m), scheduler(m), truck(truck_bearing), dig(dig_bearing) {}
-  void step(std::uint16_t phase, double swing_angle, double swing_speed) {
-    const auto request = scheduler.step(phase, dig, truck, swing_angle, swing_speed, pan);
+  void step(std::uint16_t phase, double swing_angle, double swing_speed, bool slowed = false) {
+    const auto request = scheduler.step(phase, dig, truck, swing_angle, swing_speed, pan, slowed);
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_GE(request[i].goal, machine.scanner[i].pan_low);
       EXPECT_LE(request[i].goal, machine.scanner[i].pan_high);
@@ -87,41 +87,41 @@ TEST(ScanScheduler, WhatIsToBeSeenAnewIsOnTheSwingBackSeenBeyondTheDigFirst) {
   }
 }
 
-// Over the truck for a dump that is slowed so long that what lies beyond the dig is old, and reaches no farther than 36 degrees before the map's x axis there. The
-// swing back may come to stand 27 degrees and more beyond the dig: that is looked at while it is 60 degrees from it, wherever the sweep of the slow dump happened to be.
+// How far from the dig a swing back still is, after a dump that was slowed for so many cycles and went on for some more, when it is seen what lies 27 degrees beyond the
+// dig; negative: not seen. Then the rest of both ranges is. From over the truck a scanner reaches no farther than 24 degrees beyond.
+double beyond_dig_seen_from(double side, int slow_cycles, int more_cycles) {
+  const double over_truck = side * radians(94.0), dig = side * radians(-12.0), beyond = dig - side * radians(27.0);
+  Pans pans(berm::app_bench::zx200(), over_truck, dig);
+  const std::size_t trails = side > 0.0 ? 1 : 0;
+  for (int k = 0; k < slow_cycles; ++k) pans.step(BERM_PHASE_DUMP, over_truck, 0.0, true);
+  EXPECT_LE(pans.fastest, radians(40.0));
+  for (int k = 0; k < more_cycles; ++k) pans.step(BERM_PHASE_DUMP, over_truck, 0.0);
+  double angle = over_truck, speed = 0.0, seen_from = -1.0;
+  while (side * (angle - dig) > 0.0 && seen_from < 0.0) {
+    const double before = pans.pan[trails] + angle;
+    speed = std::min(speed + radians(20.0) * 0.01, radians(45.0));
+    angle -= side * speed * 0.01;
+    pans.step(BERM_PHASE_SWING_TO_DIG, angle, -side * speed);
+    if ((before - beyond) * (pans.pan[trails] + angle - beyond) <= 0.0) seen_from = side * (angle - dig);
+  }
+  for (int k = 0; k < 2000 && !pans.scheduler.full_sweep_done(); ++k) pans.step(BERM_PHASE_SWING_TO_DIG, angle, 0.0);
+  EXPECT_TRUE(pans.scheduler.full_sweep_done());
+  return seen_from;
+}
+
+// Wherever the sweep of the slow dump happened to be.
 TEST(ScanScheduler, AfterASlowDumpWhatLiesBeyondTheDigIsSeenEarlyOnTheSwingBack) {
   for (const double side : {1.0, -1.0})
     for (int slow_cycles = 400; slow_cycles < 1400; slow_cycles += 25) {
-      const double over_truck = side * radians(94.0), dig = side * radians(-12.0), beyond = dig - side * radians(27.0);
-      Pans pans(berm::app_bench::zx200(), over_truck, dig);
-      const std::size_t trails = side > 0.0 ? 1 : 0;
-      for (int k = 0; k < slow_cycles; ++k) {
-        pans.scheduler.sweep_while_slowed();
-        pans.step(BERM_PHASE_DUMP, over_truck, 0.0);
-      }
-      EXPECT_LE(pans.fastest, radians(40.0));
-      for (int k = 0; k < 130; ++k) pans.step(BERM_PHASE_DUMP, over_truck, 0.0);
-      double angle = over_truck, speed = 0.0, seen_from_dig = -1.0;
-      for (double before = pans.pan[trails] + angle; side * (angle - dig) > 0.0 && seen_from_dig < 0.0; before = pans.pan[trails] + angle) {
-        speed = std::min(speed + radians(20.0) * 0.01, radians(45.0));
-        angle -= side * speed * 0.01;
-        pans.step(BERM_PHASE_SWING_TO_DIG, angle, -side * speed);
-        const double now = pans.pan[trails] + angle;
-        if ((before - beyond) * (now - beyond) <= 0.0) seen_from_dig = side * (angle - dig);
-      }
-      EXPECT_GT(seen_from_dig, radians(60.0)) << side << ", slow for " << slow_cycles << " cycles";
-      for (int k = 0; k < 2000 && !pans.scheduler.full_sweep_done(); ++k) pans.step(BERM_PHASE_SWING_TO_DIG, angle, 0.0);
-      EXPECT_TRUE(pans.scheduler.full_sweep_done()) << side << ": and then the rest";
+      EXPECT_GT(beyond_dig_seen_from(side, slow_cycles, 130), radians(60.0)) << side << ", slow for " << slow_cycles << " cycles";
+      EXPECT_GT(beyond_dig_seen_from(side, slow_cycles, 0), radians(45.0)) << side << ", slow for " << slow_cycles << " cycles, to its end";
     }
 }
 
 // One that stands on its swing back has seen all of its range a little later.
 TEST(ScanScheduler, AfterASlowDumpASwingThatDoesNotComeIsNotWaitedFor) {
   Pans pans(berm::app_bench::zx200());
-  for (int k = 0; k < 500; ++k) {
-    pans.scheduler.sweep_while_slowed();
-    pans.step(BERM_PHASE_DUMP, radians(94.0), 0.0);
-  }
+  for (int k = 0; k < 500; ++k) pans.step(BERM_PHASE_DUMP, radians(94.0), 0.0, true);
   int cycles = 0;
   for (; !pans.scheduler.full_sweep_done() && cycles < 3000; ++cycles) pans.step(BERM_PHASE_SWING_TO_DIG, radians(94.0), 0.0);
   EXPECT_LT(cycles, 1400);
