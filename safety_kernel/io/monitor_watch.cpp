@@ -18,7 +18,7 @@ constexpr std::int32_t kBesideMm = SK_CELL_MM / 2;
 }  // namespace
 
 MonitorWatch::MonitorWatch(const berm_parameters& parameters, std::int32_t wait_us, std::int32_t period_us)
-    : histogram_(parameters.workspace_histogram != 0 ? 1 : 0), learned_anew_(SK_MAP_CELLS * SK_MAP_CELLS) {
+    : histogram_(parameters.workspace_histogram != 0 ? 1 : 0), learned_anew_(SK_MAP_CELLS * SK_MAP_CELLS, Anew::kNever) {
   rules_.height_threshold_mm = parameters.workspace_rise_mm;
   rules_.neighbour_threshold_mm = parameters.workspace_neighbour_mm;
   rules_.slope_threshold_mm = parameters.workspace_slope_mm;
@@ -28,16 +28,16 @@ MonitorWatch::MonitorWatch(const berm_parameters& parameters, std::int32_t wait_
   rules_.continuous = parameters.workspace_follows != 0;
   watch_region(parameters, true);
   for (int i = 0; i < parameters.lanes; ++i)
-    note_learned_anew(parameters.lane[i].x_low_mm, parameters.lane[i].y_low_mm, parameters.lane[i].x_high_mm, parameters.lane[i].y_high_mm);
+    note_learned_anew(parameters.lane[i].x_low_mm, parameters.lane[i].y_low_mm, parameters.lane[i].x_high_mm, parameters.lane[i].y_high_mm, Anew::kForATruck);
   for (int i = 0; i < parameters.dig_zones; ++i)
-    note_learned_anew(parameters.dig_zone[i].x_low_mm, parameters.dig_zone[i].y_low_mm, parameters.dig_zone[i].x_high_mm, parameters.dig_zone[i].y_high_mm);
+    note_learned_anew(parameters.dig_zone[i].x_low_mm, parameters.dig_zone[i].y_low_mm, parameters.dig_zone[i].x_high_mm, parameters.dig_zone[i].y_high_mm, Anew::kAfterTheBucket);
   begin();
 }
 
-void MonitorWatch::note_learned_anew(std::int32_t x_low_mm, std::int32_t y_low_mm, std::int32_t x_high_mm, std::int32_t y_high_mm) {
+void MonitorWatch::note_learned_anew(std::int32_t x_low_mm, std::int32_t y_low_mm, std::int32_t x_high_mm, std::int32_t y_high_mm, Anew why) {
   for (std::int32_t iy = 0; iy < SK_MAP_CELLS; ++iy)
     for (std::int32_t ix = 0; ix < SK_MAP_CELLS; ++ix)
-      if (sk_is_touched(iy, ix, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) learned_anew_[static_cast<std::size_t>(iy * SK_MAP_CELLS + ix)] = 1;
+      if (sk_is_touched(iy, ix, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) learned_anew_[static_cast<std::size_t>(iy * SK_MAP_CELLS + ix)] = why;
 }
 
 // With histograms of the dig zones too: dig() has what the machine itself changes in them.
@@ -57,10 +57,10 @@ void MonitorWatch::begin() {
 std::int32_t MonitorWatch::known_elsewhere(std::int32_t iy, std::int32_t ix, const Others& others) const {
   std::int32_t known = SK_NOBODY_KNOWS;
   if (!sk_is_in_map(iy, ix)) return known;
-  const bool anew = learned_anew(iy, ix);
-  if (histogram_.front().observed[iy][ix] >= (anew ? SK_HISTOGRAM_ENOUGH : SK_HISTOGRAM_WELL)) return known;
+  const Anew anew = learned_anew(iy, ix);
+  if (histogram_.front().observed[iy][ix] >= (anew == Anew::kAfterTheBucket ? SK_HISTOGRAM_ENOUGH : SK_HISTOGRAM_WELL)) return known;
   for (int i = 0; i < others.count; ++i)
-    if (!anew || others.monitor[i] == others.scanners) known = std::max(known, sk_histogram_known(others.monitor[i]->histogram(), iy, ix));
+    if (anew == Anew::kNever || others.monitor[i] == others.scanners) known = std::max(known, sk_histogram_known(others.monitor[i]->histogram(), iy, ix));
   return known;
 }
 
@@ -129,7 +129,7 @@ bool MonitorWatch::pass(const sk_monitor_cell& at, std::int32_t z_mm, std::int64
   const std::int32_t known = known_elsewhere(at.iy, at.ix, others);
   sk_histogram_pass(&h, known, &rules_, at.iy, at.ix, z_mm, now_us);
   // Where nothing is known nothing departs, however high.
-  return !learned_anew(at.iy, at.ix) && ground_known(at, known) && nobody_about(at, now_us) && !sk_histogram_departs(&h, known, &rules_, at.iy, at.ix, z_mm);
+  return learned_anew(at.iy, at.ix) == Anew::kNever && ground_known(at, known) && nobody_about(at, now_us) && !sk_histogram_departs(&h, known, &rules_, at.iy, at.ix, z_mm);
 }
 
 void MonitorWatch::pass_of_another(const sk_monitor_cell& at, std::int32_t z_mm, std::int64_t now_us, const MonitorWatch& other) {

@@ -58,11 +58,13 @@ class MonitorWatch {
 
   bool nobody_about(const sk_monitor_cell& at, std::int64_t now_us) const;  // in the cell and the eight round it
   bool ground_known(const sk_monitor_cell& at, std::int32_t known) const;   // by points or lines of its own, or elsewhere
-  bool learned_anew(std::int32_t iy, std::int32_t ix) const { return learned_anew_[static_cast<std::size_t>(iy * SK_MAP_CELLS + ix)] != 0; }
+  // Whether a cell is learned anew while somebody may be about: where it touches a lane, or, which goes before that, a dig zone.
+  enum class Anew : std::uint8_t { kNever, kForATruck, kAfterTheBucket };
+  Anew learned_anew(std::int32_t iy, std::int32_t ix) const { return learned_anew_[static_cast<std::size_t>(iy * SK_MAP_CELLS + ix)]; }
   void watch_region(const berm_parameters& parameters, bool lanes_open);
-  void note_learned_anew(std::int32_t x_low_mm, std::int32_t y_low_mm, std::int32_t x_high_mm, std::int32_t y_high_mm);
-  // With histograms: sk_histogram_known of the others, where this one may have to ask. Where cells are learned anew while somebody may be about, in lanes
-  // and dig zones, one sensor may have learned him: there his height explains nothing to another, and the scanners are asked alone.
+  void note_learned_anew(std::int32_t x_low_mm, std::int32_t y_low_mm, std::int32_t x_high_mm, std::int32_t y_high_mm, Anew why);
+  // With histograms: sk_histogram_known of the others, where this one may have to ask. Where cells are learned anew while somebody may be about one sensor
+  // may have learned him: there the scanners are asked alone, and after the bucket by who has hardly seen the cell.
   std::int32_t known_elsewhere(std::int32_t iy, std::int32_t ix, const Others& others) const;
   // With histograms: what is measured nearer to a cell than half a cell counts for it too, while it is learning.
   void learn_beside(const sk_point& point, std::int64_t now_us);
@@ -70,7 +72,7 @@ class MonitorWatch {
   sk_monitor_rules rules_{};
   sk_monitor monitor_;                           // the accumulated map's heights (leger-1998, section 3.2)
   std::vector<sk_monitor_histogram> histogram_;  // or a histogram per cell (4.2): one, or none; from the start, so that no cycle allocates
-  std::vector<std::uint8_t> learned_anew_;       // of each cell, row by row: it touches a lane or a dig zone
+  std::vector<Anew> learned_anew_;               // of each cell, row by row
   sk_monitor_cell where_{-1, -1};
   std::int64_t newest_us_ = -1;
 };

@@ -192,27 +192,34 @@ TEST_F(MonitorOthersTest, WhoHasSeenManyNeedsNoOther) {
 }
 
 // Run through while the bucket was near, a lidar had learned a child of a dig zone's cells: to the scanners, which knew the ground alone, he was excused.
+// Of a truck a lidar may have met a few points at the foot alone while it was learned, for the machine hardly swung; the scanners swept all of it.
 // verifies: SK-WM-71
-TEST_F(MonitorOthersTest, WhereCellsAreLearnedAnewNobodyIsExcused) {
-  // One learned somebody, another the ground, and then that one meets him.
-  const auto excused = [this](std::size_t learner, std::size_t other) {
+TEST_F(MonitorOthersTest, WhereCellsAreLearnedAnewTheScannersExcuseATruckToALidarAndNobodyElse) {
+  // One learned what stood there, another the ground, and then that one meets it.
+  const auto excused = [this](std::size_t learner, std::size_t other, int seen) {
     begin();
     EXPECT_FALSE(see(learner, kFoot + 1000, 20));
-    EXPECT_FALSE(see(other, kFoot, 10));
+    EXPECT_FALSE(see(other, kFoot, seen));
     return !see(other, kFoot + 1000, 3);
   };
-  const auto expect = [&excused](bool expected, const char* where) {
-    EXPECT_EQ(excused(2, 0), expected) << where << ": the scanners meet whom a lidar learned";
-    EXPECT_EQ(excused(0, 1), expected) << where << ": the other way about";
-    EXPECT_EQ(excused(1, 2), expected) << where << ": a lidar, whom the other learned";
+  const auto expect = [&excused](bool by_lidars, bool by_scanners, const char* where) {
+    EXPECT_EQ(excused(2, 0, 10), by_lidars) << where << ": the scanners meet what a lidar learned";
+    EXPECT_EQ(excused(1, 2, 10), by_lidars) << where << ": a lidar, what the other learned";
+    for (const std::size_t lidar : {1U, 2U}) {
+      for (const int seen : {SK_HISTOGRAM_ENOUGH, 10, SK_HISTOGRAM_WELL - 1})
+        EXPECT_EQ(excused(0, lidar, seen), by_scanners) << where << ": lidar " << lidar << " with " << seen << ", what the scanners learned";
+      EXPECT_FALSE(excused(0, lidar, SK_HISTOGRAM_WELL)) << where << ": knows the cell itself";
+    }
   };
-  expect(true, "elsewhere");
-  parameters.dig_zone[0] = {kX + 200, kY - 500, kX + 900, kY + 500, -3000, 1000};
-  expect(false, "the cell touches a dig zone");
-  parameters.dig_zones = 0;
+  expect(true, true, "elsewhere");
+  const berm_dig_zone digs{kX + 200, kY - 500, kX + 900, kY + 500, -3000, 1000};
+  parameters.dig_zone[0] = digs;
+  expect(false, false, "the cell touches a dig zone");
   parameters.lanes = 1;
   parameters.lane[0] = {kX - 900, kY - 500, kX, kY + 500};
-  expect(false, "the cell touches a lane");
+  expect(false, false, "the cell touches a dig zone and a lane");
+  parameters.dig_zones = 0;
+  expect(false, true, "the cell touches a lane");
 }
 
 // verifies: SK-WM-68
