@@ -295,6 +295,11 @@ bool sk_histogram_insert(sk_monitor_histogram *h, int32_t known, const sk_monito
   return true;
 }
 
+void sk_histogram_beside(sk_monitor_histogram *h, int32_t iy, int32_t ix, int32_t z_mm)
+{
+  if (z_mm < SK_HISTOGRAM_TOP_MM && sk_is_in_map(iy, ix) && h->state[iy][ix] == SK_CELL_LEARNING) { sk_count_point(h, iy, ix, sk_bin_of(z_mm)); }
+}
+
 bool sk_histogram_departs(const sk_monitor_histogram *h, int32_t known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm)
 {
   return sk_is_in_map(iy, ix) && sk_is_departing(h, known, r, iy, ix, z_mm);

@@ -190,6 +190,17 @@ int32_t sk_histogram_known(const sk_monitor_histogram *h, int32_t iy, int32_t ix
   @*/
 bool sk_histogram_insert(sk_monitor_histogram *h, int32_t known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us);
 
+/* A point at z_mm that was measured beside cell (iy, ix): while that is learning its height is taken for one of the cell's, too, but the cell itself has
+ * not been seen by it. Of a cell that is not learning, outside the map, or too high, nothing changes. */
+/*@ requires \valid(h);
+  @ assigns h->seen[..][..][..];
+  @ ensures counted: sk_in_map(iy, ix) && h->state[iy][ix] == SK_CELL_LEARNING && z_mm < SK_HISTOGRAM_TOP_MM ==>
+  @   \exists integer b; sk_is_bin(b, z_mm) && sk_counted{Pre, Post}(h, iy, ix, b);
+  @ ensures kept: sk_in_map(iy, ix) && !(h->state[iy][ix] == SK_CELL_LEARNING && z_mm < SK_HISTOGRAM_TOP_MM) ==> sk_bins_kept{Pre, Post}(h, iy, ix);
+  @ ensures others: \forall integer j, i; sk_in_map(j, i) && !(j == iy && i == ix) ==> sk_bins_kept{Pre, Post}(h, j, i);
+  @*/
+void sk_histogram_beside(sk_monitor_histogram *h, int32_t iy, int32_t ix, int32_t z_mm);
+
 /* Whether a point at z_mm over cell (iy, ix) would depart from what was seen there; outside the map none does. `known`: as of sk_histogram_insert. */
 /*@ requires \valid_read(h) && \valid_read(r);
   @ assigns \nothing;

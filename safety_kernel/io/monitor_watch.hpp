@@ -64,10 +64,13 @@ class MonitorWatch {
   void watch_region(const berm_parameters& parameters, bool lanes_open);
   void note_learned_anew(std::int32_t x_low_mm, std::int32_t y_low_mm, std::int32_t x_high_mm, std::int32_t y_high_mm, Anew why);
   // With histograms: sk_histogram_known of the others, where this one may have to ask. Where cells are learned anew while somebody may be about one sensor
-  // may have learned him: there the scanners are asked alone, and after the bucket by who has hardly seen the cell.
+  // may have learned him: there a lidar asks the scanners alone, for a truck's sake until it knows the cell well itself, and the scanners ask only of what
+  // they have hardly seen, so that a lidar excuses nobody to them.
   std::int32_t known_elsewhere(std::int32_t iy, std::int32_t ix, const Others& others) const;
-  // With histograms: what is measured nearer to a cell than half a cell counts for it too, while it is learning.
-  void learn_beside(const sk_point& point, std::int64_t now_us);
+  // As if known of a cell that was hardly seen itself: as high as a slope may be in it by what was met half a cell beside.
+  std::int32_t met_beside(std::int32_t iy, std::int32_t ix) const;
+  // With histograms: the height of what is measured nearer to a cell than half a cell is one of its own too, while it is learning.
+  void learn_beside(const sk_point& point);
 
   sk_monitor_rules rules_{};
   sk_monitor monitor_;                           // the accumulated map's heights (leger-1998, section 3.2)

@@ -92,13 +92,22 @@ bool ReferenceHistogram::insert(const ReferenceRules& r, const ReferenceHistogra
     if (was != State::kClear || (c.ground >= 0 && c.ground <= now && now <= c.ground + r.period + r.period)) return false;
     c.ground = now;
   }
+  count(c, z);
+  c.observed = std::min(c.observed + 1, kWell);
+  return false;
+}
+
+void ReferenceHistogram::count(Cell& c, std::int64_t z) const {
   int& points = c.seen[bin_of(z)];
   if (points == 255)
     for (auto& entry : c.seen) entry.second /= 2;
   ++points;
   for (auto i = c.seen.begin(); i != c.seen.end();) i = i->second == 0 ? c.seen.erase(i) : std::next(i);
-  c.observed = std::min(c.observed + 1, kWell);
-  return false;
+}
+
+void ReferenceHistogram::beside(Place at, std::int64_t z) {
+  if (!inside(at) || static_cast<double>(z) >= kFloor + kBin * kBins) return;
+  if (make(at).state == State::kLearning) count(make(at), z);
 }
 
 void ReferenceHistogram::line(Place at, std::int64_t z) {

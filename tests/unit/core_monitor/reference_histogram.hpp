@@ -31,6 +31,7 @@ class ReferenceHistogram {
   // others: stand for what this one has not seen; itself for none.
   bool insert(const ReferenceRules& r, const ReferenceHistogram& others, Place at, std::int64_t z, std::int64_t now);
   void pass(const ReferenceRules& r, const ReferenceHistogram& others, Place at, std::int64_t z, std::int64_t now);
+  void beside(Place at, std::int64_t z);  // of another cell's point
   void line(Place at, std::int64_t z);
   void forget(double x_low, double y_low, double x_high, double y_high);
   void settle(double x_low, double y_low, double x_high, double y_high);
@@ -44,6 +45,7 @@ class ReferenceHistogram {
   long recent_around(const ReferenceRules& r, Place at, std::int64_t now) const;  // points that departed in a cell and its neighbours
   void see_ground(const ReferenceRules& r, Cell& c, long around, std::int64_t now) const;
   bool departs(const ReferenceRules& r, const Cell& c, const Cell& known, std::int64_t z) const;
+  void count(Cell& c, std::int64_t z) const;
   Cell& make(Place at);
 
   std::map<Place, Cell> cells_;  // those that were ever touched by a call

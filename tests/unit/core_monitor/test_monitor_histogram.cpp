@@ -407,6 +407,29 @@ TEST_F(MonitorHistogram, LearningAndForgetting) {
   EXPECT_TRUE(see(50, 50, 2400));
 }
 
+// verifies: SK-WM-67
+TEST_F(MonitorHistogram, WhatIsMetBesideACellExplainsButIsNoPointOfIt) {
+  const std::uint32_t most = SK_HISTOGRAM_WELL;
+  for (std::uint32_t i = 0; i < most + 5; ++i) sk_histogram_beside(h.get(), 50, 50, 0);
+  EXPECT_EQ(h->seen[50][50][34], 255 / 2 + 5) << "a full bin halves";
+  EXPECT_EQ(h->observed[50][50], 0U);
+  sk_histogram_beside(h.get(), 50, 50, SK_HISTOGRAM_TOP_MM);
+  EXPECT_EQ(h->seen[50][50][SK_HISTOGRAM_BINS - 1], 0) << "too high";
+  settle();
+  const auto before = std::make_unique<sk_monitor_histogram>(*h);
+  sk_histogram_beside(h.get(), 50, 50, 300);
+  for (const int off : {-1, SK_MAP_CELLS}) sk_histogram_beside(h.get(), off, 50, 0), sk_histogram_beside(h.get(), 50, off, 0);
+  EXPECT_EQ(std::memcmp(before.get(), h.get(), sizeof *h), 0) << "learning no longer, or outside the map";
+  EXPECT_EQ(sk_histogram_known(h.get(), 50, 50), SK_NOBODY_KNOWS);
+  EXPECT_FALSE(see(50, 50, 800)) << "nothing is known of the cell itself";
+  sk_histogram_begin(h.get());
+  for (int i = 0; i < 2; ++i) sk_histogram_beside(h.get(), 50, 50, 1500);
+  see(50, 50, 0, SK_HISTOGRAM_ENOUGH);
+  settle();
+  EXPECT_FALSE(see(50, 50, 1900)) << "the edge of what stands beside it";
+  EXPECT_TRUE(see(50, 50, 2300));
+}
+
 // verifies: SK-WM-65
 TEST_F(MonitorHistogram, UnwatchedCellsStopNothingWildStatesDo) {
   ground();
@@ -453,7 +476,7 @@ void expect_same(const sk_monitor_histogram& h, const ReferenceHistogram& refere
 
 bool lower_half(ReferenceHistogram::Place at) { return at.first < 52; }
 
-// verifies: SK-WM-60, SK-WM-61, SK-WM-62, SK-WM-63, SK-WM-64, SK-WM-65, SK-WM-68, SK-WM-71, SK-WM-72
+// verifies: SK-WM-60, SK-WM-61, SK-WM-62, SK-WM-63, SK-WM-64, SK-WM-65, SK-WM-67, SK-WM-68, SK-WM-71, SK-WM-72
 TEST_F(MonitorHistogram, RandomSequencesAreAsTheReferenceHasThem) {
   std::printf("seed %llu\n", static_cast<unsigned long long>(kSeed));
   std::mt19937_64 random(kSeed);
@@ -491,6 +514,10 @@ TEST_F(MonitorHistogram, RandomSequencesAreAsTheReferenceHasThem) {
         const std::int32_t z = below(3) > 0 ? below(200) : below(2000) - 500;
         sk_histogram_line(h.get(), iy, ix, z);
         reference.line({iy, ix}, z);
+      } else if (what < 100) {
+        const std::int32_t z = below(20) > 0 ? below(2500) - 500 : std::numeric_limits<std::int32_t>::max() - below(2);
+        sk_histogram_beside(h.get(), iy, ix, z);
+        reference.beside({iy, ix}, z);
       } else if (what < 300) {
         const std::int32_t z = below(5) > 0 ? below(400) : below(2500) - 500;
         const std::int64_t at_us = below(50) == 0 ? -1 : now_us;

@@ -223,8 +223,10 @@ TEST_F(DugWorkspaceTest, BeforeTheGroundIsLearnedACellThatTheBucketLeavesGoesOnL
 TEST_F(DugWorkspaceTest, WhatIsLearnedCountsHalfACellBesideItToo) {
   watch->begin();
   see(9.95, 1500, SK_HISTOGRAM_ENOUGH);  // 0.05 m into its cell
-  EXPECT_EQ(watch->histogram()->observed[sk_map_index(150)][sk_map_index(9800)], static_cast<std::uint32_t>(SK_HISTOGRAM_ENOUGH)) << "0.05 m beside it";
-  EXPECT_EQ(watch->histogram()->observed[sk_map_index(150)][sk_map_index(10300)], 0U) << "0.25 m beside it";
+  EXPECT_EQ(points_seen(9.8), SK_HISTOGRAM_ENOUGH) << "0.05 m beside it";
+  EXPECT_EQ(watch->histogram()->observed[sk_map_index(150)][sk_map_index(9800)], 0U) << "but not of its own";
+  EXPECT_EQ(points_seen(10.3), 0) << "0.25 m beside it";
+  see(9.8, 0, SK_HISTOGRAM_ENOUGH);
   watch->step(now);
   now += parameters.workspace_learn_us;
   watch->step(now);

@@ -234,6 +234,31 @@ TEST_F(MonitorOthersTest, WhereCellsAreLearnedAnewALidarAsksTheScannersAlone) {
   EXPECT_TRUE(see(1, kFoot + 1000, 3));
 }
 
+// A trench's side of which the scanners met the foot, half a cell beside; its upper edge, 0.9 m higher, was somebody (replayed).
+// verifies: SK-WM-67, SK-WM-68
+TEST_F(MonitorOthersTest, WhatWasMetBesideACellOfADigIsNotItsGroundAndNobodyIsMuchHigher) {
+  const std::int32_t edge_x = SK_MAP_ORIGIN_MM + SK_CELL_MM * sk_map_index(kX);  // of the cell, towards the one before
+  const auto beside = [&](std::size_t number) {
+    for (auto& monitor : monitors) monitor = std::make_unique<MonitorWatch>(parameters, parameters.workspace_wait_us, parameters.workspace_period_us);
+    for (int i = 0; i < 20; ++i) monitors[number]->insert({edge_x - 20, kY, kFoot}, now_us, others_of(number));
+    for (auto& monitor : monitors) settle(*monitor);
+  };
+  parameters.dig_zone[0] = {kX - 900, kY - 900, kX + 900, kY + 900, -3000, 1000};
+  for (const std::size_t number : {0U, 1U}) {
+    beside(number);
+    EXPECT_FALSE(see(number, kFoot + 1100, 3)) << number << ": the edge";
+    beside(number);
+    EXPECT_TRUE(see(number, kFoot + 1900, 3)) << number << ": higher than a slope rises in a cell";
+    EXPECT_EQ(observed(number), 0U);
+  }
+  beside(0);
+  EXPECT_FALSE(see(2, kFoot, 20));
+  EXPECT_TRUE(see(0, kFoot + 1100, 3)) << "where a lidar knows the ground he is somebody, though what it knows excuses nobody";
+  parameters.dig_zones = 0;
+  beside(0);
+  EXPECT_FALSE(see(0, kFoot + 1900, 3)) << "elsewhere other sensors tell, and none knows";
+}
+
 // Somebody whom a sensor meets that never saw the ground there would else be its ground, and his own excuse before the others.
 // verifies: SK-WM-68, SK-WM-71
 TEST_F(MonitorOthersTest, WhoStandsWhereOneKnowsTheGroundIsTheGroundOfNone) {
