@@ -263,7 +263,7 @@ TEST(Compile, TheMachinesWithLidarsAreTheSameButForThemAndWhatTheyWatch) {
   rear.tail_watched = plain.tail_watched;
   EXPECT_EQ(ring.workspace_watched, 1);
   EXPECT_EQ(ring.workspace_radius_mm, 15000);
-  EXPECT_EQ(ring.workspace_learn_us, 25000000) << "a truck's rim is met by every other sweep of the panning scanners, and they sweep their whole ranges five times meanwhile";
+  EXPECT_EQ(ring.workspace_learn_us, 45000000) << "a truck's rim is met by every other sweep of the panning scanners, and the machine has to swing to it, slowly";
   EXPECT_EQ(ring.workspace_histogram, 1);
   ring.workspace_watched = plain.workspace_watched;
   ring.workspace_histogram = plain.workspace_histogram;
