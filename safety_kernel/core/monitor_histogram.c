@@ -56,11 +56,11 @@ static bool sk_is_believed(const sk_monitor_histogram *h, int32_t iy, int32_t ix
   return h->state[iy][ix] != SK_CELL_LEARNING && h->observed[iy][ix] >= SK_HISTOGRAM_ENOUGH;
 }
 
-int32_t sk_histogram_known(const sk_monitor_histogram *h, int32_t iy, int32_t ix)
+int32_t sk_histogram_met(const sk_monitor_histogram *h, int32_t iy, int32_t ix)
 {
   int32_t seen = 0;
   int32_t b;
-  if (!sk_is_in_map(iy, ix) || !sk_is_believed(h, iy, ix)) { return SK_NOBODY_KNOWS; }
+  if (!sk_is_in_map(iy, ix)) { return SK_NOBODY_KNOWS; }
   /*@ loop invariant -1 <= b < SK_HISTOGRAM_BINS && 0 <= seen <= 1;
     @ loop invariant not_twice: !sk_seen_twice_in(h, iy, ix, b + 1, SK_HISTOGRAM_BINS);
     @ loop invariant one: seen == 1 <==> sk_seen_in(h, iy, ix, b + 1, SK_HISTOGRAM_BINS);
@@ -73,6 +73,12 @@ int32_t sk_histogram_known(const sk_monitor_histogram *h, int32_t iy, int32_t ix
     seen = 1;
   }
   return SK_NOBODY_KNOWS;
+}
+
+int32_t sk_histogram_known(const sk_monitor_histogram *h, int32_t iy, int32_t ix)
+{
+  if (!sk_is_in_map(iy, ix) || !sk_is_believed(h, iy, ix)) { return SK_NOBODY_KNOWS; }
+  return sk_histogram_met(h, iy, ix);
 }
 
 /*@ assigns \nothing;

@@ -152,7 +152,18 @@ typedef struct sk_monitor_histogram {
   @*/
 void sk_histogram_begin(sk_monitor_histogram *h);
 
-/* What is known of a cell: the highest bin from which on two points were seen, or SK_NOBODY_KNOWS outside the map, while it is learning, and where
+/* The highest bin from which on two points were counted of a cell, be they so few that they are not believed; SK_NOBODY_KNOWS outside the map, and where
+ * there are none. */
+/*@ requires \valid_read(h);
+  @ assigns \nothing;
+  @ ensures range: SK_NOBODY_KNOWS <= \result < SK_HISTOGRAM_BINS;
+  @ ensures met: \result >= 0 ==> sk_in_map(iy, ix) && sk_seen_twice_in(h, iy, ix, \result, SK_HISTOGRAM_BINS) &&
+  @   !sk_seen_twice_in(h, iy, ix, \result + 1, SK_HISTOGRAM_BINS);
+  @ ensures none: \result < 0 ==> !sk_in_map(iy, ix) || !sk_seen_twice_in(h, iy, ix, 0, SK_HISTOGRAM_BINS);
+  @*/
+int32_t sk_histogram_met(const sk_monitor_histogram *h, int32_t iy, int32_t ix);
+
+/* What is known of a cell: sk_histogram_met, or SK_NOBODY_KNOWS outside the map, while it is learning, and where
  * too little was seen. */
 /*@ requires \valid_read(h);
   @ assigns \nothing;

@@ -66,17 +66,9 @@ std::int32_t MonitorWatch::known_elsewhere(std::int32_t iy, std::int32_t ix, con
   if (observed >= (ask_long ? SK_HISTOGRAM_WELL : SK_HISTOGRAM_ENOUGH)) return known;
   for (int i = 0; i < others.count; ++i)
     if (anew == Anew::kNever || are_scanners || others.monitor[i] == others.scanners) known = std::max(known, sk_histogram_known(others.monitor[i]->histogram(), iy, ix));
-  if (known == SK_NOBODY_KNOWS && anew == Anew::kAfterTheBucket) known = met_beside(iy, ix);
-  return known;
-}
-
-std::int32_t MonitorWatch::met_beside(std::int32_t iy, std::int32_t ix) const {
-  std::int32_t points = 0;
-  for (std::int32_t b = SK_HISTOGRAM_BINS - 1; b >= 0; --b) {
-    points += histogram_.front().seen[iy][ix][b];
-    if (points >= 2) return std::min<std::int32_t>(b + kSlopeBins, SK_HISTOGRAM_BINS - 1);
-  }
-  return SK_NOBODY_KNOWS;
+  if (known != SK_NOBODY_KNOWS || anew != Anew::kAfterTheBucket) return known;
+  const std::int32_t met = sk_histogram_met(histogram_.data(), iy, ix);
+  return met == SK_NOBODY_KNOWS ? met : std::min(met + kSlopeBins, SK_HISTOGRAM_BINS - 1);
 }
 
 void MonitorWatch::insert(const sk_point& point, std::int64_t now_us, const Others& others) {

@@ -65,10 +65,9 @@ class MonitorWatch {
   void note_learned_anew(std::int32_t x_low_mm, std::int32_t y_low_mm, std::int32_t x_high_mm, std::int32_t y_high_mm, Anew why);
   // With histograms: sk_histogram_known of the others, where this one may have to ask. Where cells are learned anew while somebody may be about one sensor
   // may have learned him: there a lidar asks the scanners alone, for a truck's sake until it knows the cell well itself, and the scanners ask only of what
-  // they have hardly seen, so that a lidar excuses nobody to them.
+  // they have hardly seen, so that a lidar excuses nobody to them. A cell of a dig zone that none of them knows is taken to be as high as a slope may be in
+  // it, by what was met of it and half a cell beside.
   std::int32_t known_elsewhere(std::int32_t iy, std::int32_t ix, const Others& others) const;
-  // As if known of a cell that was hardly seen itself: as high as a slope may be in it by what was met half a cell beside.
-  std::int32_t met_beside(std::int32_t iy, std::int32_t ix) const;
   // With histograms: the height of what is measured nearer to a cell than half a cell is one of its own too, while it is learning.
   void learn_beside(const sk_point& point);
 

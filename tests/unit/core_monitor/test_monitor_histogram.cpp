@@ -421,6 +421,8 @@ TEST_F(MonitorHistogram, WhatIsMetBesideACellExplainsButIsNoPointOfIt) {
   for (const int off : {-1, SK_MAP_CELLS}) sk_histogram_beside(h.get(), off, 50, 0), sk_histogram_beside(h.get(), 50, off, 0);
   EXPECT_EQ(std::memcmp(before.get(), h.get(), sizeof *h), 0) << "learning no longer, or outside the map";
   EXPECT_EQ(sk_histogram_known(h.get(), 50, 50), SK_NOBODY_KNOWS);
+  EXPECT_EQ(sk_histogram_met(h.get(), 50, 50), 34) << "met it was";
+  for (const int off : {-1, SK_MAP_CELLS}) EXPECT_EQ(sk_histogram_met(h.get(), 50, off), SK_NOBODY_KNOWS);
   EXPECT_FALSE(see(50, 50, 800)) << "nothing is known of the cell itself";
   sk_histogram_begin(h.get());
   for (int i = 0; i < 2; ++i) sk_histogram_beside(h.get(), 50, 50, 1500);

@@ -246,9 +246,12 @@ TEST_F(MonitorOthersTest, WhatWasMetBesideACellOfADigIsNotItsGroundAndNobodyIsMu
   parameters.dig_zone[0] = {kX - 900, kY - 900, kX + 900, kY + 900, -3000, 1000};
   for (const std::size_t number : {0U, 1U}) {
     beside(number);
-    EXPECT_FALSE(see(number, kFoot + 1100, 3)) << number << ": the edge";
+    for (const std::int32_t edge : {300, 1100, 1550}) {  // at most a rise over seven bins more
+      beside(number);
+      EXPECT_FALSE(see(number, kFoot + edge, 3)) << number << ": " << edge;
+    }
     beside(number);
-    EXPECT_TRUE(see(number, kFoot + 1900, 3)) << number << ": higher than a slope rises in a cell";
+    EXPECT_TRUE(see(number, kFoot + 1551, 3)) << number << ": higher than a slope rises in a cell";
     EXPECT_EQ(observed(number), 0U);
   }
   beside(0);
