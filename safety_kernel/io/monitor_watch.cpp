@@ -21,7 +21,9 @@ constexpr std::int32_t kSlopeBins = 7;
 }  // namespace
 
 MonitorWatch::MonitorWatch(const berm_parameters& parameters, std::int32_t wait_us, std::int32_t period_us)
-    : histogram_(parameters.workspace_histogram != 0 ? 1 : 0), learned_anew_(SK_MAP_CELLS * SK_MAP_CELLS, Anew::kNever) {
+    : histogram_(parameters.workspace_histogram != 0 ? 1 : 0),
+      learned_anew_(SK_MAP_CELLS * SK_MAP_CELLS, Anew::kNever),
+      met_beside_(SK_MAP_CELLS * SK_MAP_CELLS, SK_NOBODY_KNOWS) {
   rules_.height_threshold_mm = parameters.workspace_rise_mm;
   rules_.neighbour_threshold_mm = parameters.workspace_neighbour_mm;
   rules_.slope_threshold_mm = parameters.workspace_slope_mm;
@@ -40,7 +42,7 @@ MonitorWatch::MonitorWatch(const berm_parameters& parameters, std::int32_t wait_
 void MonitorWatch::note_learned_anew(std::int32_t x_low_mm, std::int32_t y_low_mm, std::int32_t x_high_mm, std::int32_t y_high_mm, Anew why) {
   for (std::int32_t iy = 0; iy < SK_MAP_CELLS; ++iy)
     for (std::int32_t ix = 0; ix < SK_MAP_CELLS; ++ix)
-      if (sk_is_touched(iy, ix, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) learned_anew_[static_cast<std::size_t>(iy * SK_MAP_CELLS + ix)] = why;
+      if (sk_is_touched(iy, ix, x_low_mm, y_low_mm, x_high_mm, y_high_mm)) learned_anew_[cell_number(iy, ix)] = why;
 }
 
 // With histograms of the dig zones too: dig() has what the machine itself changes in them.
@@ -53,6 +55,7 @@ void MonitorWatch::watch_region(const berm_parameters& parameters, bool lanes_op
 void MonitorWatch::begin() {
   sk_monitor_begin(&monitor_);
   for (sk_monitor_histogram& h : histogram_) sk_histogram_begin(&h);
+  std::fill(met_beside_.begin(), met_beside_.end(), SK_NOBODY_KNOWS);
   where_ = {-1, -1};
   newest_us_ = -1;
 }
@@ -67,8 +70,13 @@ std::int32_t MonitorWatch::known_elsewhere(std::int32_t iy, std::int32_t ix, con
   for (int i = 0; i < others.count; ++i)
     if (anew == Anew::kNever || are_scanners || others.monitor[i] == others.scanners) known = std::max(known, sk_histogram_known(others.monitor[i]->histogram(), iy, ix));
   if (known != SK_NOBODY_KNOWS || anew != Anew::kAfterTheBucket) return known;
-  const std::int32_t met = sk_histogram_met(histogram_.data(), iy, ix);
+  // What has been counted since is left out: somebody met from the feet upwards would raise it with each return.
+  const std::int32_t beside = met_beside_[cell_number(iy, ix)], met = beside == SK_NOBODY_KNOWS ? sk_histogram_met(histogram_.data(), iy, ix) : beside;
   return met == SK_NOBODY_KNOWS ? met : std::min(met + kSlopeBins, SK_HISTOGRAM_BINS - 1);
+}
+
+bool MonitorWatch::scanners_know_better(std::int32_t iy, std::int32_t ix, const Others& others) const {
+  return others.scanners != nullptr && sk_is_in_map(iy, ix) && learned_anew(iy, ix) == Anew::kForATruck;
 }
 
 void MonitorWatch::insert(const sk_point& point, std::int64_t now_us, const Others& others) {
@@ -78,7 +86,8 @@ void MonitorWatch::insert(const sk_point& point, std::int64_t now_us, const Othe
     sk_monitor_insert(&monitor_, iy, ix, point.z_mm, false, now_us);
     return;
   }
-  sk_histogram_insert(histogram_.data(), known_elsewhere(iy, ix, others), &rules_, iy, ix, point.z_mm, now_us);
+  const std::int32_t known = known_elsewhere(iy, ix, others);
+  sk_histogram_insert(histogram_.data(), known, scanners_know_better(iy, ix, others) ? known : SK_NOBODY_KNOWS, &rules_, iy, ix, point.z_mm, now_us);
   learn_beside(point);
 }
 
@@ -151,7 +160,15 @@ void MonitorWatch::change_lanes(const berm_parameters& parameters, bool open) {
   watch_region(parameters, open);
 }
 
+void MonitorWatch::note_met(std::int32_t iy, std::int32_t ix) {
+  if (histogram_.front().state[iy][ix] == SK_CELL_LEARNING) met_beside_[cell_number(iy, ix)] = sk_histogram_met(histogram_.data(), iy, ix);
+}
+
 void MonitorWatch::settle(const berm_lane& at) {
+  if (!histogram_.empty())
+    for (std::int32_t iy = 0; iy < SK_MAP_CELLS; ++iy)
+      for (std::int32_t ix = 0; ix < SK_MAP_CELLS; ++ix)
+        if (sk_is_touched(iy, ix, at.x_low_mm, at.y_low_mm, at.x_high_mm, at.y_high_mm)) note_met(iy, ix);
   sk_settle_rectangle(&monitor_, rules_.continuous, at.x_low_mm, at.y_low_mm, at.x_high_mm, at.y_high_mm);
   for (sk_monitor_histogram& h : histogram_) sk_histogram_settle(&h, at.x_low_mm, at.y_low_mm, at.x_high_mm, at.y_high_mm);
 }
@@ -161,7 +178,9 @@ void MonitorWatch::dig(const std::vector<DigWatch::Cell>& cells, bool learned, b
     for (const DigWatch::Cell& cell : cells) {
       const auto [iy, ix] = cell.at;
       if (cell.stirred && !holds && h.state[iy][ix] != SK_CELL_LEARNING) sk_histogram_forget_cell(&h, iy, ix);
-      if (!cell.stirred && cell.was_stirred && learned) sk_histogram_settle_cell(&h, iy, ix);
+      if (cell.stirred || !cell.was_stirred || !learned) continue;
+      note_met(iy, ix);
+      sk_histogram_settle_cell(&h, iy, ix);
     }
 }
 

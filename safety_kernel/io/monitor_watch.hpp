@@ -60,21 +60,27 @@ class MonitorWatch {
   bool ground_known(const sk_monitor_cell& at, std::int32_t known) const;   // by points or lines of its own, or elsewhere
   // Whether a cell is learned anew while somebody may be about: where it touches a lane, or, which goes before that, a dig zone.
   enum class Anew : std::uint8_t { kNever, kForATruck, kAfterTheBucket };
-  Anew learned_anew(std::int32_t iy, std::int32_t ix) const { return learned_anew_[static_cast<std::size_t>(iy * SK_MAP_CELLS + ix)]; }
+  static std::size_t cell_number(std::int32_t iy, std::int32_t ix) { return static_cast<std::size_t>(iy * SK_MAP_CELLS + ix); }
+  Anew learned_anew(std::int32_t iy, std::int32_t ix) const { return learned_anew_[cell_number(iy, ix)]; }
   void watch_region(const berm_parameters& parameters, bool lanes_open);
   void note_learned_anew(std::int32_t x_low_mm, std::int32_t y_low_mm, std::int32_t x_high_mm, std::int32_t y_high_mm, Anew why);
   // With histograms: sk_histogram_known of the others, where this one may have to ask. Where cells are learned anew while somebody may be about one sensor
   // may have learned him: there a lidar asks the scanners alone, for a truck's sake until it knows the cell well itself, and the scanners ask only of what
   // they have hardly seen, so that a lidar excuses nobody to them. A cell of a dig zone that none of them knows is taken to be as high as a slope may be in
-  // it, by what was met of it and half a cell beside.
+  // it, by what was met of it and half a cell beside until it was settled.
   std::int32_t known_elsewhere(std::int32_t iy, std::int32_t ix, const Others& others) const;
+  // Than a lidar's lines do: of a truck, past whose edges they lead to the ground beyond.
+  bool scanners_know_better(std::int32_t iy, std::int32_t ix, const Others& others) const;
   // With histograms: the height of what is measured nearer to a cell than half a cell is one of its own too, while it is learning.
   void learn_beside(const sk_point& point);
+  // Of a cell that is about to be settled.
+  void note_met(std::int32_t iy, std::int32_t ix);
 
   sk_monitor_rules rules_{};
   sk_monitor monitor_;                           // the accumulated map's heights (leger-1998, section 3.2)
   std::vector<sk_monitor_histogram> histogram_;  // or a histogram per cell (4.2): one, or none; from the start, so that no cycle allocates
   std::vector<Anew> learned_anew_;               // of each cell, row by row
+  std::vector<std::int32_t> met_beside_;         // so as well: sk_histogram_met when it was settled last; of a cell that was never, SK_NOBODY_KNOWS
   sk_monitor_cell where_{-1, -1};
   std::int64_t newest_us_ = -1;
 };

@@ -27,7 +27,7 @@ bool ReferenceHistogram::touched(Place at, double x_low, double y_low, double x_
   return std::max(x, x_low) <= std::min(x + 300.0, x_high) && std::max(y, y_low) <= std::min(y + 300.0, y_high);
 }
 
-bool ReferenceHistogram::departs(const ReferenceRules& r, const Cell& c, const Cell& known, std::int64_t z) const {
+bool ReferenceHistogram::departs(const ReferenceRules& r, const Cell& c, const Cell& known, bool yields, std::int64_t z) const {
   if (c.state == State::kLearning) return false;
   // Every height ever seen of a cell, one entry a point, that is less than a rise below z; what lies in z's own bin or higher always is.
   const auto as_high = [&r, z](const Cell& cell) {
@@ -39,7 +39,7 @@ bool ReferenceHistogram::departs(const ReferenceRules& r, const Cell& c, const C
   };
   const bool excused = c.observed < kWell && believed(known) && as_high(known) >= 2;
   if (c.observed >= kEnough) return as_high(c) <= 1 && !excused;
-  const bool over_lines = c.votes >= 3 && z > c.line + r.rise, over_known = believed(known) && as_high(known) <= 1;
+  const bool over_lines = c.votes >= 3 && z > c.line + r.rise && !(yields && excused), over_known = believed(known) && as_high(known) <= 1;
   return as_high(c) == 0 && (over_lines || over_known);
 }
 
@@ -64,15 +64,15 @@ void ReferenceHistogram::pass(const ReferenceRules& r, const ReferenceHistogram&
   if (!inside(at) || now < 0 || static_cast<double>(z) >= kFloor + kBin * kBins) return;
   const Cell known = others.cell(at);
   Cell& c = make(at);
-  if (!departs(r, c, known, z)) see_ground(r, c, recent_around(r, at, now), now);
+  if (!departs(r, c, known, false, z)) see_ground(r, c, recent_around(r, at, now), now);
 }
 
-bool ReferenceHistogram::insert(const ReferenceRules& r, const ReferenceHistogram& others, Place at, std::int64_t z, std::int64_t now) {
+bool ReferenceHistogram::insert(const ReferenceRules& r, const ReferenceHistogram& others, bool yields, Place at, std::int64_t z, std::int64_t now) {
   if (!inside(at) || now < 0 || static_cast<double>(z) >= kFloor + kBin * kBins) return false;
   const Cell known = others.cell(at);
   Cell& c = make(at);
   const long around = recent_around(r, at, now);
-  if (departs(r, c, known, z)) {
+  if (departs(r, c, known, yields, z)) {
     if (around >= 2) c.state = State::kSomebody;
     c.departed.push_back(now);
     c.ground = -1;

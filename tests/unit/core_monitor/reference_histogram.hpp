@@ -28,8 +28,8 @@ class ReferenceHistogram {
   using Place = std::pair<int, int>;  // row, column
 
   void begin() { cells_.clear(), somebody_ = -1; }
-  // others: stand for what this one has not seen; itself for none.
-  bool insert(const ReferenceRules& r, const ReferenceHistogram& others, Place at, std::int64_t z, std::int64_t now);
+  // others: stand for what this one has not seen; itself for none. yields: to what they know the lines do.
+  bool insert(const ReferenceRules& r, const ReferenceHistogram& others, bool yields, Place at, std::int64_t z, std::int64_t now);
   void pass(const ReferenceRules& r, const ReferenceHistogram& others, Place at, std::int64_t z, std::int64_t now);
   void beside(Place at, std::int64_t z);  // of another cell's point
   void line(Place at, std::int64_t z);
@@ -44,7 +44,7 @@ class ReferenceHistogram {
   static bool touched(Place at, double x_low, double y_low, double x_high, double y_high);
   long recent_around(const ReferenceRules& r, Place at, std::int64_t now) const;  // points that departed in a cell and its neighbours
   void see_ground(const ReferenceRules& r, Cell& c, long around, std::int64_t now) const;
-  bool departs(const ReferenceRules& r, const Cell& c, const Cell& known, std::int64_t z) const;
+  bool departs(const ReferenceRules& r, const Cell& c, const Cell& known, bool yields, std::int64_t z) const;
   void count(Cell& c, std::int64_t z) const;
   Cell& make(Place at);
 

@@ -23,7 +23,7 @@ class MonitorHistogram : public testing::Test {
   MonitorHistogram() { sk_histogram_begin(h.get()); }
   bool see(int iy, int ix, std::int32_t z_mm, int points = 1) {
     bool departs = false;
-    for (int i = 0; i < points; ++i) departs = sk_histogram_insert(h.get(), SK_NOBODY_KNOWS, rules.get(), iy, ix, z_mm, now_us);
+    for (int i = 0; i < points; ++i) departs = sk_histogram_insert(h.get(), SK_NOBODY_KNOWS, SK_NOBODY_KNOWS, rules.get(), iy, ix, z_mm, now_us);
     return departs;
   }
   void ground(std::int32_t z_mm = 0) {
@@ -200,11 +200,11 @@ TEST_F(MonitorHistogram, TheRiseIsOverTheLowSideOfWhatWasSeen) {
 TEST_F(MonitorHistogram, WhereTooLittleWasSeenWhatOthersKnowCounts) {
   const auto others = std::make_unique<sk_monitor_histogram>();
   const auto departs = [&](std::int32_t z_mm) {
-    return sk_histogram_insert(h.get(), sk_histogram_known(others.get(), 50, 50), rules.get(), 50, 50, z_mm, now_us);
+    return sk_histogram_insert(h.get(), sk_histogram_known(others.get(), 50, 50), SK_NOBODY_KNOWS, rules.get(), 50, 50, z_mm, now_us);
   };
   sk_histogram_begin(others.get());
   settle();
-  for (int i = 0; i < SK_HISTOGRAM_ENOUGH; ++i) sk_histogram_insert(others.get(), SK_NOBODY_KNOWS, rules.get(), 50, 50, 0, now_us);
+  for (int i = 0; i < SK_HISTOGRAM_ENOUGH; ++i) sk_histogram_insert(others.get(), SK_NOBODY_KNOWS, SK_NOBODY_KNOWS, rules.get(), 50, 50, 0, now_us);
   EXPECT_FALSE(departs(900)) << "the others are learning";
   sk_histogram_begin(h.get());
   settle();
@@ -231,7 +231,7 @@ TEST_F(MonitorHistogram, WhereNotManyWereSeenWhatOthersKnowExplains) {
   see(50, 50, -1500, 9);
   const int high = 4;  // bin of -4500
   const auto bin_of = [](std::int32_t z_mm) { return (z_mm - SK_HISTOGRAM_FLOOR_MM) / SK_HISTOGRAM_BIN_MM; };
-  const auto departs = [&](std::int32_t z_mm, std::int32_t known) { return sk_histogram_insert(h.get(), known, rules.get(), 50, 50, z_mm, now_us); };
+  const auto departs = [&](std::int32_t z_mm, std::int32_t known) { return sk_histogram_insert(h.get(), known, SK_NOBODY_KNOWS, rules.get(), 50, 50, z_mm, now_us); };
   EXPECT_TRUE(departs(-800, SK_NOBODY_KNOWS));
   EXPECT_TRUE(departs(-800, high)) << "known lower";
   EXPECT_TRUE(departs(-800, bin_of(-800 - kHeightThreshold))) << "its bin begins lower than a rise below the point";
@@ -241,6 +241,24 @@ TEST_F(MonitorHistogram, WhereNotManyWereSeenWhatOthersKnowExplains) {
   see(50, 50, -1500, SK_HISTOGRAM_WELL);
   EXPECT_EQ(h->observed[50][50], static_cast<std::uint32_t>(SK_HISTOGRAM_WELL));
   EXPECT_TRUE(departs(-800, bin_of(-300))) << "many of its own";
+}
+
+// A lidar's lines led past a cab's corner to the ground beyond; the first three points of the corner itself, which the scanners knew, were somebody.
+// verifies: SK-WM-71
+TEST_F(MonitorHistogram, LinesYieldToWhatIsWorthMoreAndToNothingElse) {
+  settle();
+  for (int i = 0; i < SK_LINES_ENOUGH; ++i) sk_histogram_line(h.get(), 50, 50, -700);
+  const int as_high = 38, lower = 33;  // bins of 600 and -150
+  const auto departs = [&](std::int32_t z_mm, std::int32_t known, std::int32_t swept) {
+    return sk_histogram_insert(h.get(), known, swept, rules.get(), 50, 50, z_mm, now_us);
+  };
+  EXPECT_FALSE(departs(445, as_high, as_high));
+  EXPECT_EQ(h->observed[50][50], 0U) << "nor is what the lines are too low for counted";
+  EXPECT_TRUE(departs(445, as_high, SK_NOBODY_KNOWS));
+  EXPECT_TRUE(departs(445, lower, lower)) << "higher than is known by a rise";
+  EXPECT_TRUE(departs(600 + kHeightThreshold + 1, as_high, as_high));
+  see(50, 50, -700, SK_HISTOGRAM_ENOUGH);
+  EXPECT_FALSE(departs(445, as_high, SK_NOBODY_KNOWS)) << "points of its own, and few";
 }
 
 // verifies: SK-WM-71
@@ -532,16 +550,18 @@ TEST_F(MonitorHistogram, RandomSequencesAreAsTheReferenceHasThem) {
         if (below(300) == 0) z = below(2) == 0 ? -6000 : 7000;
         if (below(3000) == 0) z = below(2) == 0 ? std::numeric_limits<std::int32_t>::min() : std::numeric_limits<std::int32_t>::max();
         if (sequence % 2 == 0 && below(3) == 0) {  // what the others see
-          sk_histogram_insert(others.get(), SK_NOBODY_KNOWS, rules.get(), iy, ix, z, now_us);
-          reference_of_others.insert(r, reference_of_others, {iy, ix}, z, now_us);
+          sk_histogram_insert(others.get(), SK_NOBODY_KNOWS, SK_NOBODY_KNOWS, rules.get(), iy, ix, z, now_us);
+          reference_of_others.insert(r, reference_of_others, false, {iy, ix}, z, now_us);
           continue;
         }
         if (below(20) == 0) {
           sk_histogram_settle(others.get(), kLow, kLow, kHigh, kHigh);
           reference_of_others.settle(kLow, kLow, kHigh, kHigh);
         }
-        const bool departs = sk_histogram_insert(h.get(), sk_histogram_known(others.get(), iy, ix), rules.get(), iy, ix, z, now_us);
-        ASSERT_EQ(departs, reference.insert(r, reference_of_others, {iy, ix}, z, now_us)) << sequence << " " << turn << ": " << z << " mm";
+        const std::int32_t known = sk_histogram_known(others.get(), iy, ix);
+        const bool yields = below(2) == 0;
+        const bool departs = sk_histogram_insert(h.get(), known, yields ? known : SK_NOBODY_KNOWS, rules.get(), iy, ix, z, now_us);
+        ASSERT_EQ(departs, reference.insert(r, reference_of_others, yields, {iy, ix}, z, now_us)) << sequence << " " << turn << ": " << z << " mm";
         departed += departs ? 1 : 0;
         left += was && !somebody(iy, ix) ? 1 : 0;
       }

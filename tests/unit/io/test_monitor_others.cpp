@@ -222,6 +222,31 @@ TEST_F(MonitorOthersTest, WhereCellsAreLearnedAnewTheScannersExcuseATruckToALida
   expect(false, true, "the cell touches a lane");
 }
 
+// Of the corner of a cab a lidar had met nothing yet, and its lines lay on the ground beyond (replayed).
+// verifies: SK-WM-71
+TEST_F(MonitorOthersTest, InALaneALidarsLinesYieldToWhatTheScannersKnow) {
+  const auto stops = [this](std::size_t learner, std::size_t other) {
+    begin();
+    EXPECT_FALSE(see(learner, kFoot + 1000, 20));
+    for (int i = 0; i < SK_LINES_ENOUGH; ++i) monitors[other]->interpolate({kX - 600, kY, kFoot}, {kX + 600, kY, kFoot}, MonitorWatch::Over::kUnmeasured, now_us);
+    return see(other, kFoot + 1000, 3);
+  };
+  const auto expect = [&stops](bool yields, const char* where) {
+    for (const std::size_t lidar : {1U, 2U}) {
+      EXPECT_EQ(stops(0, lidar), !yields) << where << ": to the scanners, lidar " << lidar;
+      EXPECT_TRUE(stops(lidar, 0)) << where << ": the scanners', to lidar " << lidar;
+      EXPECT_TRUE(stops(3 - lidar, lidar)) << where << ": to the other lidar, lidar " << lidar;
+    }
+  };
+  expect(false, "elsewhere");
+  parameters.lanes = 1;
+  parameters.lane[0] = {kX - 900, kY - 500, kX, kY + 500};
+  expect(true, "the cell touches a lane");
+  parameters.dig_zone[0] = {kX + 200, kY - 500, kX + 900, kY + 500, -3000, 1000};
+  parameters.dig_zones = 1;
+  expect(false, "the cell touches a dig zone and a lane");
+}
+
 // verifies: SK-WM-68
 TEST_F(MonitorOthersTest, WhereCellsAreLearnedAnewALidarAsksTheScannersAlone) {
   parameters.dig_zone[0] = {kX - 500, kY - 500, kX + 500, kY + 500, -3000, 1000};
@@ -254,6 +279,10 @@ TEST_F(MonitorOthersTest, WhatWasMetBesideACellOfADigIsNotItsGroundAndNobodyIsMu
     EXPECT_TRUE(see(number, kFoot + 1551, 3)) << number << ": higher than a slope rises in a cell";
     EXPECT_EQ(observed(number), 0U);
   }
+  beside(0);
+  EXPECT_FALSE(see(0, kFoot + 1000, 3));
+  EXPECT_TRUE(see(0, kFoot + 1551, 3)) << "nor is he, met from the feet upwards";
+  EXPECT_EQ(observed(0), 3U);
   beside(0);
   EXPECT_FALSE(see(2, kFoot, 20));
   EXPECT_TRUE(see(0, kFoot + 1100, 3)) << "where a lidar knows the ground he is somebody, though what it knows excuses nobody";
