@@ -139,7 +139,7 @@ typedef struct berm_request_segment {
 #define BERM_SIGHT_EYES 6
 #define BERM_SIGHT_DUST_SLOW 0x100u /* dust: every joint's request is cut to a share of its largest speed */
 #define BERM_SIGHT_DUST_STOP 0x200u /* dust: motion is held */
-#define BERM_SIGHT_LEARNS 0x400u    /* the Workspace Monitor learns the ground, nobody is watched: every request is cut to a share of the largest speeds */
+#define BERM_SIGHT_LEARNS 0x400u    /* the Workspace Monitor learns the ground, who comes may go unseen: every request is cut to a share of the largest speeds */
 #define BERM_SIGHT_LEARNS_LANE 0x800u /* it learns the lane of a truck that has parked: requests that come near it are */
 
 /* Machine state and verdict of one cycle. */

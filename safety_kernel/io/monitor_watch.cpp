@@ -143,8 +143,9 @@ bool MonitorWatch::pass(const sk_monitor_cell& at, std::int32_t z_mm, std::int64
   sk_monitor_histogram& h = histogram_.front();
   const std::int32_t known = known_elsewhere(at.iy, at.ix, others);
   sk_histogram_pass(&h, known, &rules_, at.iy, at.ix, z_mm, now_us);
-  // Where nothing is known nothing departs, however high.
-  return learned_anew(at.iy, at.ix) == Anew::kNever && ground_known(at, known) && nobody_about(at, now_us) && !sk_histogram_departs(&h, known, &rules_, at.iy, at.ix, z_mm);
+  // Where nothing is known, and while it is learned, nothing departs, however high.
+  if (learned_anew(at.iy, at.ix) != Anew::kNever || h.state[at.iy][at.ix] == SK_CELL_LEARNING || !ground_known(at, known)) return false;
+  return nobody_about(at, now_us) && !sk_histogram_departs(&h, known, &rules_, at.iy, at.ix, z_mm);
 }
 
 void MonitorWatch::pass_of_another(const sk_monitor_cell& at, std::int32_t z_mm, std::int64_t now_us, const MonitorWatch& other) {

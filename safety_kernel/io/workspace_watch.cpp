@@ -26,7 +26,7 @@ void WorkspaceWatch::begin() {
   in_space_ = {-1, -1};
   in_space_us_ = -1;
   begun_ = holds_ = false;
-  learned_us_ = lane_learned_us_ = kNotLearning;
+  learned_us_ = space_learned_us_ = lane_learned_us_ = kNotLearning;
 }
 
 MonitorWatch::Others WorkspaceWatch::others_of(int number) {
@@ -44,8 +44,8 @@ sk_point WorkspaceWatch::head(int scanner, std::int64_t time_us, const JointHist
   return {mm(cosine * mount.x_mm - sine * mount.y_mm), mm(sine * mount.x_mm + cosine * mount.y_mm), mount.z_mm};
 }
 
-bool WorkspaceWatch::learning(const sk_point& point) const {
-  if (!begun_ || learned_us_ != kNotLearning) return true;
+bool WorkspaceWatch::space_learns(const sk_point& point) const {
+  if (!begun_ || space_learned_us_ != kNotLearning) return true;
   return lane_learned_us_ != kNotLearning && in_lane(sk_map_index(point.y_mm), sk_map_index(point.x_mm));
 }
 
@@ -63,7 +63,7 @@ void WorkspaceWatch::take(const ScanBlocks& blocks, const JointHistory& joints, 
       const bool follows = last.scanline == block.scanline && last.index + 1 == index;
       if (follows) scanners_.interpolate(last.point, point, MonitorWatch::Over::kEverything, now_us);
       scanners_.insert(point, now_us, others);
-      if (space_.kept()) space_.take(from, point, learning(point), now_us);
+      if (space_.kept()) space_.take(from, point, space_learns(point), now_us);
       last = {block.scanline, index, point};
     }
   }
@@ -78,8 +78,8 @@ void WorkspaceWatch::take(int lidar, const Vlp16Packet& packet, const JointAngle
     const LidarReturns::Return& r = returns.hit[i];
     if (holds_ && r.lined) pass_low(lidar_[lidar].monitor(), others, in_space_.iy >= 0 ? &space_ : nullptr, r.head, r.point, now_us);
     if (!space_.kept()) continue;
-    if (r.lined) space_.take(r.head, r.point, learning(r.point), now_us);
-    else space_.meet(r.point, learning(r.point), now_us);
+    if (r.lined) space_.take(r.head, r.point, space_learns(r.point), now_us);
+    else space_.meet(r.point, space_learns(r.point), now_us);
   }
 }
 
@@ -120,8 +120,12 @@ void WorkspaceWatch::settle_beside_lanes() {
 }
 
 void WorkspaceWatch::end_learning(std::int64_t now_us) {
-  if (!begun_) learned_us_ = now_us + parameters_.workspace_learn_us;
+  if (!begun_) {
+    learned_us_ = now_us + parameters_.workspace_learn_us;
+    space_learned_us_ = now_us + std::min<std::int64_t>(parameters_.workspace_learn_us, kSpaceLearnUs);
+  }
   begun_ = true;
+  if (now_us >= space_learned_us_) space_learned_us_ = kNotLearning;
   const bool all = learned_us_ != kNotLearning && now_us >= learned_us_, lanes = lane_learned_us_ != kNotLearning && now_us >= lane_learned_us_;
   // A truck that came while the map was learned is to be learned as long as any other.
   if (all && lane_learned_us_ != kNotLearning) settle_beside_lanes();

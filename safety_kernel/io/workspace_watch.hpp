@@ -22,7 +22,7 @@ class WorkspaceWatch {
   explicit WorkspaceWatch(const berm_parameters& parameters);
 
   // What is seen from now on is what later heights are compared with: the base stands, and nobody is in the region. For workspace_learn_us after the
-  // next step it is learned: what changes then is ground, and so is what is seen in free space.
+  // next step it is learned: what changes then is ground, and so is what is seen in free space in the first seconds.
   void begin();
   // Every return of the panning scanners that is in the height map too, and between two that follow one another on a scanline what the line from the
   // one to the other passes over (leger-1998, section 3.1; it counts in EMPTY cells only).
@@ -40,7 +40,7 @@ class WorkspaceWatch {
   bool step(std::int64_t now_us);
 
   bool watched() const { return parameters_.workspace_watched != 0; }
-  // The whole region's ground is being learned, or that of the lanes since a truck has parked: nobody there is watched.
+  // The whole region's ground is being learned, or that of the lanes since a truck has parked: nobody there is watched, but by free space outside the lanes.
   bool learns() const { return watched() && (!begun_ || learned_us_ != kNotLearning); }
   bool learns_lanes() const { return !lanes_open_ && lane_learned_us_ != kNotLearning; }
   // Of the newest step, of a monitor that says stop: a cell with somebody in it, its centre and what is seen there; false when there is none (any
@@ -58,6 +58,8 @@ class WorkspaceWatch {
 
  private:
   static constexpr std::int64_t kNotLearning = -1;
+  // Free space needs no machine that has swung: what is seen for the first time lies in no space that rays have passed all round.
+  static constexpr std::int64_t kSpaceLearnUs = 3'000'000;
 
   struct Last {  // return of a scanner
     std::uint32_t scanline = 0;
@@ -68,7 +70,7 @@ class WorkspaceWatch {
   MonitorWatch& of(int number) { return number == kScanners ? scanners_ : lidar_[number - 1].monitor(); }
   const MonitorWatch& of(int number) const { return number == kScanners ? scanners_ : lidar_[number - 1].monitor(); }
   sk_point head(int scanner, std::int64_t time_us, const JointHistory& joints) const;
-  bool learning(const sk_point& point) const;
+  bool space_learns(const sk_point& point) const;  // so that what stands there is no intruder
   bool in_lane(std::int32_t iy, std::int32_t ix) const;
   void settle(const berm_lane& rectangle);
   void settle_beside_lanes();
@@ -85,6 +87,7 @@ class WorkspaceWatch {
   std::int64_t in_space_us_ = -1;                // when somebody was last there; -1 never
   bool begun_ = false;
   std::int64_t learned_us_ = kNotLearning;       // when the whole region's ground will have been learned
+  std::int64_t space_learned_us_ = kNotLearning; // when free space will have been, outside the lanes
   std::int64_t lane_learned_us_ = kNotLearning;  // the same of the lanes
   Last last_[BERM_SCANNERS];
   bool lanes_open_ = true;

@@ -141,9 +141,9 @@ TEST_F(MonitorOthersTest, NorWhileItMeetsHimItselfNowAndThen) {
   EXPECT_FALSE(holds(1)) << "gone";
 }
 
-// Where nothing is known nothing departs, and any height would be low.
-// verifies: SK-FS-14
-TEST_F(MonitorOthersTest, OverGroundThatNobodyKnowsNoRayFreesASpace) {
+// Where nothing is known, and while it is learned, nothing departs, and any height would be low.
+// verifies: SK-FS-14, SK-WM-73
+TEST_F(MonitorOthersTest, OverGroundThatNobodyKnowsOrThatIsLearnedNoRayFreesASpace) {
   const auto space = std::make_unique<SpaceWatch>(parameters);
   space->begin();
   const auto board = [&](std::int32_t x, std::int32_t half_width, std::int32_t high, bool learning) {
@@ -161,6 +161,12 @@ TEST_F(MonitorOthersTest, OverGroundThatNobodyKnowsNoRayFreesASpace) {
   };
   passes(kGround + 300);
   EXPECT_GT(foreign(), 3);
+  monitors[2]->begin();
+  for (int i = 0; i < SK_HISTOGRAM_ENOUGH; ++i) monitors[2]->insert({kX, kY, kGround}, now_us, others_of(2));
+  passes(kGround + 300);
+  EXPECT_GT(foreign(), 3) << "it is learned";
+  monitors[2]->begin();
+  settle(*monitors[2]);
   for (int i = 0; i < SK_HISTOGRAM_ENOUGH; ++i) monitors[1]->insert({kX, kY, kGround}, now_us, others_of(1));
   passes(kGround + 300);
   EXPECT_LE(foreign(), 2) << "another sensor knows the ground there";
