@@ -3,6 +3,7 @@ the plant's oracle and its trace. The two runs are short; how seldom a false ala
 
 verifies: SK-WM-50, SK-WM-51, SK-WM-53"""
 import csv
+import json
 import math
 import pathlib
 import shutil
@@ -101,4 +102,33 @@ def who_comes_from_behind_is_seen_by_the_lidars():
     shutil.rmtree(out)
 
 
-main([a_truck_is_loaded, who_walks_in_stops_it, who_comes_from_behind_is_seen_by_the_lidars])
+def who_comes_while_the_ground_is_learned_is_found_by_free_space():
+    """From behind to 5 m of the swing axis in the first 45 s, in which heights are learned: none of these visits stopped anything before.
+
+    verifies: SK-FS-11"""
+    for start_s in (5, 20):
+        text = (SCENARIOS / "person_ring.toml").read_text()
+        for old, new in (("max_time_s = 1800.0", "max_time_s = 60.0"), ("start_s = 60.0", f"start_s = {start_s}.0")):
+            assert old in text, old
+            text = text.replace(old, new, 1)
+        path = scratch / f"person_ring_{start_s}.toml"
+        path.write_text(text)
+        _, result, out, text = load("--scenario", path, "--seed", 1)
+        assert result is not None, text[-800:]
+        assert result["contacts"] == 0, result["contacts"]
+        with open(out / "trace.csv", newline="") as file:
+            away = {float(row["time_s"]): math.hypot(float(row["person_x_m"]), float(row["person_y_m"])) for row in csv.DictReader(file)}
+        events = [json.loads(line) for line in (out / "app.jsonl").read_text().splitlines()]
+        stops = [event["time_s"] for event in events if event["event"] == "stopped" and event["reason"] == "intruder"]
+        assert len(stops) == 1 and stops[0] < 45.0, stops
+        at_stop = away[min(away, key=lambda t: abs(t - stops[0]))]
+        assert at_stop > 6.5, f"stopped at {stops[0]} s with the person {at_stop:.1f} m from the swing axis"
+        left = max(t for t, d in away.items() if d < 15.0)
+        on = next(event["time_s"] for event in events if event["event"] == "resumed" and event["time_s"] > stops[0])
+        near = [t for t, d in away.items() if d < 12.0 and t > stops[0]]
+        assert max(near) < on < left + 6.0, f"goes on at {on} s, he left the region at {left} s"
+        print(f"learning: came at {start_s} s, stopped at {stops[0]:.1f} s with the person {at_stop:.1f} m from the swing axis, on at {on:.1f} s")
+        shutil.rmtree(out)
+
+
+main([a_truck_is_loaded, who_walks_in_stops_it, who_comes_from_behind_is_seen_by_the_lidars, who_comes_while_the_ground_is_learned_is_found_by_free_space])
