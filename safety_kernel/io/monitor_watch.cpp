@@ -162,7 +162,8 @@ void MonitorWatch::change_lanes(const berm_parameters& parameters, bool open) {
 }
 
 void MonitorWatch::note_met(std::int32_t iy, std::int32_t ix) {
-  if (histogram_.front().state[iy][ix] == SK_CELL_LEARNING) met_beside_[cell_number(iy, ix)] = sk_histogram_met(histogram_.data(), iy, ix);
+  if (learned_anew(iy, ix) != Anew::kAfterTheBucket || histogram_.front().state[iy][ix] != SK_CELL_LEARNING) return;
+  met_beside_[cell_number(iy, ix)] = sk_histogram_met(histogram_.data(), iy, ix);
 }
 
 void MonitorWatch::settle(const berm_lane& at) {

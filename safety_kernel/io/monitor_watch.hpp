@@ -73,14 +73,14 @@ class MonitorWatch {
   bool scanners_know_better(std::int32_t iy, std::int32_t ix, const Others& others) const;
   // With histograms: the height of what is measured nearer to a cell than half a cell is one of its own too, while it is learning.
   void learn_beside(const sk_point& point);
-  // Of a cell that is about to be settled.
+  // Of a cell that is about to be settled, where it counts: in a dig zone.
   void note_met(std::int32_t iy, std::int32_t ix);
 
   sk_monitor_rules rules_{};
   sk_monitor monitor_;                           // the accumulated map's heights (leger-1998, section 3.2)
   std::vector<sk_monitor_histogram> histogram_;  // or a histogram per cell (4.2): one, or none; from the start, so that no cycle allocates
   std::vector<Anew> learned_anew_;               // of each cell, row by row
-  std::vector<std::int32_t> met_beside_;         // so as well: sk_histogram_met when it was settled last; of a cell that was never, SK_NOBODY_KNOWS
+  std::vector<std::int32_t> met_beside_;         // so as well, of dig zones: sk_histogram_met when it was settled last; of a cell that was never, SK_NOBODY_KNOWS
   sk_monitor_cell where_{-1, -1};
   std::int64_t newest_us_ = -1;
 };
