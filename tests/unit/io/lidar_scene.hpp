@@ -18,6 +18,11 @@ struct StandingPerson {  // an upright cylinder on the ground
   double x, y, radius, height;
   double from_s = 0.0;   // is there from then on
 };
+struct Somebody {
+  const char* name;
+  double radius, height;
+};
+inline constexpr Somebody kAdult{"adult", 0.25, 1.8}, kChild{"child", 0.20, 1.1};
 struct StandingBox {
   std::array<double, 3> low, high;
 };

@@ -18,12 +18,6 @@ constexpr double kFromM = 16.0, kToM = 5.0;  // of the swing axis; the region en
 constexpr double kComesS = 4.0, kStaysS = 2.0, kWayS = (kFromM - kToM) / kWalkM_s;
 constexpr double kLearnRad_s = 0.087;        // a swing at learn_speed
 
-struct Somebody {
-  const char* name;
-  double radius, height;
-};
-constexpr Somebody kAdult{"adult", 0.25, 1.8}, kChild{"child", 0.20, 1.1};
-
 class LearningIntruderTest : public testing::Test {
  protected:
   LearningIntruderTest() {
@@ -59,6 +53,7 @@ TEST_F(LearningIntruderTest, WhoWalksInStopsIt) {
       }
       std::printf("%s, swing %.3f rad/s: %d of %d stopped for, at %.1f m or farther\n", who.name, rad_s, found, of, nearest);
       EXPECT_EQ(found, of) << who.name << " " << rad_s;
+      EXPECT_GT(nearest, rad_s > 0.0 ? 7.5 : kToM) << who.name << " " << rad_s;
     }
 }
 

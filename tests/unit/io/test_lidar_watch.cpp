@@ -41,12 +41,6 @@ class LidarWatchTest : public testing::Test {
   berm_parameters parameters = watched_ring();
 };
 
-struct Somebody {
-  const char* name;
-  double radius, height;
-};
-constexpr Somebody kAdult{"adult", 0.25, 1.8}, kChild{"child", 0.20, 1.1};
-
 // verifies: SK-WM-56, SK-WM-57, SK-WM-58
 TEST_F(LidarWatchTest, WhoAppearsStopsItWithin250Milliseconds) {
   const auto ring = learned();

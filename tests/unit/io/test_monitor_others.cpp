@@ -289,6 +289,9 @@ TEST_F(MonitorOthersTest, WhatWasMetBesideACellOfADigIsNotItsGroundAndNobodyIsMu
   EXPECT_FALSE(see(0, kFoot + 1000, 3));
   EXPECT_TRUE(see(0, kFoot + 1551, 3)) << "nor is he, met from the feet upwards";
   EXPECT_EQ(observed(0), 3U);
+  begin();  // settled with nothing met
+  EXPECT_FALSE(see(0, kFoot, 2));
+  EXPECT_TRUE(see(0, kFoot + 1551, 3)) << "higher than a slope rises over the first two met";
   beside(0);
   EXPECT_FALSE(see(2, kFoot, 20));
   EXPECT_TRUE(see(0, kFoot + 1100, 3)) << "where a lidar knows the ground he is somebody, though what it knows excuses nobody";
