@@ -93,9 +93,9 @@ static bool sk_is_known_as_high(int32_t known, int32_t low) { return known >= 0 
 
 /*@ requires \valid_read(h) && \valid_read(r) && sk_in_map(iy, ix);
   @ assigns \nothing;
-  @ ensures \result == true <==> sk_departs(h, known, swept, r, iy, ix, z_mm);
+  @ ensures \result == true <==> sk_departs(h, known, over_lines, r, iy, ix, z_mm);
   @*/
-static bool sk_is_departing(const sk_monitor_histogram *h, int32_t known, int32_t swept, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm)
+static bool sk_is_departing(const sk_monitor_histogram *h, int32_t known, bool over_lines, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm)
 {
   int32_t low = sk_lowest_bin_of(z_mm, r->height_threshold_mm);
   /*@ assert only: \forall integer k; sk_lowest_bin(k, z_mm, r->height_threshold_mm) ==> k == low; */
@@ -105,7 +105,10 @@ static bool sk_is_departing(const sk_monitor_histogram *h, int32_t known, int32_
     return sk_seen_from(h, iy, ix, low) < 2;
   }
   if (sk_seen_from(h, iy, ix, low) > 0) { return false; }
-  if (h->lines[iy][ix] >= SK_LINES_ENOUGH && (int64_t)z_mm - h->line_mm[iy][ix] > r->height_threshold_mm && !sk_is_known_as_high(swept, low)) { return true; }
+  if (h->lines[iy][ix] >= SK_LINES_ENOUGH && (int64_t)z_mm - h->line_mm[iy][ix] > r->height_threshold_mm &&
+      !(over_lines && sk_is_known_as_high(known, low))) {
+    return true;
+  }
   return sk_is_known_lower(known, low);
 }
 
@@ -293,10 +296,10 @@ static void sk_take_departing(sk_monitor_histogram *h, const sk_monitor_rules *r
   h->ground_us[iy][ix] = SK_NO_GROUND;
 }
 
-bool sk_histogram_insert(sk_monitor_histogram *h, int32_t known, int32_t swept, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us)
+bool sk_histogram_insert(sk_monitor_histogram *h, int32_t known, bool over_lines, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us)
 {
   if (now_us < 0 || z_mm >= SK_HISTOGRAM_TOP_MM || !sk_is_in_map(iy, ix)) { return false; }
-  if (!sk_is_departing(h, known, swept, r, iy, ix, z_mm)) {
+  if (!sk_is_departing(h, known, over_lines, r, iy, ix, z_mm)) {
     sk_take_ground(h, known, r, iy, ix, z_mm, now_us);
     return false;
   }
@@ -313,13 +316,13 @@ void sk_histogram_beside(sk_monitor_histogram *h, int32_t iy, int32_t ix, int32_
 
 bool sk_histogram_departs(const sk_monitor_histogram *h, int32_t known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm)
 {
-  return sk_is_in_map(iy, ix) && sk_is_departing(h, known, SK_NOBODY_KNOWS, r, iy, ix, z_mm);
+  return sk_is_in_map(iy, ix) && sk_is_departing(h, known, false, r, iy, ix, z_mm);
 }
 
 void sk_histogram_pass(sk_monitor_histogram *h, int32_t known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us)
 {
   if (now_us < 0 || z_mm >= SK_HISTOGRAM_TOP_MM || !sk_is_in_map(iy, ix)) { return; }
-  if (!sk_is_departing(h, known, SK_NOBODY_KNOWS, r, iy, ix, z_mm)) { sk_see_ground_again(h, r, iy, ix, now_us); }
+  if (!sk_is_departing(h, known, false, r, iy, ix, z_mm)) { sk_see_ground_again(h, r, iy, ix, now_us); }
 }
 
 /*@ assigns \nothing;

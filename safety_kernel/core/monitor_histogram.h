@@ -56,20 +56,21 @@ typedef struct sk_monitor_histogram {
   @ predicate sk_known_lower(integer known, integer low) = 0 <= known < low;
   @ predicate sk_known_as_high(integer known, integer low) = known >= 0 && known >= low;
   @ // by bins from `low` on: a stray point counts where so few were seen that the ground is known by lines or from others alone; and where many
-  @ // were not yet seen, what others know explains. `swept`: so known, and better than lines
-  @ predicate sk_departs_from{L}(sk_monitor_histogram *h, integer known, integer swept, integer iy, integer ix, integer z, integer rise, integer low) =
+  @ // were not yet seen, what others know explains. `over_lines`: that outweighs lines
+  @ predicate sk_departs_from{L}(sk_monitor_histogram *h, integer known, integer over_lines, integer iy, integer ix, integer z, integer rise, integer low) =
   @   \at(h->state[iy][ix], L) != SK_CELL_LEARNING &&
   @   (\at(h->observed[iy][ix], L) >= SK_HISTOGRAM_ENOUGH ==> !sk_seen_twice_in{L}(h, iy, ix, low, SK_HISTOGRAM_BINS) &&
   @     (\at(h->observed[iy][ix], L) < SK_HISTOGRAM_WELL ==> !sk_known_as_high(known, low))) &&
   @   (\at(h->observed[iy][ix], L) < SK_HISTOGRAM_ENOUGH ==> !sk_seen_in{L}(h, iy, ix, low, SK_HISTOGRAM_BINS) &&
-  @     ((\at(h->lines[iy][ix], L) >= SK_LINES_ENOUGH && z - \at(h->line_mm[iy][ix], L) > rise && !sk_known_as_high(swept, low)) ||
+  @     ((\at(h->lines[iy][ix], L) >= SK_LINES_ENOUGH && z - \at(h->line_mm[iy][ix], L) > rise &&
+  @       !(over_lines != 0 && sk_known_as_high(known, low))) ||
   @      sk_known_lower(known, low)));
   @ // `low` is the lowest bin that explains z
   @ predicate sk_lowest_bin(integer low, integer z, integer rise) = sk_in_bins(low) &&
   @   \forall integer b; sk_in_bins(b) ==> (b >= low <==> sk_bin_explains(b, z, rise));
-  @ predicate sk_departs{L}(sk_monitor_histogram *h, integer known, integer swept, sk_monitor_rules *r, integer iy, integer ix, integer z) =
+  @ predicate sk_departs{L}(sk_monitor_histogram *h, integer known, integer over_lines, sk_monitor_rules *r, integer iy, integer ix, integer z) =
   @   \exists integer low; sk_lowest_bin(low, z, \at(r->height_threshold_mm, L)) &&
-  @     sk_departs_from{L}(h, known, swept, iy, ix, z, \at(r->height_threshold_mm, L), low);
+  @     sk_departs_from{L}(h, known, over_lines, iy, ix, z, \at(r->height_threshold_mm, L), low);
   @
   @ // as long as a lone point waits in the temporary map to be joined by another
   @ logic integer sk_window{L}(sk_monitor_rules *r) = 2 * \at(r->period_us, L);
@@ -177,12 +178,12 @@ int32_t sk_histogram_known(const sk_monitor_histogram *h, int32_t iy, int32_t ix
 
 /* A measured point over cell (iy, ix). Returns whether it departs from what was seen there: such a point is never counted, so that nobody becomes the
  * ground by standing. `known`: of the other sensors' sk_histogram_known the highest. Where too little was seen of the cell that counts in its place; where
- * so little that it may all be of one moment, what is as high departs from nothing. `swept`: what of that is also worth more than lines, or
- * SK_NOBODY_KNOWS. Outside the map, too high, or with now_us < 0, nothing changes. */
+ * so little that it may all be of one moment, what is as high departs from nothing. `over_lines`: that is worth more than lines,
+ * too. Outside the map, too high, or with now_us < 0, nothing changes. */
 /*@ requires \valid(h) && \valid_read(r) && \separated(h, r);
   @ assigns h->seen[..][..][..], h->state[..][..], h->observed[..][..], h->departed_mm[..][..], h->departed_us[..][..][..], h->ground_us[..][..];
   @ ensures departs: \result == true <==> sk_in_map(iy, ix) && now_us >= 0 && z_mm < SK_HISTOGRAM_TOP_MM &&
-  @   sk_departs{Pre}(h, known, swept, r, iy, ix, z_mm);
+  @   sk_departs{Pre}(h, known, over_lines, r, iy, ix, z_mm);
   @ ensures appears: \result == true && sk_joined_by_others{Pre}(h, r, now_us, iy, ix) ==> sk_somebody_at(h, iy, ix);
   @ ensures nobody: sk_in_map(iy, ix) && sk_somebody_at(h, iy, ix) ==>
   @   sk_somebody_at{Pre}(h, iy, ix) || (\result == true && sk_joined_by_others{Pre}(h, r, now_us, iy, ix));
@@ -201,7 +202,7 @@ int32_t sk_histogram_known(const sk_monitor_histogram *h, int32_t iy, int32_t ix
   @ ensures others: \forall integer j, i; sk_in_map(j, i) && (now_us < 0 || z_mm >= SK_HISTOGRAM_TOP_MM || !(j == iy && i == ix)) ==>
   @   sk_cell_kept{Pre, Post}(h, j, i);
   @*/
-bool sk_histogram_insert(sk_monitor_histogram *h, int32_t known, int32_t swept, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us);
+bool sk_histogram_insert(sk_monitor_histogram *h, int32_t known, bool over_lines, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm, int64_t now_us);
 
 /* A point at z_mm that was measured beside cell (iy, ix): while that is learning its height is taken for one of the cell's, too, but the cell itself has
  * not been seen by it. Of a cell that is not learning, outside the map, or too high, nothing changes. */
@@ -218,7 +219,7 @@ void sk_histogram_beside(sk_monitor_histogram *h, int32_t iy, int32_t ix, int32_
  * nothing is worth more than lines. */
 /*@ requires \valid_read(h) && \valid_read(r);
   @ assigns \nothing;
-  @ ensures \result == true <==> sk_in_map(iy, ix) && sk_departs(h, known, SK_NOBODY_KNOWS, r, iy, ix, z_mm);
+  @ ensures \result == true <==> sk_in_map(iy, ix) && sk_departs(h, known, 0, r, iy, ix, z_mm);
   @*/
 bool sk_histogram_departs(const sk_monitor_histogram *h, int32_t known, const sk_monitor_rules *r, int32_t iy, int32_t ix, int32_t z_mm);
 
@@ -227,8 +228,8 @@ bool sk_histogram_departs(const sk_monitor_histogram *h, int32_t known, const sk
 /*@ requires \valid(h) && \valid_read(r) && \separated(h, r);
   @ assigns h->state[..][..], h->ground_us[..][..];
   @ ensures stays: \forall integer j, i; sk_in_map(j, i) && sk_somebody_at{Pre}(h, j, i) ==> sk_somebody_at(h, j, i) ||
-  @   (j == iy && i == ix && now_us >= 0 && !sk_departs{Pre}(h, known, SK_NOBODY_KNOWS, r, iy, ix, z_mm) && sk_ground_is_back{Pre}(h, r, now_us, iy, ix));
-  @ ensures leaves: sk_in_map(iy, ix) && now_us >= 0 && z_mm < SK_HISTOGRAM_TOP_MM && !sk_departs{Pre}(h, known, SK_NOBODY_KNOWS, r, iy, ix, z_mm) &&
+  @   (j == iy && i == ix && now_us >= 0 && !sk_departs{Pre}(h, known, 0, r, iy, ix, z_mm) && sk_ground_is_back{Pre}(h, r, now_us, iy, ix));
+  @ ensures leaves: sk_in_map(iy, ix) && now_us >= 0 && z_mm < SK_HISTOGRAM_TOP_MM && !sk_departs{Pre}(h, known, 0, r, iy, ix, z_mm) &&
   @   sk_ground_is_back{Pre}(h, r, now_us, iy, ix) ==> !sk_somebody_at(h, iy, ix);
   @ ensures nobody: \forall integer j, i; sk_in_map(j, i) && !sk_somebody_at{Pre}(h, j, i) ==> h->state[j][i] == \old(h->state[j][i]);
   @ ensures time: \forall integer j, i; sk_in_map(j, i) ==> h->ground_us[j][i] == \old(h->ground_us[j][i]) ||

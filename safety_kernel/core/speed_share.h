@@ -1,4 +1,4 @@
-/* How fast the machine may be asked to move while its sensors know less than usual: in dust, and while the Workspace Monitor learns the ground, so that
+/* How fast the machine may be asked to move while its sensors know less than usual: in dust, and while the Workspace Monitor learns the ground, so that by heights
  * nobody is watched: everywhere, or where the implements come near the lane of a truck that has just parked. Shares of each joint's largest speed, in
  * per mille. */
 #ifndef SK_SPEED_SHARE_H

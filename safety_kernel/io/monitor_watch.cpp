@@ -55,7 +55,6 @@ void MonitorWatch::watch_region(const berm_parameters& parameters, bool lanes_op
 void MonitorWatch::begin() {
   sk_monitor_begin(&monitor_);
   for (sk_monitor_histogram& h : histogram_) sk_histogram_begin(&h);
-  std::fill(met_beside_.begin(), met_beside_.end(), SK_NOBODY_KNOWS);
   where_ = {-1, -1};
   newest_us_ = -1;
 }
@@ -87,7 +86,7 @@ void MonitorWatch::insert(const sk_point& point, std::int64_t now_us, const Othe
     return;
   }
   const std::int32_t known = known_elsewhere(iy, ix, others);
-  sk_histogram_insert(histogram_.data(), known, scanners_know_better(iy, ix, others) ? known : SK_NOBODY_KNOWS, &rules_, iy, ix, point.z_mm, now_us);
+  sk_histogram_insert(histogram_.data(), known, scanners_know_better(iy, ix, others), &rules_, iy, ix, point.z_mm, now_us);
   learn_beside(point);
 }
 

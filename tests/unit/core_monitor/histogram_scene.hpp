@@ -18,7 +18,7 @@ class MonitorHistogram : public testing::Test {
   MonitorHistogram() { sk_histogram_begin(h.get()); }
   bool see(int iy, int ix, std::int32_t z_mm, int points = 1) {
     bool departs = false;
-    for (int i = 0; i < points; ++i) departs = sk_histogram_insert(h.get(), SK_NOBODY_KNOWS, SK_NOBODY_KNOWS, rules.get(), iy, ix, z_mm, now_us);
+    for (int i = 0; i < points; ++i) departs = sk_histogram_insert(h.get(), SK_NOBODY_KNOWS, false, rules.get(), iy, ix, z_mm, now_us);
     return departs;
   }
   void ground(std::int32_t z_mm = 0) {

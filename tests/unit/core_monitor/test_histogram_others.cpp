@@ -14,11 +14,11 @@ namespace {
 TEST_F(MonitorHistogram, WhereTooLittleWasSeenWhatOthersKnowCounts) {
   const auto others = std::make_unique<sk_monitor_histogram>();
   const auto departs = [&](std::int32_t z_mm) {
-    return sk_histogram_insert(h.get(), sk_histogram_known(others.get(), 50, 50), SK_NOBODY_KNOWS, rules.get(), 50, 50, z_mm, now_us);
+    return sk_histogram_insert(h.get(), sk_histogram_known(others.get(), 50, 50), false, rules.get(), 50, 50, z_mm, now_us);
   };
   sk_histogram_begin(others.get());
   settle();
-  for (int i = 0; i < SK_HISTOGRAM_ENOUGH; ++i) sk_histogram_insert(others.get(), SK_NOBODY_KNOWS, SK_NOBODY_KNOWS, rules.get(), 50, 50, 0, now_us);
+  for (int i = 0; i < SK_HISTOGRAM_ENOUGH; ++i) sk_histogram_insert(others.get(), SK_NOBODY_KNOWS, false, rules.get(), 50, 50, 0, now_us);
   EXPECT_FALSE(departs(900)) << "the others are learning";
   sk_histogram_begin(h.get());
   settle();
@@ -45,7 +45,7 @@ TEST_F(MonitorHistogram, WhereNotManyWereSeenWhatOthersKnowExplains) {
   see(50, 50, -1500, 9);
   const int high = 4;  // bin of -4500
   const auto bin_of = [](std::int32_t z_mm) { return (z_mm - SK_HISTOGRAM_FLOOR_MM) / SK_HISTOGRAM_BIN_MM; };
-  const auto departs = [&](std::int32_t z_mm, std::int32_t known) { return sk_histogram_insert(h.get(), known, SK_NOBODY_KNOWS, rules.get(), 50, 50, z_mm, now_us); };
+  const auto departs = [&](std::int32_t z_mm, std::int32_t known) { return sk_histogram_insert(h.get(), known, false, rules.get(), 50, 50, z_mm, now_us); };
   EXPECT_TRUE(departs(-800, SK_NOBODY_KNOWS));
   EXPECT_TRUE(departs(-800, high)) << "known lower";
   EXPECT_TRUE(departs(-800, bin_of(-800 - kHeightThreshold))) << "its bin begins lower than a rise below the point";
@@ -63,16 +63,16 @@ TEST_F(MonitorHistogram, LinesYieldToWhatIsWorthMoreAndToNothingElse) {
   settle();
   for (int i = 0; i < SK_LINES_ENOUGH; ++i) sk_histogram_line(h.get(), 50, 50, -700);
   const int as_high = 38, lower = 33;  // bins of 600 and -150
-  const auto departs = [&](std::int32_t z_mm, std::int32_t known, std::int32_t swept) {
-    return sk_histogram_insert(h.get(), known, swept, rules.get(), 50, 50, z_mm, now_us);
+  const auto departs = [&](std::int32_t z_mm, std::int32_t known, bool over_lines) {
+    return sk_histogram_insert(h.get(), known, over_lines, rules.get(), 50, 50, z_mm, now_us);
   };
-  EXPECT_FALSE(departs(445, as_high, as_high));
+  EXPECT_FALSE(departs(445, as_high, true));
   EXPECT_EQ(h->observed[50][50], 0U) << "nor is what the lines are too low for counted";
-  EXPECT_TRUE(departs(445, as_high, SK_NOBODY_KNOWS));
-  EXPECT_TRUE(departs(445, lower, lower)) << "higher than is known by a rise";
-  EXPECT_TRUE(departs(600 + kHeightThreshold + 1, as_high, as_high));
+  EXPECT_TRUE(departs(445, as_high, false));
+  EXPECT_TRUE(departs(445, lower, true)) << "higher than is known by a rise";
+  EXPECT_TRUE(departs(600 + kHeightThreshold + 1, as_high, true));
   see(50, 50, -700, SK_HISTOGRAM_ENOUGH);
-  EXPECT_FALSE(departs(445, as_high, SK_NOBODY_KNOWS)) << "points of its own, and few";
+  EXPECT_FALSE(departs(445, as_high, false)) << "points of its own, and few";
 }
 
 // verifies: SK-WM-71

@@ -87,7 +87,7 @@ TEST_F(MonitorHistogram, RandomSequencesAreAsTheReferenceHasThem) {
         if (below(300) == 0) z = below(2) == 0 ? -6000 : 7000;
         if (below(3000) == 0) z = below(2) == 0 ? std::numeric_limits<std::int32_t>::min() : std::numeric_limits<std::int32_t>::max();
         if (sequence % 2 == 0 && below(3) == 0) {  // what the others see
-          sk_histogram_insert(others.get(), SK_NOBODY_KNOWS, SK_NOBODY_KNOWS, rules.get(), iy, ix, z, now_us);
+          sk_histogram_insert(others.get(), SK_NOBODY_KNOWS, false, rules.get(), iy, ix, z, now_us);
           reference_of_others.insert(r, reference_of_others, false, {iy, ix}, z, now_us);
           continue;
         }
@@ -97,7 +97,7 @@ TEST_F(MonitorHistogram, RandomSequencesAreAsTheReferenceHasThem) {
         }
         const std::int32_t known = sk_histogram_known(others.get(), iy, ix);
         const bool yields = below(2) == 0;
-        const bool departs = sk_histogram_insert(h.get(), known, yields ? known : SK_NOBODY_KNOWS, rules.get(), iy, ix, z, now_us);
+        const bool departs = sk_histogram_insert(h.get(), known, yields, rules.get(), iy, ix, z, now_us);
         ASSERT_EQ(departs, reference.insert(r, reference_of_others, yields, {iy, ix}, z, now_us)) << sequence << " " << turn << ": " << z << " mm";
         departed += departs ? 1 : 0;
         left += was && !somebody(iy, ix) ? 1 : 0;
