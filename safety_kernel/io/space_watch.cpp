@@ -51,8 +51,9 @@ std::int32_t lowest_above(std::int32_t z_mm) { return std::clamp((z_mm - SK_VOXE
 
 }  // namespace
 
-SpaceWatch::SpaceWatch(const berm_parameters& parameters) : parameters_(parameters), without_truck_zones_(parameters), limits_{}, region_{} {
-  without_truck_zones_.truck_zones = 0;
+SpaceWatch::SpaceWatch(const berm_parameters& parameters) : parameters_(parameters), without_zones_(parameters), limits_{}, region_{} {
+  without_zones_.truck_zones = 0;
+  if (parameters.workspace_histogram != 0) without_zones_.dig_zones = 0;
   sk_pass_limits(&parameters_, false, &limits_);
   begin();
   watch(true, false);
@@ -66,6 +67,7 @@ void SpaceWatch::begin() {
     std::fill_n(&low_us_[0][0], SK_MAP_CELLS * SK_MAP_CELLS, -1);
     std::fill_n(&low_mm_[0][0], SK_MAP_CELLS * SK_MAP_CELLS, 0);
   }
+  std::fill_n(&dug_[0][0], SK_MAP_CELLS * SK_MAP_CELLS, std::uint8_t{0});
   blank_ = true;
 }
 
@@ -124,8 +126,21 @@ void SpaceWatch::pass_low(const sk_monitor_cell& at, std::int32_t z_mm, std::int
 }
 
 void SpaceWatch::watch(bool lanes_open, bool truck_learned) {
-  sk_watch_region(&region_, &without_truck_zones_, lanes_open);
+  sk_watch_region(&region_, &without_zones_, lanes_open);
   for (int i = 0; i < parameters_.truck_zones; ++i) leave_out(parameters_.truck_zone[i], truck_learned);
+  std::copy_n(&region_.watched[0][0], SK_MAP_CELLS * SK_MAP_CELLS, &undug_region_[0][0]);
+  for (std::int32_t iy = 0; iy < SK_MAP_CELLS; ++iy)
+    for (std::int32_t ix = 0; ix < SK_MAP_CELLS; ++ix)
+      if (dug_[iy][ix] != 0) region_.watched[iy][ix] = 0;
+}
+
+void SpaceWatch::dig(const std::vector<DigWatch::Cell>& cells, bool heights_learned, bool held) {
+  for (const DigWatch::Cell& cell : cells) {
+    const auto [iy, ix] = cell.at;
+    if (cell.stirred && !held) dug_[iy][ix] = 1;
+    else if (!cell.stirred && !heights_learned) dug_[iy][ix] = 0;
+    region_.watched[iy][ix] = dug_[iy][ix] == 0 ? undug_region_[iy][ix] : 0;
+  }
 }
 
 bool SpaceWatch::stands_high(std::int32_t iy, std::int32_t ix) const {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "config/parameter_block.h"
 #include "core/clearance_rules.h"
 #include "core/free_space.h"
 #include "core/scanline_raster.h"
+#include "io/dig_watch.hpp"
 
 namespace berm::kernel {
 
@@ -31,7 +33,13 @@ class SpaceWatch {
   void pass_low(const sk_monitor_cell& at, std::int32_t z_mm, std::int64_t now_us);
   // The region, less what the machine itself changes: as the Workspace Monitor's; but of a truck zone only the box round what stands in it is left
   // out, higher than may be passed over: the truck and its load. While nobody knows what stands there, the whole zone is.
+  // With histograms dig zones belong to the region until the bucket comes near.
   void watch(bool lanes_open, bool truck_learned);
+  // Once a cycle. Where the bucket is near soil comes to lie in what was free: what is met there belongs there, and is not watched. While heights are learned,
+  // so that nobody else watches there, it is again when the soil has come to rest; after that it is left out until the begin. held: somebody is in the
+  // region, and no cell leaves it, lest it be his.
+  void dig(const std::vector<DigWatch::Cell>& cells, bool heights_learned, bool held);
+  bool is_dug(std::int32_t iy, std::int32_t ix) const { return sk_is_in_map(iy, ix) && dug_[iy][ix] != 0; }
   // A cell of the region with so many FOREIGN voxels that somebody is in it; false where there is none.
   bool find(sk_monitor_cell& where) const;
   // The highest FOREIGN voxel of a cell, its low side; the floor where there is none.
@@ -51,13 +59,15 @@ class SpaceWatch {
   bool stands_high(std::int32_t iy, std::int32_t ix) const;
 
   const berm_parameters& parameters_;
-  berm_parameters without_truck_zones_;
+  berm_parameters without_zones_;  // of trucks and, where it is told where the bucket was, of digs
   sk_clearance_rules limits_;   // pass_mm alone: with no truck
   sk_monitor_rules region_;     // watched alone
   sk_free_space space_;
   std::int64_t met_us_[SK_MAP_CELLS][SK_MAP_CELLS];  // when something was last met in a FOREIGN voxel of the cell; -1 never
   std::int64_t low_us_[SK_MAP_CELLS][SK_MAP_CELLS];  // when a ray first passed it low since then; -1 not yet
   std::int32_t low_mm_[SK_MAP_CELLS][SK_MAP_CELLS];  // how high that ray was; where low_us_ has one
+  std::uint8_t dug_[SK_MAP_CELLS][SK_MAP_CELLS] = {};           // since the begin, and not watched again
+  std::uint8_t undug_region_[SK_MAP_CELLS][SK_MAP_CELLS] = {};  // region_.watched, had nothing been dug
   bool blank_ = false;          // nothing has been taken since the begin
 };
 

@@ -26,7 +26,7 @@ void WorkspaceWatch::begin() {
   in_space_ = {-1, -1};
   in_space_us_ = -1;
   begun_ = holds_ = false;
-  learned_us_ = space_learned_us_ = lane_learned_us_ = kNotLearning;
+  learned_us_ = space_learned_us_ = lane_learned_us_ = lane_space_learned_us_ = kNotLearning;
 }
 
 MonitorWatch::Others WorkspaceWatch::others_of(int number) {
@@ -46,7 +46,8 @@ sk_point WorkspaceWatch::head(int scanner, std::int64_t time_us, const JointHist
 
 bool WorkspaceWatch::space_learns(const sk_point& point) const {
   if (!begun_ || space_learned_us_ != kNotLearning) return true;
-  return lane_learned_us_ != kNotLearning && in_lane(sk_map_index(point.y_mm), sk_map_index(point.x_mm));
+  const std::int32_t iy = sk_map_index(point.y_mm), ix = sk_map_index(point.x_mm);
+  return space_.is_dug(iy, ix) || (lane_space_learned_us_ != kNotLearning && in_lane(iy, ix));
 }
 
 void WorkspaceWatch::take(const ScanBlocks& blocks, const JointHistory& joints, std::int64_t now_us) {
@@ -89,7 +90,12 @@ void WorkspaceWatch::trucks(bool spotter_fresh, bool parked, std::int64_t now_us
   for (int number = 0; number < monitors(); ++number) of(number).change_lanes(parameters_, lanes_open_);
   for (int i = 0; i < parameters_.lanes; ++i) space_.forget(parameters_.lane[i]);
   lane_learned_us_ = now_us + parameters_.workspace_learn_us;
+  lane_space_learned_us_ = space_learned_from(now_us);
   space_.watch(lanes_open_, false);
+}
+
+std::int64_t WorkspaceWatch::space_learned_from(std::int64_t now_us) const {
+  return now_us + std::min<std::int64_t>(parameters_.workspace_learn_us, kSpaceLearnUs);
 }
 
 void WorkspaceWatch::settle(const berm_lane& rectangle) {
@@ -122,10 +128,11 @@ void WorkspaceWatch::settle_beside_lanes() {
 void WorkspaceWatch::end_learning(std::int64_t now_us) {
   if (!begun_) {
     learned_us_ = now_us + parameters_.workspace_learn_us;
-    space_learned_us_ = now_us + std::min<std::int64_t>(parameters_.workspace_learn_us, kSpaceLearnUs);
+    space_learned_us_ = space_learned_from(now_us);
   }
   begun_ = true;
   if (now_us >= space_learned_us_) space_learned_us_ = kNotLearning;
+  if (now_us >= lane_space_learned_us_) lane_space_learned_us_ = kNotLearning;
   const bool all = learned_us_ != kNotLearning && now_us >= learned_us_, lanes = lane_learned_us_ != kNotLearning && now_us >= lane_learned_us_;
   // A truck that came while the map was learned is to be learned as long as any other.
   if (all && lane_learned_us_ != kNotLearning) settle_beside_lanes();
@@ -133,7 +140,13 @@ void WorkspaceWatch::end_learning(std::int64_t now_us) {
   for (int i = 0; lanes && i < parameters_.lanes; ++i) settle(parameters_.lane[i]);
   if (all) learned_us_ = kNotLearning;
   if (lanes) lane_learned_us_ = kNotLearning;
-  if (all || lanes) space_.watch(lanes_open_, !lanes_open_ && learned_us_ == kNotLearning && lane_learned_us_ == kNotLearning);
+  // Of a truck more and more is seen meanwhile, and left out of what free space watches; but not while somebody is in the region, lest it be he.
+  const bool truck_seen = !lanes_open_ && space_learned_us_ == kNotLearning && lane_space_learned_us_ == kNotLearning;
+  truck_box_due_ = truck_box_due_ || all || lanes || (truck_seen && (learned_us_ != kNotLearning || lane_learned_us_ != kNotLearning) && now_us >= truck_box_us_);
+  if (!truck_box_due_ || holds_) return;
+  space_.watch(lanes_open_, truck_seen);
+  truck_box_due_ = false;
+  truck_box_us_ = now_us + kTruckBoxUs;
 }
 
 bool WorkspaceWatch::foreign(std::int64_t now_us) {
@@ -147,6 +160,7 @@ void WorkspaceWatch::dig(const JointAngles& joints, bool stands, std::int64_t no
   digs_.step(joints, stands, holds_, now_us);
   const bool learned = begun_ && learned_us_ == kNotLearning;
   for (int number = 0; number < monitors(); ++number) of(number).dig(digs_.cells(), learned, holds_);
+  space_.dig(digs_.cells(), learned, holds_);
 }
 
 bool WorkspaceWatch::step(std::int64_t now_us) {

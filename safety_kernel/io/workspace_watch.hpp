@@ -40,7 +40,7 @@ class WorkspaceWatch {
   bool step(std::int64_t now_us);
 
   bool watched() const { return parameters_.workspace_watched != 0; }
-  // The whole region's ground is being learned, or that of the lanes since a truck has parked: nobody there is watched, but by free space outside the lanes.
+  // The whole region's ground is being learned, or that of the lanes since a truck has parked: nobody there is watched, but by free space.
   bool learns() const { return watched() && (!begun_ || learned_us_ != kNotLearning); }
   bool learns_lanes() const { return !lanes_open_ && lane_learned_us_ != kNotLearning; }
   // Of the newest step, of a monitor that says stop: a cell with somebody in it, its centre and what is seen there; false when there is none (any
@@ -61,6 +61,8 @@ class WorkspaceWatch {
   // Free space needs no machine that has swung: what is seen for the first time lies in no space that rays have passed all round.
   static constexpr std::int64_t kSpaceLearnUs = 3'000'000;
 
+  static constexpr std::int64_t kTruckBoxUs = 1'000'000;
+
   struct Last {  // return of a scanner
     std::uint32_t scanline = 0;
     std::int32_t index = -2;
@@ -71,6 +73,7 @@ class WorkspaceWatch {
   const MonitorWatch& of(int number) const { return number == kScanners ? scanners_ : lidar_[number - 1].monitor(); }
   sk_point head(int scanner, std::int64_t time_us, const JointHistory& joints) const;
   bool space_learns(const sk_point& point) const;  // so that what stands there is no intruder
+  std::int64_t space_learned_from(std::int64_t now_us) const;
   bool in_lane(std::int32_t iy, std::int32_t ix) const;
   void settle(const berm_lane& rectangle);
   void settle_beside_lanes();
@@ -87,8 +90,10 @@ class WorkspaceWatch {
   std::int64_t in_space_us_ = -1;                // when somebody was last there; -1 never
   bool begun_ = false;
   std::int64_t learned_us_ = kNotLearning;       // when the whole region's ground will have been learned
-  std::int64_t space_learned_us_ = kNotLearning; // when free space will have been, outside the lanes
-  std::int64_t lane_learned_us_ = kNotLearning;  // the same of the lanes
+  std::int64_t space_learned_us_ = kNotLearning; // when free space will have been
+  std::int64_t lane_learned_us_ = kNotLearning, lane_space_learned_us_ = kNotLearning;  // the same two of the lanes
+  bool truck_box_due_ = false;                   // what stands in the trucks' zones is to be looked at anew
+  std::int64_t truck_box_us_ = 0;                // while it is learned: when next
   Last last_[BERM_SCANNERS];
   bool lanes_open_ = true;
   bool holds_ = false;                           // the newest step said stop

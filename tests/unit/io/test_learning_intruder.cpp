@@ -57,6 +57,21 @@ TEST_F(LearningIntruderTest, WhoWalksInStopsIt) {
     }
 }
 
+// verifies: SK-FS-15
+TEST_F(LearningIntruderTest, WhoWalksInOverTheDigStopsIt) {
+  parameters.dig_zone[0] = {3900, -4200, 14900, 4200, -3400, 1100};
+  for (const Somebody& who : {kAdult, kChild}) {
+    const auto ring = std::make_unique<Ring>(parameters);
+    ring->swing = [](double t) { return kLearnRad_s * t; };
+    double found = 0.0;
+    while (found == 0.0 && ring->time_s() < kComesS + kWayS + kStaysS)
+      if (step(*ring, who, 0.0)) found = distance(ring->time_s() - kComesS);
+    EXPECT_TRUE(ring->watch.learns());
+    EXPECT_GT(found, 7.5) << who.name;
+    std::printf("%s in the dig zone: stopped for at %.1f m\n", who.name, found);
+  }
+}
+
 // verifies: SK-FS-4, SK-FS-11
 TEST_F(LearningIntruderTest, WhenHeHasLeftItGoesOn) {
   const auto ring = std::make_unique<Ring>(parameters);

@@ -156,6 +156,62 @@ TEST_F(SpaceWatchTest, OfATruckZoneTheTruckIsLeftOut) {
   EXPECT_TRUE(watched(3100, 3100)) << "no higher than may be passed over";
 }
 
+class DugSpaceTest : public SpaceWatchTest {
+ protected:
+  DugSpaceTest() {
+    parameters.dig_zones = 1;
+    parameters.dig_zone[0] = {3000, -3000, 9000, 3000, -2000, 1100};
+    parameters.workspace_histogram = 1;
+    make();
+  }
+  bool watched(std::int32_t x, std::int32_t y) const { return watch->watched(sk_map_index(y), sk_map_index(x)); }
+  void step(bool stirred, bool heights_learned, bool held = false) {
+    watch->dig({{dug, 0.0, 0.0, 0.0, stirred, false, -1}, {other, 0.0, 0.0, 0.0, false, false, -1}}, heights_learned, held);
+  }
+  const sk_monitor_cell dug{sk_map_index(0), sk_map_index(6000)}, other{sk_map_index(0), sk_map_index(7000)};
+};
+
+// verifies: SK-FS-15
+TEST_F(DugSpaceTest, ADigZoneIsWatchedUntilTheBucketComesNear) {
+  EXPECT_TRUE(watched(6000, 0));
+  step(true, true, true);
+  EXPECT_TRUE(watched(6000, 0)) << "somebody is in the region, and may be here";
+  step(true, true);
+  EXPECT_FALSE(watched(6000, 0));
+  EXPECT_TRUE(watch->is_dug(dug.iy, dug.ix));
+  EXPECT_TRUE(watched(7000, 0));
+  step(false, true);
+  watch->watch(true, false);
+  EXPECT_FALSE(watched(6000, 0)) << "soil lies where it was free";
+  EXPECT_TRUE(watched(7000, 0));
+  watch->begin();
+  watch->watch(true, false);
+  EXPECT_TRUE(watched(6000, 0));
+  EXPECT_FALSE(watch->is_dug(-1, 0) || watch->is_dug(0, SK_MAP_CELLS));
+  parameters.workspace_histogram = 0;
+  make();
+  EXPECT_FALSE(watched(6000, 0)) << "nobody tells where the bucket was";
+}
+
+// verifies: SK-FS-15
+TEST_F(DugSpaceTest, WhileHeightsAreLearnedItIsWatchedAgainWhenTheSoilLies) {
+  board(6900, 0, 3000, 2700, true);
+  step(true, false);
+  EXPECT_FALSE(watched(6000, 0));
+  watch->watch(true, false);
+  EXPECT_FALSE(watched(6000, 0));
+  step(false, false);
+  EXPECT_TRUE(watched(6000, 0));
+  EXPECT_FALSE(watch->is_dug(dug.iy, dug.ix));
+  board(6050, 0, 450, 1100, false);
+  EXPECT_TRUE(watch->find(where)) << "who comes";
+  step(true, false, true);
+  EXPECT_TRUE(watch->find(where)) << "the bucket is stopping, and near him";
+  step(true, false);
+  step(false, true);
+  EXPECT_FALSE(watched(6000, 0)) << "heights are learned, and watch it";
+}
+
 class WatchedSpaceTest : public testing::Test {
  protected:
   WatchedSpaceTest() {
@@ -241,6 +297,65 @@ TEST_F(WatchedSpaceTest, ALaneIsLearnedAnewWhenATruckHasParked) {
   EXPECT_FALSE(pass(10000));
   see(0, 6400, 300, 1500);
   EXPECT_TRUE(pass(10000)) << "somebody beside it";
+}
+
+// verifies: SK-FS-11
+TEST_F(WatchedSpaceTest, ALaneIsLearnedForThreeSecondsThoughItsHeightsAreForLonger) {
+  for (const bool too_soon : {true, false}) {
+    watch = std::make_unique<WorkspaceWatch>(parameters);
+    see_board(9000, 4000, 2700);
+    pass(0);
+    EXPECT_FALSE(pass(11 * kSecond));
+    watch->trucks(true, true, now);
+    see_board(7000, 4000, 1500);
+    EXPECT_FALSE(pass(too_soon ? 3 * kSecond - 1 : 3 * kSecond));
+    see(0, 6400, 300, 1500);
+    EXPECT_EQ(pass(10000), !too_soon);
+    EXPECT_TRUE(watch->learns_lanes()) << "its heights";
+  }
+}
+
+// verifies: SK-FS-12
+TEST_F(WatchedSpaceTest, ATrucksZoneIsWatchedRoundWhatIsSeenOfItWhileItsHeightsAreLearned) {
+  parameters.truck_zones = 1;
+  parameters.truck_zone[0] = {-3000, 6300, 3000, 8700, 2000};
+  watch = std::make_unique<WorkspaceWatch>(parameters);
+  const auto watched = [&](std::int32_t y) { return watch->space().watched(sk_map_index(y), sk_map_index(0)); };
+  see_board(9000, 4000, 2700);
+  pass(0);
+  EXPECT_FALSE(pass(11 * kSecond));
+  watch->trucks(true, true, now);
+  see_board(7400, 2000, 1500);
+  EXPECT_FALSE(pass(3 * kSecond - 1));
+  EXPECT_FALSE(watched(6750)) << "nobody knows yet what stands there";
+  EXPECT_FALSE(pass(1));
+  EXPECT_TRUE(watched(6750)) << "beside it";
+  EXPECT_FALSE(watched(7400));
+  EXPECT_TRUE(watched(8200)) << "behind it";
+  see_board(8200, 2000, 1800);
+  EXPECT_FALSE(pass(kSecond / 2));
+  EXPECT_TRUE(watched(8200));
+  EXPECT_FALSE(pass(kSecond / 2));
+  EXPECT_FALSE(watched(8200)) << "more of it";
+  EXPECT_FALSE(watched(7800)) << "between";
+  EXPECT_TRUE(watched(6750));
+  see(0, 6750, 300, 1500);
+  EXPECT_TRUE(pass(10000)) << "somebody beside it";
+  see_board(6600, 2000, 1800);
+  EXPECT_TRUE(pass(kSecond));
+  EXPECT_TRUE(watched(6750)) << "nothing more is left out while he is there";
+  EXPECT_TRUE(watch->learns_lanes());
+  EXPECT_TRUE(pass(5 * kSecond - 10000)) << "heights have been learned: he is there";
+  EXPECT_FALSE(watch->learns_lanes());
+  watch->begin();
+  see_board(7400, 2000, 1500);
+  EXPECT_FALSE(pass(0));
+  EXPECT_FALSE(watched(6750));
+  EXPECT_FALSE(pass(4 * kSecond));
+  EXPECT_TRUE(watched(6750)) << "learned anew with the truck there";
+  EXPECT_FALSE(watched(7400));
+  watch->trucks(true, false, now);
+  EXPECT_FALSE(watched(6750)) << "an open lane";
 }
 
 }  // namespace
