@@ -17,6 +17,7 @@ using plant::WaypointConfig;
 
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double longest_wait_s = 20.0;    // more than a whole pass
+constexpr double first_while_learning_s = 4.0, last_while_learning_s = 34.0;  // from the start: free space is learned for 3 s, heights for 45
 constexpr double rim = 0.5;                // m, to the terrain's edge
 constexpr double beside_sweep = 25 * degree, beyond_reach = 1.5;  // nobody begins where the implements may be within a step
 constexpr double last_step = 0.6;          // m, how near to the machine's own circle a way ends
@@ -147,7 +148,7 @@ double distance_from_truck(const plant::TruckConfig& t, double x, double y) {
   return std::hypot(std::max({along - o.x_high, o.x_low - along, 0.0}), std::max(across, 0.0));
 }
 
-Intrusion draw_intrusion(std::uint64_t seed, int run, const IntrusionSite& site) {
+Intrusion draw_intrusion(std::uint64_t seed, int run, const IntrusionSite& site, When when) {
   Draw draw(seed, run);
   Intrusion in;
   in.seed = seed;
@@ -156,7 +157,8 @@ Intrusion draw_intrusion(std::uint64_t seed, int run, const IntrusionSite& site)
   const double way = draw.unit();
   in.way = way < 0.2 ? Way::dig_face : way < 0.4 ? Way::truck_side : way < 0.75 ? Way::towards : Way::crossing;
   draw_who(draw, in);
-  in.swing_phase_s = draw.between(0.0, longest_wait_s);
+  in.when = when;
+  in.waits_s = when == When::learned ? draw.between(0.0, longest_wait_s) : draw.between(first_while_learning_s, last_while_learning_s);
   do {
     switch (in.way) {
       case Way::dig_face: draw_dig_face(draw, site, in); break;

@@ -12,6 +12,7 @@ namespace berm::watch {
 
 enum class Way { dig_face, truck_side, towards, crossing };
 enum class Who { adult, child, vehicle };
+enum class When { learned, learning };  // somebody appears when the ground is learned, or while its heights still are
 constexpr std::array<Way, 4> ways{Way::dig_face, Way::truck_side, Way::towards, Way::crossing};
 constexpr std::array<Who, 3> whos{Who::adult, Who::child, Who::vehicle};
 const char* name_of(Way way);
@@ -37,15 +38,16 @@ struct Intrusion {
   bool running = false;
   bool follows = true;                       // continuous MergeCell (Figure 7); else Figure 8
   double side_gap_m = 0.0;                   // along the truck: between the truck's side and the person's surface
-  double swing_phase_s = 0.0;                // after the learning time, until it appears
+  When when = When::learned;
+  double waits_s = 0.0;                      // until it appears, from when the ground is learned or, while it is, from the start
   plant::MoverConfig mover;                  // appears_s and start_s are the trial's to set
 };
 
 // The rectangle of a parked truck with its cab, from above: the distance from a point, m, 0 within it.
 double distance_from_truck(const plant::TruckConfig& truck, double x, double y);
 
-// The same seed and run give the same intrusion.
-Intrusion draw_intrusion(std::uint64_t seed, int run, const IntrusionSite& site);
+// The same seed and run give the same intrusion; only when it begins goes by `when`.
+Intrusion draw_intrusion(std::uint64_t seed, int run, const IntrusionSite& site, When when = When::learned);
 
 // How long it is on its way, s.
 double way_time(const plant::MoverConfig& mover);

@@ -158,13 +158,14 @@ ordered_json slowest_of(const Campaign& campaign, Some some) {
 }  // namespace
 
 std::string command_of(const Campaign& campaign, const IntrusionResult& r) {
-  return fmt::format("./berm watch --intrusions {} --seed {} --only {} --machine {}{}", r.intrusion.run + 1, r.intrusion.seed, r.intrusion.run, config::shell_word(campaign.machine),
-                     campaign.histogram ? " --histogram" : "");
+  return fmt::format("./berm watch --intrusions {} --seed {} --only {} --machine {}{}{}", r.intrusion.run + 1, r.intrusion.seed, r.intrusion.run, config::shell_word(campaign.machine),
+                     campaign.histogram ? " --histogram" : "", campaign.when == When::learning ? " --while-learning" : "");
 }
 
 ordered_json flat_json(const Campaign& campaign) {
   const Some all = all_of(campaign);
-  ordered_json out{{"machine", campaign.machine}, {"histogram", campaign.histogram}, {"seed", campaign.seed}, {"asked", campaign.asked}};
+  ordered_json out{{"machine", campaign.machine}, {"histogram", campaign.histogram}, {"seed", campaign.seed},
+                   {"while_learning", campaign.when == When::learning}, {"asked", campaign.asked}};
   out.update(figures(all));
   int false_alarms = 0, truck_side_undetected = 0;
   std::vector<double> truck_side;

@@ -13,6 +13,7 @@ struct Campaign {
   std::string machine = "zx200";
   bool histogram = false;
   std::uint64_t seed = 1;
+  When when = When::learned;
   int asked = 0;  // trials; fewer are over when it is ended early
   std::vector<IntrusionResult> results;
   double wall_seconds = 0.0;

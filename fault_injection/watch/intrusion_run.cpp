@@ -20,6 +20,7 @@ namespace {
 constexpr double longest_learning_s = 120.0;
 constexpr double not_yet_s = 1e9;
 constexpr double stays_s = 15.0;             // at the end of its way
+constexpr double a_pass_s = 20.0;            // who stands there when the machine goes over to its full speed meets a whole one
 constexpr double after_it_left_s = 4.0;      // longer than the monitor lets what it saw wait
 constexpr double after_standstill_s = 1.0;
 constexpr double long_enough_inside_s = 1.0;
@@ -73,16 +74,19 @@ class Preparation::Work {
         machine_(bench.profile, with_nobody(bench.world), noise_of(seed, number, follows), {first_pose(bench.place), 0.0, 1, true},
                  in_process::make_kernel(parameters_of(bench, follows))) {}
 
-  bool wait(double phase_s) {
-    while (!motion_.learned() && machine_.time_s() < longest_learning_s && watch_.alarms().empty()) step();
-    if (motion_.learned() && learned_s_ < 0.0) learned_s_ = machine_.time_s();
-    while (motion_.learned() && machine_.time_s() < learned_s_ + phase_s && watch_.alarms().empty()) step();
-    return motion_.learned() && watch_.alarms().empty();
+  bool wait(const Intrusion& intrusion) {
+    const bool learned = intrusion.when == When::learned;
+    while (learned && !motion_.learned() && machine_.time_s() < longest_learning_s && watch_.alarms().empty()) step();
+    if (learned && !motion_.learned()) return false;
+    if (motion_.learned() && !learned_s_) learned_s_ = machine_.time_s();
+    const double appears_s = (learned ? *learned_s_ : 0.0) + intrusion.waits_s;
+    while (machine_.time_s() < appears_s && watch_.alarms().empty()) step();
+    return watch_.alarms().empty();
   }
 
   IntrusionResult play(const Intrusion& intrusion) {
     result_.intrusion = intrusion;
-    if (wait(intrusion.swing_phase_s)) {
+    if (wait(intrusion)) {
       shape_ = intrusion.mover;
       watch_.rename(0, shape_.name);
       machine_.world().draw_sensors_anew(draw_of(intrusion));
@@ -116,6 +120,7 @@ class Preparation::Work {
                 {{present, footprint_of(shape_, pose.x, pose.y, pose.yaw), implements_m}});
     if (present) judge_danger(state, body, implements_m, stands);
     if (present) note_seen(region);
+    if ((state.sight & BERM_SIGHT_LEARNS) != 0) heights_learned_s_ = machine_.time_s();
     if (watch_.records().front().detected_s && !result_.truck_distance_m)
       result_.truck_distance_m =
           std::max(0.0, distance_from_truck(bench_.intrusion_site.truck, pose.x, pose.y) - outer_radius(footprint_of(shape_, pose.x, pose.y, 0.0)));
@@ -144,7 +149,8 @@ class Preparation::Work {
     const IntruderRecord& r = watch_.records().front();
     if (result_.contact_s) return true;
     if (r.detected_s && r.standstill_s && t > std::max(*r.standstill_s, *r.detected_s) + after_standstill_s) return true;
-    return t > walked_s + (r.inside ? stays_s : after_it_left_s);
+    if (!r.inside) return t > walked_s + after_it_left_s;
+    return t > std::max(walked_s + stays_s, heights_learned_s_ + a_pass_s);
   }
 
   void judge_outcome() {
@@ -175,7 +181,8 @@ class Preparation::Work {
   const Bench& bench_;
   plant::MoverConfig shape_;
   std::string* trace_;
-  double learned_s_ = -1.0;
+  std::optional<double> learned_s_;
+  double heights_learned_s_ = 0.0;         // the last cycle in which they were still learned
   LoadingMotion motion_;
   SweptReach reach_;
   IntruderWatch watch_;
@@ -198,7 +205,7 @@ Preparation::Preparation(const Bench& bench, std::uint64_t seed, int number, boo
     : work_(std::make_unique<Work>(bench, seed, number, follows, trace)) {}
 
 Preparation::~Preparation() = default;
-bool Preparation::wait(double phase_s) { return work_->wait(phase_s); }
+bool Preparation::wait(const Intrusion& intrusion) { return work_->wait(intrusion); }
 IntrusionResult Preparation::play(const Intrusion& intrusion) { return work_->play(intrusion); }
 
 IntrusionResult run_intrusion(const Bench& bench, const Intrusion& intrusion, const std::string& trace) {

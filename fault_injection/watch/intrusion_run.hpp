@@ -50,8 +50,8 @@ class Preparation {
   Preparation(const Bench& bench, std::uint64_t seed, int number, bool follows, std::string* trace);
   ~Preparation();
 
-  // Goes on until that long after the ground was learned. False: the ground is not learned, or there was an alarm; nothing is to be had of this.
-  bool wait(double phase_s);
+  // Goes on until it is to appear. False: the ground is not learned when it should be, or there was an alarm; nothing is to be had of this.
+  bool wait(const Intrusion& intrusion);
   // Waits for who comes, and sends it on its way; once, and nothing after it.
   IntrusionResult play(const Intrusion& intrusion);
 

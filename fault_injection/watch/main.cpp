@@ -36,10 +36,11 @@ int watch_intrusions(const Options& options) {
   int signal = 0;
   campaign.machine = options.machine.empty() ? drawn_machine : options.machine;
   campaign.seed = options.seed;
+  campaign.when = options.while_learning ? When::learning : When::learned;
   campaign.asked = options.only >= 0 ? 1 : options.intrusions;
   const Bench bench = make_bench(campaign.machine, options.histogram, BERM_PLANT_PROFILES);
   campaign.histogram = bench.machine.workspace.histogram;
-  const auto draw = [&](int run) { return draw_intrusion(options.seed, run, bench.intrusion_site); };
+  const auto draw = [&](int run) { return draw_intrusion(options.seed, run, bench.intrusion_site, campaign.when); };
   if (options.only >= 0) {
     campaign.results.push_back(run_intrusion(bench, draw(options.only), options.trace));
     fmt::print("{}", detail_text(campaign.results.front()));

@@ -12,6 +12,7 @@ std::string refusal(const Options& o) {
   const int modes = (o.scenario.empty() ? 0 : 1) + (o.intrusions > 0 ? 1 : 0) + (o.quiet_hours > 0.0 ? 1 : 0);
   if (modes != 1) return "give exactly one of --scenario, --intrusions, --quiet-hours";
   if (o.only >= 0 && o.intrusions == 0) return "--only: goes with --intrusions alone";
+  if (o.while_learning && o.intrusions == 0) return "--while-learning: goes with --intrusions alone";
   if (const std::string beyond = config::not_below("--only", o.only, "--intrusions", o.intrusions); !beyond.empty()) return beyond;
   if (!o.trace.empty() && o.only < 0) return "--trace: needs --only";
   if (!o.picture.empty() && o.scenario.empty()) return "--picture: goes with --scenario alone";
@@ -40,6 +41,7 @@ std::optional<int> read_options(int argc, char** argv, Options& o) {
       ->check(CLI::Range(1.0, 36000.0));
   app.add_option("--seed", o.seed, "seed of every draw")->capture_default_str();
   app.add_option("--only", o.only, "with --intrusions: this one trial, in detail")->check(CLI::Range(0, 10000000));
+  app.add_flag("--while-learning", o.while_learning, "with --intrusions: somebody appears while the kernel still learns the ground's heights");
   app.add_option("--machine", o.machine, "machine, name or file; its workspace is watched whatever it says (without: the scenario's, or zx200_ring)");
   app.add_flag("--histogram", o.histogram, "the kernel compares with histograms of heights (workspace.histogram), whatever the machine says");
   app.add_option("--jobs", o.jobs, "trials or runs at a time (0: one a core)")->check(CLI::Range(0, 256))->capture_default_str();

@@ -16,6 +16,7 @@ struct Options {
   double quiet_hours = 0.0;
   std::uint64_t seed = 1;
   int only = -1;                   // of the intrusions
+  bool while_learning = false;     // they begin while the kernel still learns the ground's heights
   int jobs = 0;
   int trucks = 1;                  // of the scenario
   std::optional<double> max_time_s;

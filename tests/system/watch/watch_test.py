@@ -68,6 +68,21 @@ def one_trial_is_repeated_alone():
     assert max(abs(float(row["swing_rad_s"])) for row in rows) > 0.4, "the machine did not swing"
 
 
+def who_runs_into_the_dig_while_the_ground_is_learned_is_found():
+    """Nobody watched a dig zone meanwhile: he ran into the bucket.
+
+    verifies: SK-FS-15"""
+    out = scratch / "learning.json"
+    done = run("berm_watch", "--intrusions", 40, "--seed", 1, "--while-learning", "--only", 39, "--json", out, timeout=100)
+    print(done.stdout)
+    one = json.loads(out.read_text())
+    assert done.returncode == 0 and one["while_learning"] is True
+    assert one["judged"] == one["detected"] == 1 and one["by_way"]["dig_face"]["detected"] == 1, done.stdout
+    appeared, detected = (float(re.search(rf"{what} +([0-9.]+) s", done.stdout)[1]) for what in ("appeared", "detected"))
+    assert 4 <= appeared <= 34 and detected < 45, "heights were learned by then"
+    assert re.search(r"detected .* intruder, ([0-9.]+) m", done.stdout) and float(re.search(r"detected .* intruder, ([0-9.]+) m", done.stdout)[1]) > 2.0
+
+
 def a_person_of_a_scenario_is_detected():
     out, picture, folder = scratch / "person.json", scratch / "person.svg", scratch / "person"
     # With seed 2 he is seen as he enters by the judge's measure, or after; with seed 1 before, and then the judge does not tell when the machine stood.
@@ -109,7 +124,7 @@ def quiet_hours_count_what_they_simulate():
 def bad_input_is_one_line():
     for words, named in ((("--seed", 1), "exactly one"), (("--intrusions", 3, "--quiet-hours", 1), "exactly one"), (("--intrusions", 0), "--intrusions"),
                          (("--quiet-hours", -1), "--quiet-hours"), (("--intrusions", 3, "--trace", "t.csv"), "--only"), (("--intrusions", 3, "--only", 3), "--only: 3 is not below --intrusions 3"), (("--intrusions", 3, "--picture", "p.svg"), "--picture"),
-                         (("--scenario", "no_such"), "no_such"), (("--intrusions", 1, "--machine", "no_such"), "no_such"), (("--scenario", "bench", "--max-time", 0), "--max-time"),
+                         (("--scenario", "no_such"), "no_such"), (("--intrusions", 1, "--machine", "no_such"), "no_such"), (("--scenario", "bench", "--max-time", 0), "--max-time"), (("--quiet-hours", 1, "--while-learning"), "--while-learning: goes with --intrusions alone"),
                          (("--surprise",), "--surprise")):
         done = run("berm_watch", *words, timeout=30)
         one_clear_line(done, named)
@@ -128,4 +143,4 @@ def an_interrupt_ends_it_with_what_was_done():
     assert f"interrupted: {done} of 100000" in words, words
 
 
-main([an_interrupt_ends_it_with_what_was_done, trials_are_judged_the_same_again, one_trial_is_repeated_alone, a_person_of_a_scenario_is_detected, quiet_hours_count_what_they_simulate, bad_input_is_one_line])
+main([an_interrupt_ends_it_with_what_was_done, trials_are_judged_the_same_again, one_trial_is_repeated_alone, who_runs_into_the_dig_while_the_ground_is_learned_is_found, a_person_of_a_scenario_is_detected, quiet_hours_count_what_they_simulate, bad_input_is_one_line])

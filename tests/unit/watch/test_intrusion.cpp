@@ -34,9 +34,23 @@ TEST_F(IntrusionTest, the_bench_watches_its_workspace_whatever_the_file_says) { 
 
 TEST_F(IntrusionTest, the_same_seed_and_run_give_the_same_and_others_another) {
   EXPECT_EQ(describe(drawn(3)), describe(drawn(3)));
-  EXPECT_EQ(drawn(3).swing_phase_s, drawn(3).swing_phase_s);
+  EXPECT_EQ(drawn(3).waits_s, drawn(3).waits_s);
   EXPECT_NE(describe(drawn(3)), describe(drawn(4)));
   EXPECT_NE(describe(drawn(3)), describe(draw_intrusion(6, 3, site())));
+}
+
+TEST_F(IntrusionTest, while_the_ground_is_learned_the_same_come_sooner) {
+  double first_s = 1e9, last_s = 0.0;
+  for (int i = 0; i < runs; ++i) {
+    const Intrusion in = draw_intrusion(5, i, site(), When::learning);
+    EXPECT_EQ(describe(in), describe(drawn(i)));
+    first_s = std::min(first_s, in.waits_s);
+    last_s = std::max(last_s, in.waits_s);
+  }
+  EXPECT_GT(first_s, 3.0) << "free space is learned then";
+  EXPECT_LT(first_s, 5.0);
+  EXPECT_GT(last_s, 30.0);
+  EXPECT_LT(last_s, make_bench(BERM_MACHINES "/zx200_ring.toml", false, BERM_PLANT_PROFILES).machine.workspace.learn) << "heights have been learned then";
 }
 
 TEST_F(IntrusionTest, every_way_size_gait_and_version_is_drawn) {
