@@ -78,7 +78,7 @@ class Preparation::Work {
     const bool learned = intrusion.when == When::learned;
     while (learned && !motion_.learned() && machine_.time_s() < longest_learning_s && watch_.alarms().empty()) step();
     if (learned && !motion_.learned()) return false;
-    if (motion_.learned() && !learned_s_) learned_s_ = machine_.time_s();
+    if (learned && !learned_s_) learned_s_ = machine_.time_s();
     const double appears_s = (learned ? *learned_s_ : 0.0) + intrusion.waits_s;
     while (machine_.time_s() < appears_s && watch_.alarms().empty()) step();
     return watch_.alarms().empty();
