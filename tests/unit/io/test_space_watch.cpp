@@ -358,5 +358,37 @@ TEST_F(WatchedSpaceTest, ATrucksZoneIsWatchedRoundWhatIsSeenOfItWhileItsHeightsA
   EXPECT_FALSE(watched(6750)) << "an open lane";
 }
 
+// verifies: SK-FS-15
+TEST_F(WatchedSpaceTest, SoilThatTheBucketMovesIsNobodyNorWhenItHasGone) {
+  parameters.dig_zones = 1;
+  parameters.dig_zone[0] = {3000, -3000, 9000, 3000, -2000, 1100};
+  parameters.workspace_histogram = 1;
+  std::int32_t ahead[4] = {0, 0, 0, 0};
+  joints.push(2, ahead);
+  const JointAngles digging{0.0, 0.35, -1.2, -1.05}, carrying{0.0, 0.79, -1.57, -1.2};
+  const auto x = static_cast<std::int32_t>(1e3 * Kinematics(parameters).implements(digging).link[2].pin.x());
+  const auto begin = [&] {
+    watch = std::make_unique<WorkspaceWatch>(parameters);
+    for (std::int32_t y = -4000; y <= 4000; y += 75) see(9300, y, -3000, 2700);
+    EXPECT_FALSE(pass(0));
+    EXPECT_FALSE(pass(4 * kSecond));
+    EXPECT_TRUE(watch->learns()) << "its heights";
+  };
+  begin();
+  see(x, 0, 75, 1050);
+  EXPECT_TRUE(pass(10000)) << "somebody: the bucket was not there";
+  begin();
+  watch->dig(digging, false, now);
+  see(x, 0, 75, 1050);
+  EXPECT_FALSE(pass(10000));
+  watch->dig(carrying, false, now);
+  now += 3 * kSecond;
+  watch->dig(carrying, false, now);
+  EXPECT_TRUE(watch->space().watched(sk_map_index(0), sk_map_index(x))) << "again";
+  EXPECT_FALSE(pass(0));
+  see(x, 0, 75, 1050);
+  EXPECT_FALSE(pass(10000)) << "the soil is where it was";
+}
+
 }  // namespace
 }  // namespace berm::kernel::test
