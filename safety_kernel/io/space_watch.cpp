@@ -67,7 +67,7 @@ void SpaceWatch::begin() {
     std::fill_n(&low_us_[0][0], SK_MAP_CELLS * SK_MAP_CELLS, -1);
     std::fill_n(&low_mm_[0][0], SK_MAP_CELLS * SK_MAP_CELLS, 0);
   }
-  std::fill_n(&dug_[0][0], SK_MAP_CELLS * SK_MAP_CELLS, std::uint8_t{0});
+  std::fill_n(&soil_mm_[0][0], SK_MAP_CELLS * SK_MAP_CELLS, kNoSoilMm);
   blank_ = true;
 }
 
@@ -128,19 +128,19 @@ void SpaceWatch::pass_low(const sk_monitor_cell& at, std::int32_t z_mm, std::int
 void SpaceWatch::watch(bool lanes_open, bool truck_learned) {
   sk_watch_region(&region_, &without_zones_, lanes_open);
   for (int i = 0; i < parameters_.truck_zones; ++i) leave_out(parameters_.truck_zone[i], truck_learned);
-  std::copy_n(&region_.watched[0][0], SK_MAP_CELLS * SK_MAP_CELLS, &undug_region_[0][0]);
-  for (std::int32_t iy = 0; iy < SK_MAP_CELLS; ++iy)
-    for (std::int32_t ix = 0; ix < SK_MAP_CELLS; ++ix)
-      if (dug_[iy][ix] != 0) region_.watched[iy][ix] = 0;
 }
 
 void SpaceWatch::dig(const std::vector<DigWatch::Cell>& cells, bool heights_learned, bool held) {
   for (const DigWatch::Cell& cell : cells) {
-    const auto [iy, ix] = cell.at;
-    if (cell.stirred && !held) dug_[iy][ix] = 1;
-    else if (!cell.stirred && !heights_learned) dug_[iy][ix] = 0;
-    region_.watched[iy][ix] = dug_[iy][ix] == 0 ? undug_region_[iy][ix] : 0;
+    std::int32_t& soil_mm = soil_mm_[cell.at.iy][cell.at.ix];
+    if (cell.stirred && !held) soil_mm = static_cast<std::int32_t>(std::lround(1e3 * cell.ceiling_m));
+    else if (!cell.stirred && !heights_learned) soil_mm = kNoSoilMm;
   }
+}
+
+bool SpaceWatch::may_be_soil(const sk_point& point) const {
+  const std::int32_t iy = sk_map_index(point.y_mm), ix = sk_map_index(point.x_mm);
+  return sk_is_in_map(iy, ix) && point.z_mm <= soil_mm_[iy][ix];
 }
 
 bool SpaceWatch::stands_high(std::int32_t iy, std::int32_t ix) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "config/parameter_block.h"
@@ -33,13 +34,14 @@ class SpaceWatch {
   void pass_low(const sk_monitor_cell& at, std::int32_t z_mm, std::int64_t now_us);
   // The region, less what the machine itself changes: as the Workspace Monitor's; but of a truck zone only the box round what stands in it is left
   // out, higher than may be passed over: the truck and its load. While nobody knows what stands there, the whole zone is.
-  // With histograms dig zones belong to the region until the bucket comes near.
+  // With histograms dig zones belong to the region.
   void watch(bool lanes_open, bool truck_learned);
-  // Once a cycle. Where the bucket is near soil comes to lie in what was free: what is met there belongs there, and is not watched. While heights are learned,
-  // so that nobody else watches there, it is again when the soil has come to rest; after that it is left out until the begin. held: somebody is in the
-  // region, and no cell leaves it, lest it be his.
+  // Once a cycle. Where the bucket is near soil comes to lie in what was free, up to its zone's ceiling. While heights are learned, so that nobody else watches
+  // there, it has come to rest some time after the bucket has gone; once they are, soil may be there until the begin. held: somebody is in the region,
+  // and no cell is taken for one with soil, lest it be his.
   void dig(const std::vector<DigWatch::Cell>& cells, bool heights_learned, bool held);
-  bool is_dug(std::int32_t iy, std::int32_t ix) const { return sk_is_in_map(iy, ix) && dug_[iy][ix] != 0; }
+  // What is met there belongs there.
+  bool may_be_soil(const sk_point& point) const;
   // A cell of the region with so many FOREIGN voxels that somebody is in it; false where there is none.
   bool find(sk_monitor_cell& where) const;
   // The highest FOREIGN voxel of a cell, its low side; the floor where there is none.
@@ -66,8 +68,8 @@ class SpaceWatch {
   std::int64_t met_us_[SK_MAP_CELLS][SK_MAP_CELLS];  // when something was last met in a FOREIGN voxel of the cell; -1 never
   std::int64_t low_us_[SK_MAP_CELLS][SK_MAP_CELLS];  // when a ray first passed it low since then; -1 not yet
   std::int32_t low_mm_[SK_MAP_CELLS][SK_MAP_CELLS];  // how high that ray was; where low_us_ has one
-  std::uint8_t dug_[SK_MAP_CELLS][SK_MAP_CELLS] = {};           // since the begin, and not watched again
-  std::uint8_t undug_region_[SK_MAP_CELLS][SK_MAP_CELLS] = {};  // region_.watched, had nothing been dug
+  static constexpr std::int32_t kNoSoilMm = std::numeric_limits<std::int32_t>::min();
+  std::int32_t soil_mm_[SK_MAP_CELLS][SK_MAP_CELLS];  // how high the bucket may have heaped it up
   bool blank_ = false;          // nothing has been taken since the begin
 };
 

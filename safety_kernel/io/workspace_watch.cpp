@@ -46,8 +46,8 @@ sk_point WorkspaceWatch::head(int scanner, std::int64_t time_us, const JointHist
 
 bool WorkspaceWatch::space_learns(const sk_point& point) const {
   if (!begun_ || space_learned_us_ != kNotLearning) return true;
-  const std::int32_t iy = sk_map_index(point.y_mm), ix = sk_map_index(point.x_mm);
-  return space_.is_dug(iy, ix) || (lane_space_learned_us_ != kNotLearning && in_lane(iy, ix));
+  const bool lane_learns = lane_space_learned_us_ != kNotLearning && in_lane(sk_map_index(point.y_mm), sk_map_index(point.x_mm));
+  return lane_learns || space_.may_be_soil(point);
 }
 
 void WorkspaceWatch::take(const ScanBlocks& blocks, const JointHistory& joints, std::int64_t now_us) {

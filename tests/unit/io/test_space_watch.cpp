@@ -166,50 +166,50 @@ class DugSpaceTest : public SpaceWatchTest {
   }
   bool watched(std::int32_t x, std::int32_t y) const { return watch->watched(sk_map_index(y), sk_map_index(x)); }
   void step(bool stirred, bool heights_learned, bool held = false) {
-    watch->dig({{dug, 0.0, 0.0, 0.0, stirred, false, -1}, {other, 0.0, 0.0, 0.0, false, false, -1}}, heights_learned, held);
+    watch->dig({{dug, 0.0, 0.0, 1.1, stirred, false, -1}, {other, 0.0, 0.0, 1.1, false, false, -1}}, heights_learned, held);
   }
+  bool may_be_soil(std::int32_t x, std::int32_t z) const { return watch->may_be_soil({x, 0, z}); }
   const sk_monitor_cell dug{sk_map_index(0), sk_map_index(6000)}, other{sk_map_index(0), sk_map_index(7000)};
 };
 
 // verifies: SK-FS-15
-TEST_F(DugSpaceTest, ADigZoneIsWatchedUntilTheBucketComesNear) {
+TEST_F(DugSpaceTest, WhereTheBucketHasBeenSoilMayLieUpToTheCeiling) {
   EXPECT_TRUE(watched(6000, 0));
+  EXPECT_FALSE(may_be_soil(6000, -1500));
   step(true, true, true);
-  EXPECT_TRUE(watched(6000, 0)) << "somebody is in the region, and may be here";
+  EXPECT_FALSE(may_be_soil(6000, -1500)) << "somebody is in the region, and may be here";
   step(true, true);
-  EXPECT_FALSE(watched(6000, 0));
-  EXPECT_TRUE(watch->is_dug(dug.iy, dug.ix));
-  EXPECT_TRUE(watched(7000, 0));
+  EXPECT_TRUE(may_be_soil(6000, -1500));
+  EXPECT_TRUE(may_be_soil(6000, 1100));
+  EXPECT_FALSE(may_be_soil(6000, 1101));
+  EXPECT_FALSE(may_be_soil(7000, -1500));
+  EXPECT_FALSE(watch->may_be_soil({-40000, 0, 0}) || watch->may_be_soil({0, 40000, 0}));
+  EXPECT_TRUE(watched(6000, 0)) << "who is higher";
   step(false, true);
-  watch->watch(true, false);
-  EXPECT_FALSE(watched(6000, 0)) << "soil lies where it was free";
-  EXPECT_TRUE(watched(7000, 0));
+  EXPECT_TRUE(may_be_soil(6000, 1100)) << "it lies there";
+  step(false, true, true);
+  EXPECT_TRUE(may_be_soil(6000, 1100));
+  watch->meet({6000, 0, 0}, true, now_us);
   watch->begin();
-  watch->watch(true, false);
-  EXPECT_TRUE(watched(6000, 0));
-  EXPECT_FALSE(watch->is_dug(-1, 0) || watch->is_dug(0, SK_MAP_CELLS));
-  parameters.workspace_histogram = 0;
-  make();
-  EXPECT_FALSE(watched(6000, 0)) << "nobody tells where the bucket was";
+  EXPECT_FALSE(may_be_soil(6000, 1100));
 }
 
 // verifies: SK-FS-15
-TEST_F(DugSpaceTest, WhileHeightsAreLearnedItIsWatchedAgainWhenTheSoilLies) {
-  board(6900, 0, 3000, 2700, true);
+TEST_F(DugSpaceTest, NobodyIsWatchedWhereNobodyTellsOfTheBucket) {
+  parameters.workspace_histogram = 0;
+  make();
+  EXPECT_FALSE(watched(6000, 0));
+}
+
+// verifies: SK-FS-15
+TEST_F(DugSpaceTest, WhileHeightsAreLearnedSoilComesToRest) {
   step(true, false);
-  EXPECT_FALSE(watched(6000, 0));
-  watch->watch(true, false);
-  EXPECT_FALSE(watched(6000, 0));
+  EXPECT_TRUE(may_be_soil(6000, 1100));
   step(false, false);
-  EXPECT_TRUE(watched(6000, 0));
-  EXPECT_FALSE(watch->is_dug(dug.iy, dug.ix));
-  board(6050, 0, 450, 1100, false);
-  EXPECT_TRUE(watch->find(where)) << "who comes";
-  step(true, false, true);
-  EXPECT_TRUE(watch->find(where)) << "the bucket is stopping, and near him";
+  EXPECT_FALSE(may_be_soil(6000, 1100)) << "nobody else watches there";
   step(true, false);
   step(false, true);
-  EXPECT_FALSE(watched(6000, 0)) << "heights are learned, and watch it";
+  EXPECT_TRUE(may_be_soil(6000, 1100)) << "heights are learned, and watch it";
 }
 
 class WatchedSpaceTest : public testing::Test {
@@ -381,13 +381,20 @@ TEST_F(WatchedSpaceTest, SoilThatTheBucketMovesIsNobodyNorWhenItHasGone) {
   watch->dig(digging, false, now);
   see(x, 0, 75, 1050);
   EXPECT_FALSE(pass(10000));
+  see(x, 0, 75, 1800);
+  EXPECT_TRUE(pass(10000)) << "somebody: no soil is so high";
+  begin();
+  watch->dig(digging, false, now);
+  see(x, 0, 75, 1050);
+  EXPECT_FALSE(pass(10000));
   watch->dig(carrying, false, now);
   now += 3 * kSecond;
   watch->dig(carrying, false, now);
-  EXPECT_TRUE(watch->space().watched(sk_map_index(0), sk_map_index(x))) << "again";
-  EXPECT_FALSE(pass(0));
+  EXPECT_FALSE(watch->space().may_be_soil({x, 0, 75})) << "it lies";
   see(x, 0, 75, 1050);
-  EXPECT_FALSE(pass(10000)) << "the soil is where it was";
+  EXPECT_FALSE(pass(10000)) << "it is where it was";
+  see(x + 900, 0, 75, 1050);
+  EXPECT_TRUE(pass(10000)) << "somebody: the bucket has gone";
 }
 
 }  // namespace
