@@ -7,6 +7,8 @@
 #include <iterator>
 
 #include "drawn_bed.hpp"
+#include "recognition/bed_ceres.hpp"
+#include "recognition/bed_constraints.hpp"
 #include "recognition/bed_fit.hpp"
 #include "recognition/bed_search.hpp"
 
@@ -87,6 +89,27 @@ TEST(BedFit, CeresAndTheSumsComeToTheSameBed) {
     EXPECT_NEAR(by_sums.pose.length, by_ceres.pose.length, 0.002);
     EXPECT_NEAR(by_sums.pose.width, by_ceres.pose.width, 0.002);
   }
+}
+
+// Each of the two alone, from the same start: the fit above gives Ceres what the sums came to.
+TEST(BedFit, CeresComesThereByItself) {
+  const DrawnBed drawn;
+  BedPose start;
+  start.middle = {drawn.x + 0.03, drawn.y - 0.02, drawn.top + 0.02};
+  start.yaw = drawn.yaw + 0.01, start.length = drawn.length + 0.04, start.width = drawn.width, start.thickness = 0.09;
+  const std::vector<BedConstraint> statements = constraints(start, rays_near(make_fans(sweep_of(drawn), drawn_viewpoint), start));
+  const KnownValue known[] = {{kBedThickness, 0.09, 0.03}, {kBedPitch, 0.0, 0.03}, {kBedRoll, 0.0, 0.03}};
+  const BedVector from = values_of(start);
+  BedVector by_sums = from, by_ceres = from;
+  solve_bed(statements, 0, known, 50, 1e-6, by_sums);
+  solve_bed_by_ceres(statements, 0, known, 50, 1e-6, by_ceres);
+  EXPECT_GT((by_ceres - from).norm(), 0.03) << "it went nowhere";
+  EXPECT_LT((by_ceres - by_sums).norm(), 0.003);
+  BedPose pose = start;
+  set_values(pose, by_ceres);
+  EXPECT_NEAR(pose.middle.x(), drawn.x, 0.02);
+  EXPECT_NEAR(pose.middle.z(), drawn.top, 0.02);
+  EXPECT_NEAR(pose.yaw, drawn.yaw, 0.003);
 }
 
 TEST(BedFit, SaysWhenTooFewRaysSpeakOfTheBed) { EXPECT_FALSE(fit_bed({}, {}, 3, kSizes).converged); }
