@@ -40,6 +40,8 @@ Observation observe(const berm_state& state) {
   o.slowed_by_dust = (state.sight & BERM_SIGHT_DUST_SLOW) != 0;
   o.learns_ground = (state.sight & (BERM_SIGHT_LEARNS | BERM_SIGHT_LEARNS_LANE)) != 0;
   o.held_by_dust = (state.sight & BERM_SIGHT_DUST_STOP) != 0;
+  o.blocked_eyes = state.sight & (BERM_SIGHT_BLOCKED(BERM_SIGHT_EYES) - 1u);
+  o.request_result = state.request_result;
   o.latched = state.kernel_state == BERM_STATE_FAULT || (state.kernel_state == BERM_STATE_STOPPED && state.stop_category != category_held);
   const double behind = state.blocked_link == BERM_SWING ? -1.0 : 1.0;  // the upper body's tail meets it: the arm points the other way
   o.blocked_bearing = std::atan2(behind * state.blocked_y_mm, behind * state.blocked_x_mm);
@@ -83,6 +85,11 @@ const char* stop_reason_name(std::uint8_t reason) {
                                                            "base moved", "uncommanded", "overpass", "tail", "intruder",
                                                            "separation", "sensor blocked", "dust"};
   return reason < BERM_STOP_REASONS ? names[reason] : "unnamed";
+}
+
+const char* request_result_name(std::uint8_t result) {
+  static constexpr const char* names[BERM_REQUEST_RESULTS] = {"accepted", "none", "magic", "version", "crc", "sequence", "age", "range"};
+  return result < BERM_REQUEST_RESULTS ? names[result] : "unnamed";
 }
 
 }  // namespace berm::app

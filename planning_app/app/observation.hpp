@@ -23,6 +23,8 @@ struct Observation {
   bool slowed_by_dust = false;
   bool learns_ground = false;  // everywhere, or a truck's lane: the kernel slows, in the lane only near it
   bool held_by_dust = false;    // so much that nothing may move, whatever reason is published
+  std::uint32_t blocked_eyes = 0;  // BERM_SIGHT_BLOCKED bits
+  std::uint8_t request_result = BERM_REQUEST_NONE;  // of what the kernel read in this cycle
   bool latched = false;         // stopped until the operator resets
   Joints commanded{};           // what the kernel told the machine in this cycle
   // Speeds permitted now, low <= 0 <= high: where a request was cut what of it went out, else the joint's largest; nothing unless running.
@@ -52,5 +54,6 @@ struct Answer {
 berm_request make_request(const MachineModel& machine, const Answer& answer, std::uint32_t sequence, std::int64_t stamp_us);
 
 const char* stop_reason_name(std::uint8_t reason);
+const char* request_result_name(std::uint8_t result);
 
 }  // namespace berm::app

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/operator_advice.hpp"
 #include "motion/arm_kinematics.hpp"
 
 namespace berm::app {
@@ -49,21 +50,6 @@ nlohmann::ordered_json with_place(const Observation& o, nlohmann::ordered_json f
   return fields;
 }
 
-const char* advice_for(std::uint8_t reason, bool latched) {
-  switch (reason) {
-    case BERM_STOP_TAIL: return "send away who stands behind the machine, look all round it, beside the tracks too, then switch run off, press reset, switch run on";
-    case BERM_STOP_JOINT_RANGE: return "move the joint back into its range by hand";
-    case BERM_STOP_INTRUDER: return "send away who or what came; if nobody is there, press relearn";
-    case BERM_STOP_SEPARATION: return "make the sensors see all round the machine again, or take it out of where they cannot";
-    case BERM_STOP_SENSOR_BLOCKED:
-      return "look what lies on the sensors' windows, clean them, then switch run off, press reset, switch run on; relearn before it if that does not help";
-    case BERM_STOP_DUST: return "wait until the dust has settled, or lay it with water; if there is none, clean the sensors' windows";
-    case BERM_STOP_OVERPASS: return "send away who or what stands there, or admit the truck; if nothing stands there, press relearn, with the implements lifted by hand if need be";
-    default: return latched ? "mend the cause, then switch run off, press reset, switch run on"
-                                 : "clear the place; if nothing stands there, press relearn; if that does not help, lift the implements by hand before it";
-  }
-}
-
 }  // namespace
 
 Joints Recovery::retreat(const Observation& o, double blocked_s) const {
@@ -103,16 +89,18 @@ bool Recovery::retreating(const Observation& o) const {
   return !handed_back_ && back_ == Back::none && moved_ && o.time_s - running_s_ < (goes_on ? retreat_longest : retreat_for);
 }
 
-// What a person must do, each advice once a trouble: what keeps the machine may become another thing meanwhile. True when the call was made just now.
+// What a person must do, each advice once a trouble: what keeps the machine may become another thing meanwhile. What may end by itself is given its time,
+// whatever it is: nothing that stays goes untold. True when the call was made just now.
 bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
   // Whoever is seen in dust, and ground that it hides, may be none when it has settled: a map that is learned anew in it is empty.
   const bool in_dust = o.held_by_dust && !o.latched;
   const std::uint8_t reason = in_dust ? static_cast<std::uint8_t>(BERM_STOP_DUST) : o.stop_reason;
   const double after = reason == BERM_STOP_INTRUDER ? call_after_intruder : call_after, from_s = in_dust ? since_s_ : std::max({since_s_, dust_s_, by_ground(reason) ? other_s_ : -1.0});
-  if (!(o.latched || (by_place(reason) && o.time_s - from_s > after))) return false;
-  const char* const advice = advice_for(reason, o.latched);
+  if (!(o.latched || (reason != BERM_STOP_NONE && o.time_s - from_s > after))) return false;
+  std::string advice = operator_advice(reason);
+  if (reason == BERM_STOP_SENSOR_BLOCKED && o.blocked_eyes != 0) advice = eye_names(o.blocked_eyes) + ": " + advice;
   if (std::find(told_.begin(), told_.end(), advice) != told_.end()) return false;
-  told_.emplace_back(advice);
+  told_.push_back(advice);
   waits_for_reset_ = o.latched;
   nlohmann::ordered_json fields{{"time_s", o.time_s}, {"reason", stop_reason_name(reason)}, {"stopped_s", o.time_s - since_s_}};
   if (!o.latched && !in_dust) fields = with_place(o, std::move(fields));

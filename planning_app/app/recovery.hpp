@@ -8,7 +8,7 @@
 #pragma once
 
 #include <optional>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "app/observation.hpp"
@@ -60,7 +60,7 @@ private:
   bool handed_back_ = true;      // the plan is in charge
   bool moved_ = false;
   PlaceInMap in_map_;            // newest
-  std::vector<std::string_view> told_;  // advices that the operator was given in this trouble
+  std::vector<std::string> told_;   // advices that the operator was given in this trouble
   bool waits_for_reset_ = false;        // the newest of them was for a stop that latches
   Joints stopped_at_{};          // rad
   double since_s_ = -1.0;        // begin of the trouble: a stop and those soon after it; negative: none yet

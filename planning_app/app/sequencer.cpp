@@ -160,6 +160,7 @@ Joints Sequencer::plan(const Observation& o) {
       if (o.truck_parked) {
         log_.event("truck", {{"truck", truck_}, {"time_s", o.time_s}});
         waits_raised_ = false;
+        if (presence_.gone() != TruckPresence::Gone::no) expect_another_truck();
         presence_.begin();
         begin_look(o);
         return {};
@@ -232,6 +233,15 @@ bool Sequencer::unseen_lies_there() const {
   return false;
 }
 
+// While the operator trams the machine its stops are his; when he has switched run on again they are as any other, but nothing is to move yet.
+Recovery::Advice Sequencer::recover(const Observation& o) {
+  const bool moved = stage_ == Stage::being_moved;
+  if (moved && !o.run_switch) return {};
+  Recovery::Advice advice = recovery_.step(o, log_, {too_high_stands(), unseen_lies_there()});
+  if (moved) advice.velocity = {};
+  return advice;
+}
+
 Answer Sequencer::step(const Observation& o) {
   recent_.add(o.payload_kg);
   look(o);
@@ -241,10 +251,10 @@ Answer Sequencer::step(const Observation& o) {
   follow_truck(o);
   Answer answer;
   if (stage_ == Stage::ask_move || stage_ == Stage::being_moved) await_move(o);
-  // While the operator trams the machine its stops are his.
-  const Recovery::Advice advice = stage_ == Stage::being_moved ? Recovery::Advice{} : recovery_.step(o, log_, {too_high_stands(), unseen_lies_there()});
+  const Recovery::Advice advice = recover(o);
   restart_call_.step(o, log_);
-  if (advice.rescan) scanners_.begin_full_sweep();
+  start_call_.step(o, log_);
+  if (advice.rescan && stage_ != Stage::survey) scanners_.begin_full_sweep();  // a survey is one, and would have no end
   if (advice.resumed) go_on_with_script(o);
   if (advice.resumed && advice.moved && begins_anew_where_moved()) begin_dig_from_here(o);
   if (advice.resumed && (stage_ == Stage::go_look || stage_ == Stage::look)) begin_look(o);
@@ -258,6 +268,7 @@ Answer Sequencer::step(const Observation& o) {
     const bool moves = std::any_of(wanted.begin(), wanted.end(), [](double v) { return v != 0.0; });
     answer.velocity = moves ? slowed(o, wanted) : wanted;
   }
+  watch_look(o);
   if (o.running())
     for (std::size_t j = 0; j < joints; ++j) answer.velocity[j] = std::clamp(answer.velocity[j], o.permitted_low[j], o.permitted_high[j]);
   arm_.asked(answer.velocity);

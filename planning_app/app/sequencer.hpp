@@ -8,6 +8,7 @@
 #include "app/hold_watch.hpp"
 #include "app/joint_watch.hpp"
 #include "app/load_check.hpp"
+#include "app/look_watch.hpp"
 #include "app/observation.hpp"
 #include "app/pour_watch.hpp"
 #include "app/progress_log.hpp"
@@ -16,6 +17,7 @@
 #include "app/restart_call.hpp"
 #include "app/slow_down.hpp"
 #include "app/standing_watch.hpp"
+#include "app/start_call.hpp"
 #include "app/truck_look.hpp"
 #include "app/truck_presence.hpp"
 #include "app/weighing.hpp"
@@ -93,10 +95,14 @@ private:
   void wait_raised(const Observation& o);
   void follow_truck(const Observation& o);    // trucks come and go while the kernel keeps the machine, too
   void next_truck(const Observation& o);
+  void expect_another_truck();                // what the operator was told of the one before is not said of it
   void forget_bed();
   void finish(const Observation& o);
   void leave_truck(const Observation& o);     // it left before it was full
   bool works() const;
+  Awaited awaited_of_look(const Observation& o) const;
+  void watch_look(const Observation& o);
+  Recovery::Advice recover(const Observation& o);
   bool digs_or_comes_to_dig() const;
   bool comes_down() const;
   bool has_poured() const;
@@ -144,6 +150,7 @@ private:
   void begin_move_back(const Observation& o, const char* why);
   Joints raise_for_move(const Observation& o);
   void await_move(const Observation& o);
+  void hand_over(const Observation& o);       // to the operator, for the move
   void begin_anew(const Observation& o);
   void look(const Observation& o);            // renews the skyline now and then
   // What the kernel last stopped the machine for.
@@ -174,6 +181,8 @@ private:
   TruckLook look_;
   Recovery recovery_;
   RestartCall restart_call_;
+  StartCall start_call_;
+  LookWatch look_watch_;
   SlowDown slow_down_;
   StandingWatch standing_;
   int stands_ = 0, missed_digs_ = 0;          // in a row

@@ -67,14 +67,20 @@ Joints Sequencer::raise_for_move(const Observation& o) {
 void Sequencer::await_move(const Observation& o) {
   saw_run_ = saw_run_ || (o.run_switch && o.running());
   const bool taken_over = saw_run_ && !o.run_switch, moves = o.stop_reason == BERM_STOP_BASE_MOVED;
-  if (stage_ == Stage::ask_move && (taken_over || moves)) enter(Stage::being_moved, o);
+  if (stage_ == Stage::ask_move && (taken_over || moves)) hand_over(o);
   else if (stage_ == Stage::being_moved && o.running()) begin_anew(o);
+}
+
+void Sequencer::hand_over(const Observation& o) {
+  recovery_ = Recovery(machine_);  // what kept the machine here has no part in what keeps it there
+  enter(Stage::being_moved, o);
 }
 
 // The machine stands elsewhere: what was known of the ground holds no more, but where the face was dug to, and what is in the truck.
 void Sequencer::begin_anew(const Observation& o) {
   log_.event("moved", {{"time_s", o.time_s}, {"truck", truck_}, {"distance_m", back_m_}});
   presence_.begin();  // the truck made way, and comes back
+  expect_another_truck();
   terrain_ = TerrainMap();
   ground_ = DigGround(site_, ground_, back_m_);
   kernel_map_ = KernelMap();

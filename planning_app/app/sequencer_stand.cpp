@@ -12,6 +12,20 @@ constexpr int most_tries = 3;  // to begin anew; then the operator is told
 // Whether the plan is to move the machine now, and waits for nobody.
 bool Sequencer::works() const { return stage_ == Stage::go_look || stage_ == Stage::pass || stage_ == Stage::leave_bed || stage_ == Stage::curl || digs_or_comes_to_dig(); }
 
+// What the stage waits for that is no motion. In INIT, and in a fault, a scanner may well be silent: of that others tell.
+Awaited Sequencer::awaited_of_look(const Observation& o) const {
+  if (o.kernel_state == BERM_STATE_INIT || o.latched) return Awaited::nothing;
+  if (stage_ == Stage::look) return look_.awaits(o, scanners_);
+  if (stage_ != Stage::survey) return Awaited::nothing;
+  const bool left = scanners_.swept(0), right = scanners_.swept(1);
+  return left && right ? Awaited::nothing : left ? Awaited::right_pan : right ? Awaited::left_pan : Awaited::both_pans;
+}
+
+// A survey asks both pans for their whole range all the time: there is nothing to begin anew.
+void Sequencer::watch_look(const Observation& o) {
+  if (look_watch_.step(o, awaited_of_look(o), log_) && stage_ == Stage::look) look_.begin(o, scanners_);
+}
+
 bool Sequencer::digs_or_comes_to_dig() const { return stage_ == Stage::dig || stage_ == Stage::settle || stage_ == Stage::approach; }
 
 // Whether a swing is on its way that ends over the dig, or has ended there.

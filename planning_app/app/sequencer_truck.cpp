@@ -95,6 +95,11 @@ void Sequencer::forget_bed() {
   bed_.reset();
 }
 
+void Sequencer::expect_another_truck() {
+  look_.another_truck();
+  refused_truck_ = 0;
+}
+
 void Sequencer::next_truck(const Observation& o) {
   forget_bed();
   part_filled_ = false;

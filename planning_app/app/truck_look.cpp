@@ -16,6 +16,7 @@ constexpr double beyond = radians(3.0);             // the sweep goes on so far
 constexpr double moved = radians(0.3);              // of the swing: the sweep is worth nothing
 constexpr double drain_s = 0.1;                     // until the last scanline has come through the kernel
 constexpr int vain_until_operator = 3;
+constexpr int restless = 3;                         // looks begun anew, for the swing moved
 constexpr double vain_pause_s = 5.0;
 
 double dig_middle(const SiteModel& site) { return 0.5 * (site.dig_swing_left + site.dig_swing_right); }
@@ -69,7 +70,28 @@ void TruckLook::end_sweep(ScanScheduler& scanners) {
 
 void TruckLook::stop(ScanScheduler& scanners) {
   end_sweep(scanners);
+  restarts_ = 0;
   stage_ = Stage::idle;
+}
+
+void TruckLook::another_truck() {
+  vain_ = 0;
+  told_operator_.clear();
+}
+
+Awaited TruckLook::awaits(const Observation& o, const ScanScheduler& scanners) const {
+  const auto pan_of = [](std::size_t scanner) { return scanner == left_scanner ? Awaited::left_pan : Awaited::right_pan; };
+  switch (stage_) {
+    case Stage::idle:
+    case Stage::pauses: return Awaited::nothing;
+    case Stage::sweeps: return restarts_ >= restless ? Awaited::standstill : pan_of(scanner_);
+    case Stage::drains:
+    case Stage::asked: return Awaited::recogniser;
+    case Stage::passes:
+      if (sweep_.recording() && !scanners.look_done() && !passed(*bed_, o)) return pan_of(scanner_);
+      return pan_of(scanner_ == left_scanner ? right_scanner : left_scanner);
+  }
+  return Awaited::nothing;
 }
 
 void TruckLook::feed(const Observation& o) {
@@ -93,6 +115,7 @@ bool TruckLook::passed(const TruckBed& bed, const Observation& o) const {
 void TruckLook::take_answer(const Observation& o, ScanScheduler& scanners, int truck, const ProgressLog& log) {
   const auto answer = finder_.answer(o.cycle);
   if (!answer) return;
+  restarts_ = 0;
   bed_ = judge(*answer, o, truck, log);
   stage_s_ = o.time_s;
   stage_ = bed_ ? Stage::passes : Stage::pauses;
@@ -101,7 +124,10 @@ void TruckLook::take_answer(const Observation& o, ScanScheduler& scanners, int t
 
 std::optional<TruckBed> TruckLook::step(const Observation& o, ScanScheduler& scanners, int truck, const ProgressLog& log) {
   const bool looks = stage_ == Stage::sweeps || stage_ == Stage::drains || stage_ == Stage::passes;
-  if (looks && std::fabs(o.angle[swing] - swing_) > moved) begin(o, scanners);
+  if (looks && std::fabs(o.angle[swing] - swing_) > moved) {
+    ++restarts_;
+    begin(o, scanners);
+  }
   switch (stage_) {
     case Stage::idle: break;
     case Stage::sweeps:
@@ -141,10 +167,12 @@ std::optional<TruckBed> TruckLook::step(const Observation& o, ScanScheduler& sca
   return std::nullopt;
 }
 
-// After a few looks in vain the operator is told, once.
+// After a few looks in vain at a truck the operator is told, once of each thing that is wrong with it.
 void TruckLook::tell_none(const std::string& event, nlohmann::ordered_json fields, const std::string& advice, const Observation& o, const ProgressLog& log) {
   log.event(event, std::move(fields));
-  if (++vain_ == vain_until_operator) log.event("operator_needed", {{"time_s", o.time_s}, {"reason", event}, {"advice", advice}});
+  if (++vain_ < vain_until_operator || std::find(told_operator_.begin(), told_operator_.end(), event) != told_operator_.end()) return;
+  told_operator_.push_back(event);
+  log.event("operator_needed", {{"time_s", o.time_s}, {"reason", event}, {"advice", advice}});
 }
 
 std::optional<TruckBed> TruckLook::judge(const RecognisedTruck& truck, const Observation& o, int number, const ProgressLog& log) {
@@ -174,7 +202,7 @@ std::optional<TruckBed> TruckLook::judge(const RecognisedTruck& truck, const Obs
     tell_none("truck_misplaced", fields, "the truck stands where the site has no truck zone: nothing may pass over it there; have it park anew", o, log);
     return std::nullopt;
   }
-  vain_ = 0;
+  another_truck();  // whatever comes after it
   log.event("recognised", fields);
   return bed;
 }

@@ -4,7 +4,10 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "app/look_watch.hpp"
 #include "app/observation.hpp"
 #include "app/progress_log.hpp"
 #include "app/truck_finder.hpp"
@@ -26,6 +29,10 @@ public:
   std::optional<TruckBed> step(const Observation& o, ScanScheduler& scanners, int truck, const ProgressLog& log);
   // Something else came between: nothing is kept.
   void stop(ScanScheduler& scanners);
+  // What is looked at from now on may be another truck than before: of that the operator was told nothing yet.
+  void another_truck();
+  // What the look waits for now.
+  Awaited awaits(const Observation& o, const ScanScheduler& scanners) const;
 
   TruckSweep& sweep() { return sweep_; }
 
@@ -52,6 +59,8 @@ private:
   std::size_t told_ = 0;           // of its points
   std::optional<TruckBed> bed_;    // that was recognised in it
   int vain_ = 0;                   // looks since the last truck
+  int restarts_ = 0;               // of this look, for a swing that did not stand
+  std::vector<std::string> told_operator_;  // of this truck: events that he was told of
 };
 
 }  // namespace berm::app

@@ -25,6 +25,7 @@ public:
   void begin_full_sweep();
   // Both have seen their whole range since begin_full_sweep, or since the motion was slowed.
   bool full_sweep_done() const;
+  bool swept(std::size_t scanner) const { return head_[scanner].low_seen && head_[scanner].high_seen; }  // this one
 
   // Sweeps one scanner over these bearings (base frame) once, from the end that is nearer, slowly enough for the truck recogniser (a scanline a degree);
   // the other sees the ground on the way to the dig, from under the boom outwards: what is near the machine's feet there the boom hides once it digs. Until

@@ -185,4 +185,33 @@ TEST_F(SequencerStand, SoilOutOfReachIsAMoveOfTheMachine) {
   EXPECT_LT(events_.named("unreachable").size(), 10u) << "it says so in every cycle";
 }
 
+// He trams it, his stops are his own; but when he has switched run on again, what keeps the machine at the new stand is told as anywhere.
+TEST_F(SequencerStand, WhatKeepsTheMachineAfterTheMoveIsTold) {
+  SiteModel site = app_bench::bench();
+  site.dig_radius_start = 14.0, site.dig_radius_end = 13.0;
+  Loading run(1, start_pose(), events_.fd(), site);
+  go(run, 90.0);
+  ASSERT_EQ(calls("move back"), 1);
+  const auto kept = [&](double seconds, std::uint8_t reason, bool run_switch) {
+    for (const double end = run.seconds + seconds; run.seconds < end;) {
+      berm_state& state = run.plant.mutable_segment().state;
+      state.kernel_state = reason == BERM_STOP_NONE ? BERM_STATE_STANDBY : BERM_STATE_STOPPED;
+      state.stop_reason = reason;
+      state.stop_category = reason == BERM_STOP_BASE_MOVED ? 1 : 2;
+      if (!run_switch) state.panel &= ~BERM_PANEL_OPERATOR_RUN;
+      run.step();
+    }
+  };
+  kept(2.0, BERM_STOP_NONE, false);
+  kept(60.0, BERM_STOP_BASE_MOVED, false);
+  EXPECT_EQ(events_.named("operator_needed").size(), 1u) << "he moves it";
+  kept(29.0, BERM_STOP_UNKNOWN_GROUND, true);
+  EXPECT_EQ(events_.named("operator_needed").size(), 1u) << "it may end by itself";
+  kept(3.0, BERM_STOP_UNKNOWN_GROUND, true);
+  EXPECT_EQ(calls("unknown ground"), 1);
+  EXPECT_TRUE(std::all_of(run.last.velocity.begin(), run.last.velocity.end(), [](double v) { return v == 0.0; })) << "nothing moves before it looks round anew";
+  go(run, 1.0);
+  EXPECT_EQ(events_.named("moved").size(), 1u);
+}
+
 }  // namespace

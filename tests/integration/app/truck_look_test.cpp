@@ -90,6 +90,47 @@ TEST(TruckLook, WithoutATruckItLooksAgainTellsTheOperatorAndDoesNotDig) {
   EXPECT_EQ(events.named("recognised").size(), 1u);
 }
 
+// The truck that nobody loads has no number of its own: of the next the operator is told all the same. A spotter who is silent for a moment is no next one.
+TEST(TruckLook, OfEachTruckThatIsNotRecognisedTheOperatorIsTold) {
+  for (const bool says_so : {true, false}) {
+    Events events;
+    Loading run(2, start_pose(), events.fd());
+    run.finder.truck = {};
+    const auto go = [&](double seconds) {
+      for (const double end = run.seconds + seconds; run.seconds < end;) run.step();
+    };
+    const auto absent = [&](double seconds) {
+      run.plant.truck_parked = false;
+      run.plant.truck_leaves = says_so && seconds > 2.0;
+      go(seconds);
+      run.plant.truck_parked = true;
+      run.plant.truck_leaves = false;
+    };
+    while (events.named("operator_needed").empty() && run.seconds < 90.0) run.step();
+    absent(1.0);
+    go(60.0);
+    EXPECT_EQ(events.named("operator_needed").size(), 1u) << "it is the same truck";
+    absent(10.0);
+    go(60.0);
+    EXPECT_EQ(events.named("operator_needed").size(), 2u);
+  }
+}
+
+// It parks anew, and now stands where none may: that is another thing to do.
+TEST(TruckLook, OfWhatIsWrongNextWithTheSameTruckTheOperatorIsToldToo) {
+  Events events;
+  Loading run(1, start_pose(), events.fd());
+  run.finder.truck = {};
+  while (events.named("operator_needed").empty() && run.seconds < 90.0) run.step();
+  run.finder.truck = app_bench::bench_truck();
+  run.finder.truck.pose.middle.x() += 6.0;
+  for (const double end = run.seconds + 60.0; run.seconds < end;) run.step();
+  const auto calls = events.named("operator_needed");
+  ASSERT_EQ(calls.size(), 2u);
+  EXPECT_EQ(calls[0].at("reason"), "no_truck");
+  EXPECT_EQ(calls[1].at("reason"), "truck_misplaced");
+}
+
 // The kernel lets nothing pass over a truck that stands elsewhere.
 TEST(TruckLook, ATruckOutsideTheTruckZoneIsNotLoaded) {
   Events events;
