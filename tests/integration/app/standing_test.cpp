@@ -202,6 +202,7 @@ TEST_F(SequencerStand, WhatKeepsTheMachineAfterTheMoveIsTold) {
       run.step();
     }
   };
+  kept(5.0, BERM_STOP_INTRUDER, true);  // at the old stand: no part of what comes
   kept(2.0, BERM_STOP_NONE, false);
   kept(60.0, BERM_STOP_BASE_MOVED, false);
   EXPECT_EQ(events_.named("operator_needed").size(), 1u) << "he moves it";
