@@ -26,7 +26,8 @@ constexpr double kDustEvery_s[2] = {1200.0, 3600.0}, kDustFor_s[2] = {10.0, 90.0
 constexpr double kSoilEvery_s[2] = {3600.0, 7200.0};
 constexpr double kShortestTruck_s = 150.0;    // no truck is loaded in less
 
-double rounded(double x, double step) { return step * std::round(x / step); }
+// To the nearest multiple of a power of ten, as that is written: 36.1, and not 36.1 and some in the sixteenth digit.
+double rounded(double x, double step) { return std::round(x / step) / std::round(1.0 / step); }
 
 std::vector<DrawnTruck> draw_trucks(std::uint64_t seed) {
   Draw draw(seed, stream_trucks);

@@ -54,7 +54,8 @@ int run(int argc, char** argv) {
   const std::string scenario = out + "/scenario.toml";
   if (kept && !berm::soak::may_be_overwritten(scenario))
     throw std::runtime_error(fmt::format("--out: {}: was not drawn by berm soak, and would be overwritten", scenario));
-  berm::config::write_whole_file(scenario, berm::soak::scenario_text(berm::soak::draw_shift(hours, seed)));
+  const berm::soak::DrawnShift drawn = berm::soak::draw_shift(hours, seed);
+  berm::config::write_whole_file(scenario, berm::soak::scenario_text(drawn));
   berm::run::RunOptions options;
   options.scenario = scenario;
   options.trucks = berm::soak::trucks_enough(hours);
@@ -72,7 +73,7 @@ int run(int argc, char** argv) {
   fmt::print("seed {}, {:.2f} h; run again: {}\n", seed, hours,
              kept ? fmt::format("./berm load --scenario {} --seed {} --trucks {}", scenario, seed, options.trucks) : fmt::format("./berm soak --hours {} --seed {}", hours, seed));
   std::fflush(stdout);
-  const auto report = berm::soak::shift_json(berm::run::load_trucks(options), hours);
+  const auto report = berm::soak::shift_json(berm::run::load_trucks(options), hours, drawn);
   fmt::print("{}", berm::soak::shift_text(report));
   if (!json.empty()) berm::config::write_whole_file(json, berm::config::json_text(report, 2));
   const auto reasons = berm::soak::shortcomings(report);

@@ -1,6 +1,7 @@
 #include "soak/shift_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numeric>
@@ -28,6 +29,22 @@ json longest_standstill(const run::RunResult& r, double seconds) {
   return {{"seconds", longest}, {"from_s", from}};
 }
 
+// As the scenario has them.
+json soil_changes(const DrawnShift& drawn) {
+  json changes = json::array();
+  for (const DrawnSoil& s : drawn.soil)
+    changes.push_back({{"at_s", s.at_s}, {"repose_deg", s.repose_deg}, {"bank_slope_deg", s.bank_slope_deg}, {"resistance", s.resistance}, {"stick_fraction", s.stick_fraction}});
+  return changes;
+}
+
+std::string soil_text(const json& changes, double seconds) {
+  std::vector<std::string> each;
+  for (const json& c : changes)
+    if (c["at_s"].get<double>() <= seconds)
+      each.push_back(fmt::format("from {:.0f} s repose {:.1f} deg, {:.1f} % sticks", c["at_s"].get<double>(), c["repose_deg"].get<double>(), 100 * c["stick_fraction"].get<double>()));
+  return each.empty() ? "did not change" : fmt::format("{}", fmt::join(each, "; "));
+}
+
 // What the app last said of what it waits for.
 std::string last_word(const run::RunResult& r) {
   for (auto e = r.app_events.rbegin(); e != r.app_events.rend(); ++e)
@@ -37,8 +54,9 @@ std::string last_word(const run::RunResult& r) {
 
 }  // namespace
 
-json shift_json(const run::RunResult& r, double hours) {
+json shift_json(const run::RunResult& r, double hours, const DrawnShift& drawn) {
   json out = run::flat_json(r);
+  out["soil"] = soil_changes(drawn);
   const double seconds = out["simulated_seconds"].get<double>();
   const auto left = r.truth.value("trucks_left", json::array());
   std::vector<double> loads;
@@ -85,6 +103,7 @@ std::string shift_text(const json& j) {
   row("contacts (oracle)", j["contacts"].dump());
   row("closest approach", fmt::format("{} m {}", number("closest_approach_m", 2), j["closest_approach_what"].get<std::string>()));
   row("spill", fmt::format("{:.2f} % of what was dug", 100 * j["spill_fraction"].get<double>()));
+  row("soil", soil_text(j["soil"], j["simulated_seconds"].get<double>()));
   row("worst load", fmt::format("centre {} m off, height standard deviation {} m", number("load_centre_offset_m_worst", 2), number("load_height_stddev_m_worst", 2)));
   row("memory", fmt::format("kernel and app grow by {} KiB an hour", number("memory_growth_kib_per_hour", 1)));
   row("longest without pass", fmt::format("{} s from {} s{}", number("longest_without_pass_s", 0), number("longest_without_pass_from_s", 0), j["stuck"].get<bool>() ? ": STUCK; " + j["last_operator_message"].get<std::string>() : ""));

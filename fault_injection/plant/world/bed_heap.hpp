@@ -16,6 +16,8 @@ class BedHeap {
   BedHeap(double length, double width, double wall_height, double wall_thickness, double repose);
 
   void deposit(double x, double y, double loose_volume);
+  // Soil that is wetter or drier from now on: what lies here already stands as it did until it is next touched.
+  void rest_at(double repose) { repose_ = repose; }
   // Relaxes; what runs over the walls is appended to `over` and has left the bed.
   void settle(int budget, std::vector<Overflow>& over);
 

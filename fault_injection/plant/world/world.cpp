@@ -343,6 +343,7 @@ void World::change_soil(const SoilChange& change) {
   w.terrain.change_soil(soil);
   w.cut.change_soil(soil);
   w.load.change_soil(soil);
+  for (Truck& truck : w.truck) truck.heap().rest_at(soil.repose);
 }
 
 bool World::truck_makes_way() const {

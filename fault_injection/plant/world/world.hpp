@@ -104,7 +104,7 @@ class World {
   bool truck_about() const;               // one stands or drives at the machine
   // The machine trammed by so much: dig zones and the places of the trucks to come are moved along with it, and the next truck is called.
   void machine_stands(double t, double x, double y);
-  // Weather: from now on the ground has this soil's slopes, resistance and stickiness; its densities are those it had.
+  // Weather: from now on the ground, and what is poured into trucks, has this soil's slopes, resistance and stickiness; its densities are those it had.
   void change_soil(const SoilChange& change);
   bool truck_parked() const;
   bool truck_leaving() const;

@@ -6,6 +6,7 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
+import tomllib
 
 from berm_command import BIN, ROOT, load, main, run
 
@@ -23,6 +24,7 @@ def short_shift():
         assert key in report, f"the report lacks {key}"
     assert abs(report["hours"] - 0.05) < 1e-3 and report["contacts"] == 0, report
     assert report["passes"] >= 3 and report["tonnes_per_hour"] > 10, report
+    assert report["soil"] == tomllib.loads((out / "scenario.toml").read_text()).get("soil_change", []), report["soil"]
     checked = run("berm_plant", "--scenario", out / "scenario.toml", "--can", "udp:239.255.66.1:45000", "--scan-port", "45001", "--out", out / "again", "--check")
     assert checked.returncode == 0, checked.stderr
     shutil.rmtree(out)

@@ -270,4 +270,126 @@ TEST(ScanScheduler, TheLeadingScannerStaysAheadOfTheSwing) {
   EXPECT_GT(least, radians(20.0));
 }
 
+// A swing between two bearings at the joint's limits, from standing to standing: its angle and speed, cycle by cycle.
+template <class Visit>
+void swing_over(double from, double to, Visit visit) {
+  constexpr double fastest = radians(45.0), acceleration = radians(40.0), cycle = 0.01;
+  const double sense = to > from ? 1.0 : -1.0;
+  double gone = 0.0, speed = 0.0;
+  for (const double way = std::fabs(to - from); gone < way - 1e-3;) {
+    speed = std::min({speed + acceleration * cycle, fastest, std::max(radians(0.5), std::sqrt(2.0 * acceleration * (way - gone)))});
+    gone = std::min(way, gone + speed * cycle);
+    visit(from + sense * gone, sense * speed);
+  }
+}
+
+// From a dig to the truck, where it is poured for so long, and back; the scanners as passes before have left them.
+struct Pass {
+  explicit Pass(double side) : pans(berm::app_bench::zx200(), side * radians(96.0)), truck(side * radians(94.0)), ahead(side > 0.0 ? 0 : 1) {
+    for (int k = 0; k < 2; ++k) to_truck([](std::size_t, double, double, double) {}), to_dig([](std::size_t, double, double, double) {});
+  }
+  // visit: of each scanner, the bearings between which it looked in that cycle, and the swing's angle.
+  template <class Visit>
+  void to_truck(Visit visit) {
+    for (int k = 0; k < dig_cycles; ++k) cycle(BERM_PHASE_DIG, 0.0, 0.0, visit);
+    for (int k = 0; k < lift_cycles; ++k) cycle(BERM_PHASE_LIFT, 0.0, 0.0, visit);
+    swing_over(0.0, truck, [&](double angle, double speed) { cycle(BERM_PHASE_SWING_TO_TRUCK, angle, speed, visit); });
+    for (int k = 0; k < pour_cycles; ++k) cycle(BERM_PHASE_DUMP, truck, 0.0, visit);
+  }
+  template <class Visit>
+  void to_dig(Visit visit) {
+    swing_over(truck, 0.0, [&](double angle, double speed) { cycle(BERM_PHASE_SWING_TO_DIG, angle, speed, visit); });
+  }
+  template <class Visit>
+  void cycle(std::uint16_t phase, double angle, double speed, Visit visit) {
+    const auto before = pans.pan;
+    pans.step(phase, angle, speed);
+    for (std::size_t i = 0; i < 2; ++i) visit(i, before[i] + angle - speed * 0.01, pans.pan[i] + angle, angle);
+  }
+  Pans pans;
+  int dig_cycles = 300, lift_cycles = 150, pour_cycles = 150;
+  double truck;
+  std::size_t ahead;  // the scanner on the truck's side
+};
+
+bool passed(double from, double to, double bearing) { return (from - bearing) * (to - bearing) <= 0.0; }
+
+// What was poured is measured by the scanner on the truck's side during the swing back (stentz-1999, 3), over all of the bed, so that the next dump is planned by it.
+// Where that scanner is on its way inward then, what lies beyond was seen in the pour's last second instead.
+TEST(ScanScheduler, TheBedIsSeenOnTheSwingBackOrJustBefore) {
+  for (const double side : {1.0, -1.0}) {
+    int whole = 0, pours = 0;
+    for (int pour_cycles = 50; pour_cycles <= 300; pour_cycles += 10, ++pours) {
+      Pass pass(side);
+      pass.pour_cycles = pour_cycles;
+      std::vector<int> seen(49, -1);  // when last; of the bed on the site, which lies from 72 to 120 degrees off
+      int now = 0;
+      const auto look = [&](std::size_t scanner, double from, double to, double) {
+        now += scanner == 0;
+        for (std::size_t a = 0; a < seen.size(); ++a)
+          if (scanner == pass.ahead && passed(from, to, side * radians(72.0 + static_cast<double>(a)))) seen[a] = now;
+      };
+      pass.to_truck(look);
+      const int turns = now;
+      pass.to_dig(look);
+      for (std::size_t a = 0; a < seen.size(); ++a) EXPECT_GT(seen[a], turns - 100) << side << ": " << 72 + a << " degrees off, " << pour_cycles << " cycles of pouring";
+      whole += std::all_of(seen.begin(), seen.end(), [&](int when) { return when > turns; });
+    }
+    EXPECT_GT(whole, pours / 2) << side << ": mostly all of it is seen on the swing itself";
+  }
+}
+
+// The new surface of the face is measured when the swing has left it, by the other scanner, for the next dig to be planned by it.
+TEST(ScanScheduler, TheDigFaceIsSeenOnTheSwingToTheTruck) {
+  for (const double side : {1.0, -1.0}) {
+    Pass pass(side);
+    std::vector<int> seen(25, 0);  // from 12 degrees on one side to 12 on the other
+    pass.to_truck([&](std::size_t scanner, double from, double to, double angle) {
+      for (std::size_t a = 0; a < seen.size(); ++a)
+        if (scanner != pass.ahead && side * angle > radians(30.0) && passed(from, to, radians(-12.0 + static_cast<double>(a)))) ++seen[a];
+    });
+    for (std::size_t a = 0; a < seen.size(); ++a) EXPECT_GE(seen[a], 1) << side << ": " << static_cast<int>(a) - 12 << " degrees";
+  }
+}
+
+// And again, against obstacles, before the implements come back there: by the scanner that leads on that way, farther ahead than a swing stops in (28 degrees
+// from 45 degrees a second, with what it takes to see).
+TEST(ScanScheduler, TheDigFaceIsSeenOnTheSwingBackBeforeTheImplementsAreThere) {
+  for (const double side : {1.0, -1.0}) {
+    Pass pass(side);
+    std::vector<double> seen_from(37, -1.0);  // how far the swing still was from there; from 12 degrees on the truck's side to 24 beyond the middle
+    pass.to_truck([](std::size_t, double, double, double) {});
+    pass.to_dig([&](std::size_t scanner, double from, double to, double angle) {
+      for (std::size_t a = 0; a < seen_from.size(); ++a) {
+        const double bearing = side * radians(12.0 - static_cast<double>(a));
+        if (scanner != pass.ahead && passed(from, to, bearing)) seen_from[a] = std::max(seen_from[a], side * (angle - bearing));
+      }
+    });
+    for (std::size_t a = 0; a < seen_from.size(); ++a) EXPECT_GT(seen_from[a], radians(40.0)) << side << ": " << 12 - static_cast<int>(a) << " degrees";
+  }
+}
+
+// Nothing waits for it, so that how far it is ahead goes by the time that a dig's end and the curl take, and by where the dig's own looks were: the least of all, in
+// the first second of the swing.
+double least_ahead(double side, int lift_cycles) {
+  double least = 1e9;
+  for (int dig_cycles = 100; dig_cycles <= 700; dig_cycles += 50) {
+    Pass pass(side);
+    pass.dig_cycles = dig_cycles;
+    pass.lift_cycles = lift_cycles;
+    int cycles = 0;
+    pass.to_truck([&](std::size_t scanner, double, double to, double angle) {
+      if (scanner == pass.ahead && angle != 0.0 && ++cycles <= 100) least = std::min(least, side * (to - angle));
+    });
+  }
+  return least;
+}
+
+TEST(ScanScheduler, TheLeadingScannerHasPassedOverWhatComesFirstWhenTheSwingBegins) {
+  for (const double side : {1.0, -1.0}) {
+    EXPECT_GT(least_ahead(side, 200), radians(40.0)) << side;
+    EXPECT_GT(least_ahead(side, 150), radians(20.0)) << side << ": after a dig that ended soon";
+  }
+}
+
 }  // namespace
