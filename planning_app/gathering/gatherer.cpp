@@ -21,18 +21,27 @@ Eigen::Isometry3d frame_of_beam(const Eigen::Vector3d& origin, const Eigen::Vect
 PointCloudGatherer::PointCloudGatherer(const GatheringOptions& options) : options_(options), store_(options.voxel_m, options.capacity) {}
 
 std::size_t PointCloudGatherer::add_scanner(const ScannerDeviations& deviations, KinematicChain chain) {
-  scanners_.push_back({deviations, std::move(chain), EpochCounter(options_.epoch), 0, false, Eigen::Isometry3d::Identity(), {}});
-  return scanners_.size() - 1;
+  const std::size_t number = scanners_.size();
+  scanners_.push_back({number, deviations, std::move(chain), EpochCounter(options_.epoch), 0, false, Eigen::Isometry3d::Identity(), {}});
+  contributors_.add_scanner();
+  return number;
 }
 
 void PointCloudGatherer::clear() {
   store_ = CloudStore(options_.voxel_m, options_.capacity);
+  contributors_.clear();
   for (Scanner& scanner : scanners_) scanner.has_scan = false;
   widest_m_ = 0.0;
 }
 
 void PointCloudGatherer::add_scan(std::size_t scanner, std::span<const double> joint_values, std::span<const PolarReturn> returns, double time_s) {
   add_scan(scanner, scanners_.at(scanner).chain.pose(joint_values), returns, time_s);
+}
+
+// One count for all scanners: of two points the higher epoch is the one that began later, whoever's it is.
+void PointCloudGatherer::begin_epoch(Scanner& scanner) {
+  scanner.epoch = ++epoch_;
+  contributors_.begin_epoch(scanner.number, times_.newest());
 }
 
 void PointCloudGatherer::take_valid(std::span<const PolarReturn> returns) {
@@ -53,9 +62,8 @@ void PointCloudGatherer::add_scan(std::size_t number, const Eigen::Isometry3d& f
   Scanner& scanner = scanners_.at(number);
   ++counts_.scans;
   counts_.points_in += returns.size();
-  // One count for all scanners: points of different scanners are always of different epochs and merge.
-  if (scanner.epochs.begins_with(frame.linear())) scanner.epoch = ++epoch_;
   times_.begin_scan(time_s, store_);
+  if (scanner.epochs.begins_with(frame.linear())) begin_epoch(scanner);
   take_valid(returns);
   if (scanner.has_scan) {
     const ScannerDeviations& d = scanner.deviations;
@@ -74,8 +82,8 @@ void PointCloudGatherer::add_points(std::size_t number, const Eigen::Isometry3d&
   Scanner& scanner = scanners_.at(number);
   ++counts_.scans;
   counts_.points_in += points.size();
-  if (scanner.epoch == 0) scanner.epoch = ++epoch_;
   times_.begin_scan(time_s, store_);
+  if (scanner.epoch == 0) begin_epoch(scanner);
   for (const ScanPoint& p : points) {
     const Eigen::Vector3d place(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
     const Eigen::Vector3d ray = mount.linear() * (place - origin);
@@ -155,8 +163,8 @@ void PointCloudGatherer::insert(const Scanner& scanner, const Eigen::Isometry3d&
   double best_separation = 1.0;
   Vector3 best_between{};
   store_.for_each_in_box({place[0] - hx, place[1] - hy, place[2] - hz}, {place[0] + hx, place[1] + hy, place[2] + hz}, [&](std::uint32_t index) {
-    if (store_.epoch(index) == scanner.epoch) return;
     const GatheredPoint& old = store_[index];
+    if (contributors_.has(index, scanner.number, old.scan)) return;
     const Vector3 between{static_cast<double>(fresh.x - old.x), static_cast<double>(fresh.y - old.y), static_cast<double>(fresh.z - old.z)};
     if (std::abs(between[0]) > hx || std::abs(between[1]) > hy || std::abs(between[2]) > hz) return;
     const double separation = ellipsoid_separation(old.covariance, fresh.covariance, between, options_.quantile);
@@ -166,7 +174,7 @@ void PointCloudGatherer::insert(const Scanner& scanner, const Eigen::Isometry3d&
     best_between = between;
   });
   if (best == CloudStore::kNone) {
-    store_.insert(fresh, scanner.epoch);
+    contributors_.began(store_.insert(fresh, scanner.epoch), scanner.number);
     return;
   }
   const GatheredPoint& old = store_[best];
@@ -177,6 +185,7 @@ void PointCloudGatherer::insert(const Scanner& scanner, const Eigen::Isometry3d&
                              fused.covariance,
                              fresh.scan,
                              CloudStore::kNone};
+  contributors_.joined(best, scanner.number, old.scan);
   store_.move(best, merged, std::max(store_.epoch(best), scanner.epoch));
   ++counts_.merged;
 }
@@ -187,7 +196,7 @@ GatheringCounts PointCloudGatherer::counts() const {
   return out;
 }
 
-std::size_t PointCloudGatherer::bytes() const { return store_.bytes() + times_.bytes(); }
+std::size_t PointCloudGatherer::bytes() const { return store_.bytes() + contributors_.bytes() + times_.bytes(); }
 
 std::vector<ScanPoint> PointCloudGatherer::points() const {
   std::vector<ScanPoint> out;

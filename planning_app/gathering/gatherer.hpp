@@ -10,6 +10,7 @@
 #include "gathering/deletion_volume.hpp"
 #include "gathering/epoch_counter.hpp"
 #include "gathering/kinematic_chain.hpp"
+#include "gathering/scan_contributors.hpp"
 #include "gathering/scan_times.hpp"
 #include "points/point_cloud.hpp"
 
@@ -63,6 +64,7 @@ public:
 
 private:
   struct Scanner {
+    std::size_t number;
     ScannerDeviations deviations;
     KinematicChain chain;
     EpochCounter epochs;
@@ -71,6 +73,7 @@ private:
     Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
     std::vector<PolarReturn> returns;  // of the scan before
   };
+  void begin_epoch(Scanner& scanner);
   void take_valid(std::span<const PolarReturn> returns);
   void delete_passed();
   void delete_in_block(const CloudStore::Block& block);
@@ -78,6 +81,7 @@ private:
 
   GatheringOptions options_;
   CloudStore store_;
+  ScanContributors contributors_;
   std::vector<Scanner> scanners_;
   ScanTimes times_;
   std::vector<PolarReturn> valid_;
