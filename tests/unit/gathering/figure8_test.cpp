@@ -1,6 +1,10 @@
 // The four pictures of zolynski-2012, Figure 8: a wall behind a box; the box away; the box there again; the box moved.
 #include <gtest/gtest.h>
+#include <png.h>
 
+#include <array>
+#include <cstdint>
+#include <filesystem>
 #include <set>
 
 #include "gathering/gather_picture.hpp"
@@ -35,6 +39,39 @@ std::set<int> wall_seen(const std::vector<ScanPoint>& points, double low_y, doub
   return cells;
 }
 
+// What of the cloud a written picture shows: its coloured dots, whose x and y lie within bounds. The paper and the grid are grey.
+class WrittenPicture {
+public:
+  WrittenPicture(const std::string& path, const PictureView& view) : view_(view) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    if (png_image_begin_read_from_file(&image, path.c_str()) == 0) return;
+    image.format = PNG_FORMAT_RGB;
+    width_ = image.width;
+    pixels_.resize(std::size_t{image.width} * image.height);
+    if (png_image_finish_read(&image, nullptr, pixels_.data(), 0, nullptr) == 0) pixels_.clear();
+  }
+  std::size_t dots(double low_x, double high_x, double low_y, double high_y) const {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+      if (pixels_[i][0] == pixels_[i][1] && pixels_[i][1] == pixels_[i][2]) continue;
+      const double metres = (view_.high_x - view_.low_x) / static_cast<double>(width_);
+      const double x = view_.low_x + metres * static_cast<double>(i % width_), y = view_.high_y - metres * static_cast<double>(i / width_);
+      count += between(x, low_x, high_x) && between(y, low_y, high_y) ? 1 : 0;
+    }
+    return count;
+  }
+
+private:
+  PictureView view_;
+  std::size_t width_ = 1;
+  std::vector<std::array<std::uint8_t, 3>> pixels_;  // none: it was not written, or is no PNG
+};
+
+const PictureView kView{-0.5, -3.0, 4.5, 3.0};
+
+std::string picture_path(int number) { return std::string(BERM_PICTURES) + "/gathering_figure8_" + std::to_string(number) + ".png"; }
+
 class Figure8 : public testing::Test {
 protected:
   Figure8() : room_(8), chains_(two_scanners()), gatherer_(GatheringOptions{}) {
@@ -48,7 +85,8 @@ protected:
     std::vector<ScanPoint> section;
     for (const ScanPoint& p : points)
       if (std::abs(p.z - 1.0F) < 0.1F) section.push_back(p);
-    write_cloud_picture(std::string(BERM_PICTURES) + "/gathering_figure8_" + std::to_string(number) + ".png", section, {-0.5, -3.0, 4.5, 3.0});
+    std::filesystem::remove(picture_path(number));
+    write_cloud_picture(picture_path(number), section, kView);
     return points;
   }
 
@@ -84,6 +122,18 @@ TEST_F(Figure8, BoxThereAwayThereAgainMoved) {
   printf("%llu points in, %zu kept, %llu merged, %llu deleted\n", static_cast<unsigned long long>(counts.points_in), gatherer_.store().size(),
          static_cast<unsigned long long>(counts.merged), static_cast<unsigned long long>(counts.deleted));
   EXPECT_GT(counts.merged, counts.points_in / 4);
+
+  // The four pictures are there to be looked at, and show it.
+  for (int number = 1; number <= 4; ++number) {
+    const WrittenPicture picture(picture_path(number), kView);
+    const auto shows = [&picture](const Box& box) {
+      return picture.dots(box.low.x() - 0.1, box.high.x() + 0.1, box.low.y() - 0.1, box.high.y() + 0.1);
+    };
+    EXPECT_GT(picture.dots(ScannedRoom::kWall - 0.2, ScannedRoom::kWall + 0.2, -3.0, 3.0), 500U) << "no wall in " << picture_path(number);
+    const std::size_t first_box = shows(kFirst), moved_box = shows(kMoved);
+    EXPECT_EQ(first_box > 200U, number == 1 || number == 3) << first_box << " dots in " << picture_path(number);
+    EXPECT_EQ(moved_box > 200U, number == 4) << moved_box << " dots in " << picture_path(number);
+  }
 }
 
 // Nothing moves: next to nothing is deleted, and the cloud does not grow for ever.
