@@ -5,14 +5,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "config/command_line.hpp"
 #include "config/standard_error.hpp"
 #include "gathering/gather_picture.hpp"
 #include "gathering/gather_recording.hpp"
+#include "gathering/mount_option.hpp"
 #include "points/file_bytes.hpp"
 #include "points/pcd.hpp"
 #include "points/recording.hpp"
@@ -27,18 +26,6 @@ struct Options {
   GatheringOptions gathering;
   ScannerDeviations deviations;
 };
-
-Eigen::Isometry3d mount_of(const std::string& text) {
-  double x = 0.0, y = 0.0, z = 0.0, yaw_deg = 0.0;
-  char rest = 0;
-  const bool four = std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf%c", &x, &y, &z, &yaw_deg, &rest) == 4;
-  if (!four || !(std::abs(x) < 1e5 && std::abs(y) < 1e5 && std::abs(z) < 1e5 && std::abs(yaw_deg) <= 360.0))
-    throw PointFileError(fmt::format("--mount: {}: is not x,y,z,yaw (metres within 1e5, degrees within 360)", text.substr(0, 80)));
-  Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
-  out.linear() = Eigen::AngleAxisd(yaw_deg * 3.14159265358979323846 / 180.0, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  out.translation() << x, y, z;
-  return out;
-}
 
 int run(const Options& options) {
   if (options.mounts.size() > 1 && options.mounts.size() != options.files.size())
@@ -103,7 +90,8 @@ int main(int argc, char** argv) {
   berm::config::output(app.add_option("--pcd", options.pcd, "write the cloud"));
   berm::config::output(app.add_option("--picture", options.picture, "write a view from above (PNG)"));
   app.add_option("--mount", options.mounts,
-                 "a scanner's place in the cloud's frame: x,y,z in metres, yaw in degrees; once for all files or once for each")
+                 "a scanner's place in the cloud's frame: x,y,z in metres, yaw,pitch,roll in degrees (the last two may be left out): turned by roll "
+                 "about x, by pitch about y, by yaw about z; 0,0,1,0,0,90 is a scan plane upright along x. Once for all files or once for each")
       ->take_all();
   app.add_option("--capacity", options.gathering.capacity, "points kept at most; the lowest epochs go first")
       ->capture_default_str()

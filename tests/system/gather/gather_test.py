@@ -15,14 +15,14 @@ scratch = pathlib.Path(tempfile.mkdtemp(prefix="berm-gather-"))
 KEYS = {"scans", "points_in", "points_kept", "deleted", "merged", "points_per_second"}
 
 
-def sweep(name, distance, reverse=False):
-    """A PCD of 41 upright scanlines of 51 points, all at one distance from the viewpoint."""
+def sweep(name, distance, reverse=False, begin=0.0, lines=41):
+    """A PCD of 41 upright scanlines of 51 points, all at one distance from the viewpoint; or of the first of them."""
     rows = []
-    for line in range(41):
+    for line in range(lines):
         pan = math.radians(40 - line if reverse else line)
         for k in range(51):
             up = math.radians(k - 25)
-            rows.append((distance * math.cos(up) * math.cos(pan), distance * math.cos(up) * math.sin(pan), 1 + distance * math.sin(up), line, 0.02 * line))
+            rows.append((distance * math.cos(up) * math.cos(pan), distance * math.cos(up) * math.sin(pan), 1 + distance * math.sin(up), line, begin + 0.02 * line))
     text = "\n".join(" ".join(f"{v:.6f}" if i != 3 else str(v) for i, v in enumerate(row)) for row in rows)
     path = scratch / name
     path.write_text(f"VERSION 0.7\nFIELDS x y z scanline time\nSIZE 4 4 4 4 8\nTYPE F F F U F\nCOUNT 1 1 1 1 1\nWIDTH {len(rows)}\nHEIGHT 1\n"
@@ -65,6 +65,22 @@ def what_is_seen_again_is_merged():
     assert few["points_kept"] <= 500 and few["overflowed"] == count - few["points_kept"]
 
 
+def an_upright_scanner_is_mounted():
+    """A planar scan in x and y, as an LMS gives it, of a scanner that stands upright at 1.5 m and looks to the left."""
+    rows = [(4 * math.cos(math.radians(a)), 4 * math.sin(math.radians(a)), 0.0) for a in range(-60, 61)]
+    flat = scratch / "flat.pcd"
+    flat.write_text(f"FIELDS x y z scanline time\nSIZE 4 4 4 4 8\nTYPE F F F U F\nWIDTH {len(rows)}\nHEIGHT 1\nPOINTS {len(rows)}\nDATA ascii\n"
+                    + "".join(f"{x:.6f} {y:.6f} {z} 0 1.0\n" for x, y, z in rows))
+    cloud = scratch / "mounted.pcd"
+    gather(flat, "--mount", "1,0,1.5,90,0,90", "--pcd", cloud)
+    places = sorted(row[:3] for row in struct.iter_unpack("<fffId", cloud.read_bytes().split(b"DATA binary\n", 1)[1]))
+    wanted = sorted((1.0, x, 1.5 + y) for x, y, _ in rows)
+    assert len(places) == len(wanted)
+    for place in places:
+        assert min(math.dist(place, other) for other in wanted) < 1e-4, place
+    assert "yaw,pitch,roll" in " ".join(run("berm_gather", "--help").stdout.split())
+
+
 def refusals():
     near, _ = sweep("good.pcd", 2.0)
     result = scratch / "none.json"
@@ -76,7 +92,7 @@ def refusals():
         one_clear_line(done, path.name)
         assert done.returncode == 2 and not result.exists()
     for options, word in (((), "FILE"), ((near, "--no-such-option"), "no-such-option"), ((near, "--capacity", "0"), "capacity"), ((near, "--mount", "1,2"), "mount"),
-                          ((near, "--mount", "1,2,3,nan"), "mount"), ((near, "--pcd", scratch / "no/such/folder.pcd"), "no/such")):
+                          ((near, "--mount", "1,2,3,nan"), "mount"), ((near, "--mount", "1,2,3,4,5"), "mount"), ((near, "--pcd", scratch / "no/such/folder.pcd"), "no/such")):
         done = run("berm_gather", *options)
         one_clear_line(done, word)
         assert done.returncode == 2
@@ -116,4 +132,5 @@ def real_recordings():
     assert len((scratch / "vlp.pcd").read_bytes()) > 24 * result["points_kept"]
 
 
-main([what_stood_before_the_wall_goes, what_is_seen_again_is_merged, refusals, a_picture_that_cannot_be_written_costs_nothing, real_recordings])
+main([what_stood_before_the_wall_goes, what_is_seen_again_is_merged, an_upright_scanner_is_mounted, refusals,
+      a_picture_that_cannot_be_written_costs_nothing, real_recordings])
