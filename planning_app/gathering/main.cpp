@@ -5,13 +5,17 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "config/command_line.hpp"
+#include "config/one_line.hpp"
 #include "config/standard_error.hpp"
 #include "gathering/gather_picture.hpp"
 #include "gathering/gather_recording.hpp"
 #include "gathering/mount_option.hpp"
+#include "gathering/recording_clocks.hpp"
 #include "points/file_bytes.hpp"
 #include "points/pcd.hpp"
 #include "points/recording.hpp"
@@ -22,54 +26,110 @@ namespace {
 struct Options {
   std::vector<std::string> files;
   std::vector<std::string> mounts;
-  std::string json, pcd, picture;
+  std::string json, pcd, picture, clock = "auto";
   GatheringOptions gathering;
   ScannerDeviations deviations;
+};
+
+// The files, read twice when their times decide what is played together: of the first look only what cannot be read again is kept.
+class Inputs {
+public:
+  Inputs(const std::vector<std::string>& files, bool show) : files_(files), again_(files.size()), show_(show) {}
+
+  std::vector<std::vector<std::size_t>> groups(ClockRule rule) {
+    std::vector<RecordingTimes> times;
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+      if (files_.size() == 1 || rule == ClockRule::kOwn) {  // nothing to decide
+        times.push_back({files_[i], "", false});
+        continue;
+      }
+      PointCloud recording = read(i);
+      times.push_back(times_of(recording));
+      std::error_code none;
+      if (!std::filesystem::is_regular_file(files_[i], none)) again_[i] = std::move(recording);
+    }
+    return played_together(times, files_.size() == 1 ? ClockRule::kOwn : rule);
+  }
+  PointCloud take(std::size_t i) {
+    if (!again_[i]) return read(i);
+    PointCloud kept = std::move(*again_[i]);
+    again_[i].reset();
+    return kept;
+  }
+
+private:
+  PointCloud read(std::size_t i) const {
+    if (show_) config::print_error("reading {}\n", files_[i]);
+    return read_recording(files_[i]);
+  }
+  const std::vector<std::string>& files_;
+  std::vector<std::optional<PointCloud>> again_;
+  bool show_;
 };
 
 int run(const Options& options) {
   if (options.mounts.size() > 1 && options.mounts.size() != options.files.size())
     throw PointFileError(fmt::format("--mount: given {} times for {} files: once for all, or each", options.mounts.size(), options.files.size()));
+  std::vector<Eigen::Isometry3d> mounts;
+  for (const std::string& text : options.mounts) mounts.push_back(mount_of(text));
+  if (mounts.empty()) mounts.push_back(Eigen::Isometry3d::Identity());
   GatheringOptions gathering = options.gathering;
   gathering.epoch = kEpochRuleOfRecordings;
   PointCloudGatherer gatherer(gathering);
+  for (std::size_t i = 0; i < options.files.size(); ++i) gatherer.add_scanner(options.deviations);
   double seconds = 0.0;
   std::size_t unplanned = 0;
   const bool show = isatty(2) != 0;
-  for (std::size_t i = 0; i < options.files.size(); ++i) {
-    const std::string& file = options.files[i];
-    if (show) config::print_error("reading {}\n", file);
-    const PointCloud recording = read_recording(file);
-    Eigen::Isometry3d mount = Eigen::Isometry3d::Identity();
-    if (!options.mounts.empty()) mount = mount_of(options.mounts[options.mounts.size() == 1 ? 0 : i]);
-    const std::size_t scanner = gatherer.add_scanner(options.deviations);
+  Inputs inputs(options.files, show);
+  auto played = nlohmann::json::array();
+  std::string order;
+  const ClockRule rule = options.clock == "one" ? ClockRule::kOne : options.clock == "own" ? ClockRule::kOwn : ClockRule::kByTimes;
+  for (const std::vector<std::size_t>& group : inputs.groups(rule)) {
+    std::vector<PointCloud> recordings;
+    std::vector<RecordingPlayer> players;
+    auto names = nlohmann::json::array();
+    recordings.reserve(group.size());
+    for (const std::size_t i : group) {
+      recordings.push_back(inputs.take(i));
+      players.emplace_back(recordings.back(), i, mounts[mounts.size() == 1 ? 0 : i]);
+      order += fmt::format("{}{}", i == group.front() ? (order.empty() ? "" : ", then ") : " with ", options.files[i]);
+      names.push_back(options.files[i]);
+    }
+    played.push_back(std::move(names));
     auto shown = std::chrono::steady_clock::now();
     const auto begin = shown;
-    unplanned += gather_recording(recording, scanner, mount, gatherer, [&](std::size_t done) {
+    play_together(players, gatherer, [&](const RecordingPlayer& player) {
       if (!show || std::chrono::steady_clock::now() - shown < std::chrono::milliseconds(500)) return;
       shown = std::chrono::steady_clock::now();
-      config::print_error("\r{}: {} of {} points", file, done, recording.points.size());
+      config::print_error("\r{}: {} of {} points", player.recording().file, player.played(), player.recording().points.size());
     });
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    if (show) config::print_error("\r{}: {} points gathered   \n", file, recording.points.size());
+    for (const RecordingPlayer& player : players) {
+      unplanned += player.unplanned();
+      if (show) config::print_error("\r{}: {} points gathered   \n", player.recording().file, player.played());
+    }
   }
   const GatheringCounts counts = gatherer.counts();
   const double rate = static_cast<double>(counts.points_in) / std::max(seconds, 1e-9);
   const std::size_t kept = gatherer.store().size();
+  const auto points = gatherer.points();
   if (!options.json.empty()) {
     const nlohmann::json result{
-        {"files", options.files},           {"scans", counts.scans},      {"points_in", counts.points_in},   {"points_kept", kept},
-        {"deleted", counts.deleted},        {"merged", counts.merged},    {"overflowed", counts.overflowed}, {"ignored", counts.ignored},
-        {"scans_without_plane", unplanned}, {"epochs", gatherer.epoch()}, {"points_per_second", rate},       {"bytes", gatherer.bytes()}};
+        {"files", options.files},           {"played", played},           {"scans", counts.scans},           {"points_in", counts.points_in},
+        {"points_kept", kept},              {"deleted", counts.deleted},  {"merged", counts.merged},         {"overflowed", counts.overflowed},
+        {"ignored", counts.ignored},        {"epochs", gatherer.epoch()}, {"scans_without_plane", unplanned}, {"points_per_second", rate},
+        {"bytes", gatherer.bytes()}};
     write_file_bytes(options.json, result.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   }
-  const auto points = gatherer.points();
   if (!options.pcd.empty()) write_pcd(options.pcd, points);
   fmt::print("{} scans, {} points in: {} kept, {} merged, {} deleted, {} overflowed, {} ignored; {:.0f} points/s, {:.1f} MB\n", counts.scans,
              counts.points_in, kept, counts.merged, counts.deleted, counts.overflowed, counts.ignored, rate,
              static_cast<double>(gatherer.bytes()) * 1e-6);
+  if (options.files.size() > 1) fmt::print("played {}\n", config::one_line(order));
   if (unplanned > 0) fmt::print("{} scans are no plane through the scanner: merged, and nothing deleted for them\n", unplanned);
-  if (!options.picture.empty()) fmt::print("picture: {} (grid {:g} m)\n", options.picture, write_cloud_picture(options.picture, points));
+  if (!options.picture.empty())
+    fmt::print("picture: {} (grid {:g} m)\n", options.picture,
+               write_cloud_picture(options.picture, points));
   return kept > 0 ? 0 : 1;
 }
 
@@ -80,19 +140,24 @@ int main(int argc, char** argv) {
   berm::app::Options options;
   CLI::App app{
       "Gathers recorded scans into one point cloud: merges what is measured again, deletes what was seen through. A FILE is a PCD with "
-      "scanline and time, a capture (pcap) of a VLP-16, or a JSON export of an LMS1xx session; files are played one after another. Exit status 1: no "
-      "point was kept.",
+      "scanline and time, a capture (pcap) of a VLP-16, or a JSON export of an LMS1xx session. PCDs whose times overlap are played together, by "
+      "time; other files one after another. Exit status 1: no point was kept.",
       "berm gather"};
   app.add_option("FILE", options.files, "recordings, each of a scanner of its own")->required();
   berm::config::output(app.add_option("--json", options.json,
-                 "write scans, points_in, points_kept, deleted, merged, overflowed, ignored, scans_without_plane, epochs, "
-                 "points_per_second, bytes"));
+                 "write files, played (what together, in which order), scans, points_in, points_kept, deleted, merged, overflowed, ignored, "
+                 "scans_without_plane, epochs, points_per_second, bytes"));
   berm::config::output(app.add_option("--pcd", options.pcd, "write the cloud"));
   berm::config::output(app.add_option("--picture", options.picture, "write a view from above (PNG)"));
   app.add_option("--mount", options.mounts,
                  "a scanner's place in the cloud's frame: x,y,z in metres, yaw,pitch,roll in degrees (the last two may be left out): turned by roll "
                  "about x, by pitch about y, by yaw about z; 0,0,1,0,0,90 is a scan plane upright along x. Once for all files or once for each")
       ->take_all();
+  app.add_option("--clock", options.clock,
+                 "which files' times are of one clock: one: of all, own: of none, auto: of PCDs whose times overlap and do not begin at 0; those of one "
+                 "clock are played together")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"auto", "one", "own"}));
   app.add_option("--capacity", options.gathering.capacity, "points kept at most; the lowest epochs go first")
       ->capture_default_str()
       ->check(CLI::Range(1, 200'000'000));

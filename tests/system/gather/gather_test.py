@@ -8,6 +8,7 @@ import signal
 import stat
 import struct
 import tempfile
+import threading
 
 from berm_command import REAL_DATA, main, one_clear_line, run
 
@@ -63,6 +64,33 @@ def what_is_seen_again_is_merged():
     assert result["merged"] == count and result["points_kept"] == count and result["deleted"] == 0
     few = gather(near, "--capacity", 500)
     assert few["points_kept"] <= 500 and few["overflowed"] == count - few["points_kept"]
+
+
+def simultaneous_recordings_are_played_by_time():
+    """One scanner sees something near during the first fifth of a sweep and nothing more; the other, a moment later, sees through where it was."""
+    near, few = sweep("gone.pcd", 2.0, begin=7.0, lines=8)
+    far, count = sweep("through.pcd", 5.0, begin=7.01)
+    for files, options, kept, deleted in (((far, near), (), count, few), ((near, far), (), count, few), ((far, near), ("--clock", "one"), count, few),
+                                          ((far, near), ("--clock", "own"), count + few, 0)):
+        cloud = scratch / "by_time.pcd"
+        result = gather(*files, *options, "--pcd", cloud)
+        together = options != ("--clock", "own")
+        assert result["played"] == ([[str(f) for f in files]] if together else [[str(f)] for f in files]), result["played"]
+        # In time order the near ones' last scanline is seen through as well: the far ones' sweep goes on over it.
+        assert result["deleted"] == deleted and result["points_kept"] == kept, result
+    pipe = scratch / "pipe"  # cannot be read twice
+    os.mkfifo(pipe)
+    writer = threading.Thread(target=lambda: pipe.write_bytes(near.read_bytes()))
+    writer.start()
+    result = gather(far, pipe)
+    writer.join()
+    assert result["deleted"] == few and result["played"] == [[str(far), str(pipe)]]
+    start, _ = sweep("start.pcd", 2.0)
+    assert gather(start, far, start)["played"] == [[str(f)] for f in (start, far, start)], "those that begin at 0 have no common clock"
+    one_clear_line(run("berm_gather", near, far, "--clock", "two"), "--clock")
+    timeless = scratch / "timeless.pcd"
+    timeless.write_text("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3\n")
+    one_clear_line(run("berm_gather", near, timeless, "--clock", "one"), "timeless.pcd: time: the file has none")
 
 
 def an_upright_scanner_is_mounted():
@@ -132,5 +160,5 @@ def real_recordings():
     assert len((scratch / "vlp.pcd").read_bytes()) > 24 * result["points_kept"]
 
 
-main([what_stood_before_the_wall_goes, what_is_seen_again_is_merged, an_upright_scanner_is_mounted, refusals,
+main([what_stood_before_the_wall_goes, what_is_seen_again_is_merged, simultaneous_recordings_are_played_by_time, an_upright_scanner_is_mounted, refusals,
       a_picture_that_cannot_be_written_costs_nothing, real_recordings])
