@@ -1,5 +1,9 @@
 #include "gathering/gather_recording.hpp"
 
+#include <fmt/format.h>
+
+#include <new>
+
 #include "gathering/scan_frame.hpp"
 
 namespace berm::app {
@@ -29,7 +33,13 @@ void play_together(std::span<RecordingPlayer> players, PointCloudGatherer& gathe
     for (RecordingPlayer& player : players)
       if (!player.done() && (next == nullptr || player.time_s() < next->time_s())) next = &player;
     if (next == nullptr) return;
-    next->play_scanline(gatherer);
+    try {
+      next->play_scanline(gatherer);
+    } catch (const std::bad_alloc&) {
+      throw PointFileError(fmt::format("{}: memory: too little to gather point {} of {} beside {} that are kept (--capacity {})",
+                                       next->recording().file, next->played() + 1, next->recording().points.size(), gatherer.store().size(),
+                                       gatherer.store().capacity()));
+    }
     if (progress) progress(*next);
   }
 }

@@ -38,7 +38,7 @@ private:
 };
 
 // Plays all to their ends: always the scanline that comes first by its time, of equal times that of the first player; the scanlines of one recording
-// stay in their order. progress(player) is called after each scanline.
+// stay in their order. progress(player) is called after each scanline. Throws PointFileError when memory is too small.
 void play_together(std::span<RecordingPlayer> players, PointCloudGatherer& gatherer,
                    const std::function<void(const RecordingPlayer&)>& progress = {});
 

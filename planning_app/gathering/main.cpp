@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -67,6 +68,14 @@ private:
   bool show_;
 };
 
+// What is written at the end, for which memory may be too small.
+template <typename Write>
+auto written(const std::string& file, std::size_t points, Write write) try {
+  return write();
+} catch (const std::bad_alloc&) {
+  throw PointFileError(fmt::format("{}: memory: too little to write {} points", file, points));
+}
+
 int run(const Options& options) {
   if (options.mounts.size() > 1 && options.mounts.size() != options.files.size())
     throw PointFileError(fmt::format("--mount: given {} times for {} files: once for all, or each", options.mounts.size(), options.files.size()));
@@ -112,7 +121,8 @@ int run(const Options& options) {
   const GatheringCounts counts = gatherer.counts();
   const double rate = static_cast<double>(counts.points_in) / std::max(seconds, 1e-9);
   const std::size_t kept = gatherer.store().size();
-  const auto points = gatherer.points();
+  const std::string& last = options.picture.empty() ? options.pcd : options.picture;
+  const auto points = written(last.empty() ? options.files.back() : last, kept, [&] { return gatherer.points(); });
   if (!options.json.empty()) {
     const nlohmann::json result{
         {"files", options.files},           {"played", played},           {"scans", counts.scans},           {"points_in", counts.points_in},
@@ -121,7 +131,7 @@ int run(const Options& options) {
         {"bytes", gatherer.bytes()}};
     write_file_bytes(options.json, result.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   }
-  if (!options.pcd.empty()) write_pcd(options.pcd, points);
+  if (!options.pcd.empty()) written(options.pcd, kept, [&] { return write_pcd(options.pcd, points), 0; });
   fmt::print("{} scans, {} points in: {} kept, {} merged, {} deleted, {} overflowed, {} ignored; {:.0f} points/s, {:.1f} MB\n", counts.scans,
              counts.points_in, kept, counts.merged, counts.deleted, counts.overflowed, counts.ignored, rate,
              static_cast<double>(gatherer.bytes()) * 1e-6);
@@ -129,7 +139,7 @@ int run(const Options& options) {
   if (unplanned > 0) fmt::print("{} scans are no plane through the scanner: merged, and nothing deleted for them\n", unplanned);
   if (!options.picture.empty())
     fmt::print("picture: {} (grid {:g} m)\n", options.picture,
-               write_cloud_picture(options.picture, points));
+               written(options.picture, kept, [&] { return write_cloud_picture(options.picture, points); }));
   return kept > 0 ? 0 : 1;
 }
 

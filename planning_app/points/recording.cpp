@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <new>
+#include <system_error>
+
 #include "points/file_bytes.hpp"
 #include "points/lms111.hpp"
 #include "points/pcap.hpp"
@@ -18,6 +22,12 @@ PointCloud parse_recording(std::string_view bytes, const std::string& name) {
   return parse_pcap(bytes, name);
 }
 
-PointCloud read_recording(const std::string& path) { return parse_recording(read_file_bytes(path), path); }
+PointCloud read_recording(const std::string& path) try {
+  return parse_recording(read_file_bytes(path), path);
+} catch (const std::bad_alloc&) {
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(path, none);  // a pipe has none
+  throw PointFileError(fmt::format("{}: memory: too little to read {}", path, none ? "it" : fmt::format("its {} bytes and their points", size)));
+}
 
 }  // namespace berm::app

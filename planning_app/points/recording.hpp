@@ -7,7 +7,8 @@
 
 namespace berm::app {
 
-// By the first bytes, not by the name: PCD, pcap or pcapng of a VLP-16, or the JSON export of an LMS1xx session. Throws PointFileError.
+// By the first bytes, not by the name: PCD, pcap or pcapng of a VLP-16, or the JSON export of an LMS1xx session. Throws PointFileError,
+// read_recording also when memory is too small.
 PointCloud read_recording(const std::string& path);
 PointCloud parse_recording(std::string_view bytes, const std::string& name);
 

@@ -109,6 +109,27 @@ def an_upright_scanner_is_mounted():
     assert "yaw,pitch,roll" in " ".join(run("berm_gather", "--help").stdout.split())
 
 
+def short_of_memory(program, limit, *arguments):
+    return run(program, *arguments, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+
+
+def too_little_memory_names_the_file():
+    """A million places, each alone in its part of the cloud: 16 MB to read, some 400 MB to gather."""
+    if short_of_memory("berm_gather", 300 << 20, "--help").returncode != 0:
+        print("SKIPPED part: this build does not start within 300 MB (sanitizers)")
+        return
+    wide = scratch / "wide.pcd"
+    count = 1_000_000
+    with wide.open("wb") as file:
+        file.write(f"FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH {count}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {count}\nDATA binary\n".encode())
+        file.write(struct.pack(f"<{3 * count}f", *(v for i in range(count) for v in (1 + i % 100, i // 100 % 100, i // 10000))))
+    result = scratch / "no.json"
+    for limit, words in ((40 << 20, "wide.pcd: memory: too little to read its 1200"), (220 << 20, "wide.pcd: memory: too little to gather point ")):
+        done = short_of_memory("berm_gather", limit, wide, "--range-limit", 1000, "--json", result, "--pcd", scratch / "no.pcd")
+        one_clear_line(done, words)
+        assert done.returncode == 2 and not result.exists() and not (scratch / "no.pcd").exists()
+
+
 def refusals():
     near, _ = sweep("good.pcd", 2.0)
     result = scratch / "none.json"
@@ -160,5 +181,5 @@ def real_recordings():
     assert len((scratch / "vlp.pcd").read_bytes()) > 24 * result["points_kept"]
 
 
-main([what_stood_before_the_wall_goes, what_is_seen_again_is_merged, simultaneous_recordings_are_played_by_time, an_upright_scanner_is_mounted, refusals,
+main([what_stood_before_the_wall_goes, what_is_seen_again_is_merged, simultaneous_recordings_are_played_by_time, an_upright_scanner_is_mounted, refusals, too_little_memory_names_the_file,
       a_picture_that_cannot_be_written_costs_nothing, real_recordings])
