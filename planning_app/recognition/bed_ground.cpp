@@ -7,7 +7,7 @@ namespace berm::app {
 namespace {
 
 constexpr double kGroundSlack = 0.15;  // m: ruts
-constexpr int kReturnsLeast = 25;
+constexpr std::size_t kReturnsLeast = 25;
 constexpr double kBesideFrom = 0.2, kBesideTo = 2.5;         // m beyond the outer faces
 constexpr double kFarFrom = 0.2, kFarTo = 1.5;             // m beyond the outer faces of the far walls
 constexpr double kAtTops = 0.3, kLow = 1.8;                 // m of the tops; below them
@@ -15,20 +15,24 @@ constexpr int kLevelLeast = 30, kLevelToLow = 20;          // returns; level one
 
 }  // namespace
 
-double share_of_ground(const FanSweep& sweep, const BedPose& pose, const SizeRange& top_over_ground, std::size_t stride) {
+std::vector<double> depths_beside(const FanSweep& sweep, const BedPose& pose, std::size_t stride) {
   const Eigen::Matrix3d turn = pose.rotation().transpose();
-  int all = 0, ground = 0;
+  std::vector<double> out;
   for (std::size_t k = 0; k < sweep.returns.size(); k += stride) {
     const Eigen::Vector3d from = sweep.returns[k].at() - pose.middle;
     const double across = std::abs(turn.row(1).dot(from)) - pose.width / 2 - pose.thickness;  // first, for most lie too far off
     if (across > kBesideTo) continue;
     const double beyond = std::max(std::abs(turn.row(0).dot(from)) - pose.length / 2 - pose.thickness, across);
     if (beyond < kBesideFrom || beyond > kBesideTo) continue;
-    ++all;
-    const double below = -turn.row(2).dot(from);
-    ground += below > top_over_ground[0] - kGroundSlack && below < top_over_ground[1] + 2 * kGroundSlack ? 1 : 0;
+    out.push_back(-turn.row(2).dot(from));
   }
-  return all * static_cast<int>(stride) < kReturnsLeast ? 1.0 : static_cast<double>(ground) / all;
+  return out;
+}
+
+double share_of_ground(const std::vector<double>& depths, const SizeRange& top_over_ground, std::size_t stride) {
+  if (depths.size() * stride < kReturnsLeast) return 1.0;
+  const auto ground = std::count_if(depths.begin(), depths.end(), [&](double below) { return below > top_over_ground[0] - kGroundSlack && below < top_over_ground[1] + 2 * kGroundSlack; });
+  return static_cast<double>(ground) / static_cast<double>(depths.size());
 }
 
 bool lies_in_level_ground(const FanSweep& sweep, const BedPose& pose, int cab_end) {

@@ -4,52 +4,32 @@
 #include <array>
 #include <cmath>
 
+#include "recognition/bed_inside.hpp"
+#include "recognition/class_heights.hpp"
+
 namespace berm::app {
 namespace {
 
 using Eigen::Vector3d;
 
-// Weights of depths below the tops, kStep apart, as logarithms.
-constexpr double kStep = 0.01, kShallowest = 0.5, kDeepestSeen = 2.4;  // m
-constexpr std::size_t kDepths = 191;
-static_assert(kDepths == static_cast<std::size_t>((kDeepestSeen - kShallowest) / kStep + 1.5));
-using Weights = std::array<double, kDepths>;
-constexpr double kImpossible = -1e9;
-
-double depth_of(std::size_t i) { return kShallowest + kStep * static_cast<double>(i); }
+using Weights = DepthWeights;
 
 // Of a return so far from the plane of a wall's outer face, m, to the outside positive: densities where the wall stands, below its foot, and of what
 // carries the bed: wheels a little behind the plane, tracks in it.
 constexpr double kFaceSpread = 0.035, kCarrierSpread = 0.04, kBefore = 0.12;  // m; the spread with mud
-constexpr double kTopLeft = 0.3, kFromWalls = 0.12;                          // m: what lies nearer to the tops, or within to the walls, tells nothing
 constexpr double kFarthest = 2.5, kNearBehind = 0.4;                               // m behind the plane
 constexpr double kAnything = 0.03;
 struct Under { double edge, near; };  // shares of the floor's own edge, behind the wall, and of what lies near
 constexpr std::array<Under, 2> kUnder{{{0.25, 0.5}, {0.05, 0.05}}};
 constexpr double kWheelsShare = 0.25, kWheelsBack = 0.04;  // of the length, m behind the plane
-constexpr std::array<std::size_t, 7> kGapsUnder{4, 7, 12, 20, 30, 45, kDepths};  // steps, between a foot and what carries the bed
+constexpr std::array<std::size_t, 9> kGapsUnder{4, 7, 12, 20, 30, 45, 65, 95, kDepths};  // steps, between a foot and what carries the bed
 constexpr std::array<std::size_t, 4> kEdges{6, 10, 14, kDepths};            // steps, of the floor's thickness at an open end
 struct Toe { double share, deep; };  // of soil behind an open end
 constexpr std::array<Toe, 2> kToes{{{0.5, 0.4}, {0.9, 0.2}}};
-constexpr double kIndependent = 0.5;                                        // neighbouring rays share mud and the errors of the pose
-constexpr double kPipeFloor = 0.85;                                         // of its radius: farther aside it is too steep
+constexpr double kClosedOften = 1e-8;                                        // how often an end that was taken for open has its wall
 constexpr double kGrazing = 0.02;                                           // m
-constexpr double kFloorSpread = 0.022, kPipeSpread = 0.035;                 // m
-constexpr double kSoil = 0.5, kDeeper = 0.01;                               // densities of a return over the floor and below it, per m
-constexpr double kMostInside = 150.0;                                       // returns within count as so many at most
 constexpr double kFlushOften = 0.15;  // how often what carries a bed is flush with its walls
-constexpr double kFlatLoad = 0.5, kRoundLoad = 1e-4;  // how often a load looks like a floor, and like a half pipe's
-struct Shown { double share, often; };
-constexpr std::array<Shown, 3> kFloorShown{{{0.95, 0.7}, {0.5, 0.2}, {0.15, 0.1}}}, kFlatShown{{{0.95, 0.1}, {0.5, 0.5}, {0.15, 0.4}}};
-constexpr std::size_t kFlatOver = 4;  // steps: a flat load lies so much over the floor at least
 constexpr double kFootUnsure = 0.01, kEdgeUnsure = 0.03, kBoxUnsure = 0.008, kPipeUnsure = 0.02;  // m, standard deviations, by mud and by soil at an edge
-
-double gauss(double x, double spread) { return 0.3989422804 / spread * std::exp(-0.5 * x * x / (spread * spread)); }
-
-double add_logs(double a, double b) {
-  const double most = std::max(a, b);
-  return most <= kImpossible ? kImpossible : most + std::log1p(std::exp(-std::fabs(a - b)));
-}
 
 // The densities' logarithms, kOffStep apart.
 class OffWeights {
@@ -87,10 +67,8 @@ class OffWeights {
 struct Crossed { double depth, aside, off; Vector3d from, along; };
 
 // The rays in the bed's frame.
-struct Placed { Vector3d from, end; };
-
-std::vector<Placed> placed(const BedPose& pose, const std::vector<Ray>& rays) {
-  std::vector<Placed> out;
+std::vector<PlacedRay> placed(const BedPose& pose, const std::vector<Ray>& rays) {
+  std::vector<PlacedRay> out;
   out.reserve(rays.size());
   RayPlacing place(pose);
   for (const Ray& ray : rays) out.push_back({place.head(ray), place.end(ray)});
@@ -99,9 +77,9 @@ std::vector<Placed> placed(const BedPose& pose, const std::vector<Ray>& rays) {
 
 // Where rays cross the outer faces of walls that the sensor sees, or the open end: how deep below the tops, how far from the middle, and how far from
 // the face, to the outside, they end.
-std::vector<Crossed> crossings(const BedPose& pose, const std::vector<Placed>& rays, int axis, bool open) {
+std::vector<Crossed> crossings(const BedPose& pose, const std::vector<PlacedRay>& rays, int axis, bool open) {
   std::vector<Crossed> out;
-  for (const Placed& ray : rays) {
+  for (const PlacedRay& ray : rays) {
     const Vector3d& a = ray.from;
     const int side = a[axis] > 0.0 ? 1 : -1;
     const double face = pose.face(axis, side, true), off = side * ray.end[axis] - face;
@@ -175,16 +153,18 @@ Weights weigh_feet(const DepthSums& sums) {
   return feet;
 }
 
-// By the depth of the floor at an open end: soil or nothing above it, its edge, and what is below that.
+// By the depth of the floor at an open end: soil or nothing above it, its edge, and what is below that. Or by the foot of a wall that stands there after all.
 Weights weigh_edges(const DepthSums& sums) {
   Weights floors{};
+  const Weights feet = weigh_feet(sums);
+  const double closed = std::log(kClosedOften);
   for (std::size_t i = 0; i < kDepths; ++i) {
     double any = kImpossible;
     for (const std::size_t edge : kEdges) {
       const std::size_t end = std::min(i + edge, kDepths);
       for (std::size_t u = 0; u < kUnder.size(); ++u) any = std::max(any, sums.between(i, end, OffWeights::kEdge) + sums.below(end, OffWeights::kUnders + u));
     }
-    floors[i] = std::max(sums.above[i][OffWeights::kToe], sums.above[i][OffWeights::kToe + 1]) + any;
+    floors[i] = std::max(std::max(sums.above[i][OffWeights::kToe], sums.above[i][OffWeights::kToe + 1]) + any, feet[i] + closed);
   }
   return floors;
 }
@@ -232,106 +212,49 @@ Weights weigh_pipes(const BedPose& pose, const std::vector<Crossed>& crossed, co
   return heights;
 }
 
-// Depths at which the floor lies if these returns are of it.
-std::vector<double> floors_by(const BedPose& pose, const std::vector<Placed>& rays, bool pipe) {
-  std::vector<double> out;
-  const double radius = pose.width / 2;
-  for (const auto& [from, at] : rays) {
-    if (std::abs(at.x()) > pose.length / 2 - kFromWalls || std::abs(at.y()) > radius - kFromWalls || at.z() > -kTopLeft) continue;
-    if (meet_in_bed(pose, from, at).what != Meeting::inside) continue;
-    if (pipe && std::abs(at.y()) > kPipeFloor * radius) continue;
-    out.push_back(pipe ? radius - at.z() - std::sqrt(radius * radius - at.y() * at.y()) : -at.z());
-  }
+Weights either(const Weights& a, const Weights& b) {
+  Weights out{};
+  for (std::size_t i = 0; i < kDepths; ++i) out[i] = std::max(a[i], b[i]);
   return out;
 }
 
-// By the floor's depth, from what lies within.
-Weights weigh_inside(const std::vector<double>& floors, double spread, double flat_load) {
-  Weights out{};
-  if (floors.empty()) return out;
-  std::array<double, kDepths> count{};
-  double under = 0.0, over = 0.0;  // the grid's ends
-  for (const double f : floors) {
-    const double i = (f - kShallowest) / kStep + 0.5;
-    if (i < 0.0) ++under;
-    else if (i >= static_cast<double>(kDepths)) ++over;
-    else ++count[static_cast<std::size_t>(i)];
-  }
-  const double each = std::min(kIndependent, kMostInside / static_cast<double>(floors.size()));
-  constexpr int kReach = 12;
-  // Of a surface at each depth, seen by a share of the returns.
-  const auto surface = [&](double share, bool floor) {
-    std::array<double, 2 * kReach + 1> near{};
-    for (int j = -kReach; j <= kReach; ++j) {
-      const double deeper = j * kStep, soil = !floor || deeper < 0.0 ? kSoil : std::max(kDeeper, kSoil * std::exp(-0.5 * deeper * deeper / (spread * spread)));
-      near[static_cast<std::size_t>(j + kReach)] = std::log(share * gauss(deeper, spread) + (1.0 - share) * soil);
-    }
-    const double shallow = std::log((1.0 - share) * kSoil), deep = std::log(floor ? kDeeper : (1.0 - share) * kSoil);
-    double total = under + over;
-    for (const double c : count) total += c;
-    Weights w{};
-    double above = under;  // returns farther up than near reaches
-    for (int i = 0; i < static_cast<int>(kDepths); ++i) {
-      if (i - kReach - 1 >= 0) above += count[static_cast<std::size_t>(i - kReach - 1)];
-      double sum = 0.0, within = 0.0;
-      for (int j = std::max(-kReach, -i); j <= kReach && i + j < static_cast<int>(kDepths); ++j) {
-        const double c = count[static_cast<std::size_t>(i + j)];
-        sum += c * near[static_cast<std::size_t>(j + kReach)];
-        within += c;
-      }
-      w[static_cast<std::size_t>(i)] = each * (sum + above * shallow + (total - above - within) * deep);
-    }
-    return w;
-  };
-  out.fill(kImpossible);
-  // The floor is seen, in part or whole.
-  for (const Shown& s : kFloorShown) {
-    const Weights w = surface(s.share, true);
-    for (std::size_t i = 0; i < kDepths; ++i) out[i] = add_logs(out[i], w[i] + std::log(s.often));
-  }
-  // A load hides it: rough, or flat, anywhere above it.
-  const Weights rough = surface(0.0, true);
-  for (std::size_t i = 0; i < kDepths; ++i) out[i] = add_logs(out[i], rough[i] + std::log(1.0 - flat_load));
-  Weights flat{};
-  flat.fill(kImpossible);
-  for (const Shown& s : kFlatShown) {
-    const Weights w = surface(s.share, false);
-    for (std::size_t i = 0; i < kDepths; ++i) flat[i] = add_logs(flat[i], w[i] + std::log(s.often));
-  }
-  double sum = kImpossible;
-  const double anywhere = std::log(flat_load * kStep), too_deep = std::log(kDeeper / kSoil);
-  double deeper = over;  // returns that lie below the floor
-  for (std::size_t i = kFlatOver; i < kDepths; ++i) deeper += count[i];
-  for (std::size_t i = 0; i < kDepths; ++i) {
-    if (i >= kFlatOver) sum = add_logs(sum, flat[i - kFlatOver]);
-    out[i] = add_logs(out[i], sum + anywhere + each * deeper * too_deep);
-    if (i + kFlatOver < kDepths) deeper -= count[i + kFlatOver];
-  }
-  return out;
+// The greatest sum of both.
+double likeliest(const Weights& returns, const Weights& classes) {
+  double most = 2 * kImpossible;
+  for (std::size_t i = 0; i < kDepths; ++i) most = std::max(most, returns[i] + classes[i]);
+  return most;
 }
 
-// By the classes that take in the bed's sizes.
-Weights allowed(const BedPose& pose, const TruckRangeSet& ranges, bool pipe) {
-  Weights out{};
-  out.fill(kImpossible);
-  const auto within = [&](double x, const SizeRange& range) { return x >= range[0] - ranges.slack && x <= range[1] + ranges.slack; };
-  for (const TruckRanges& c : ranges.classes) {
-    if (c.half_round != pipe || !within(pose.length, c.inside_length) || !within(pose.width, c.inside_width) || (pose.open_end != 0 && !c.open_rear)) continue;
-    const auto [low, high] = c.wall_height;
-    for (std::size_t i = 0; i < kDepths; ++i) {
-      const double beyond = std::max({0.0, low - depth_of(i), depth_of(i) - high}) / kStep;
-      if (beyond < 4.0) out[i] = add_logs(out[i], -0.5 * beyond * beyond - std::log(high - low));
-    }
+// Of heights and shapes, each as likely as a weight.
+class Likely {
+ public:
+  void add(double weight, double depth, double unsure, bool pipe) {
+    sum_ += weight;
+    if (pipe) pipes_ += weight;
+    first_ += weight * depth;
+    second_ += weight * (depth * depth + unsure * unsure);
   }
-  return out;
-}
+  void add(const Likely& more) {
+    sum_ += more.sum_;
+    pipes_ += more.pipes_;
+    first_ += more.first_;
+    second_ += more.second_;
+  }
+  [[nodiscard]] double sum() const { return sum_; }
+  [[nodiscard]] double half_pipe() const { return pipes_ / sum_; }
+  [[nodiscard]] double mean() const { return first_ / sum_; }
+  [[nodiscard]] double variance() const { return std::max(0.0, second_ / sum_ - mean() * mean()); }
+
+ private:
+  double sum_ = 0.0, pipes_ = 0.0, first_ = 0.0, second_ = 0.0;
+};
 
 }  // namespace
 
-BedHeight bed_height(const FittedBed& fit, const std::vector<Ray>& rays, const TruckRangeSet& ranges) {
+BedHeight bed_height(const FittedBed& fit, const std::vector<Ray>& rays, const TruckRangeSet& classes) {
   const BedPose& pose = fit.pose;
   const OffWeights weights(pose.thickness);
-  const std::vector<Placed> near = placed(pose, rays);
+  const std::vector<PlacedRay> near = placed(pose, rays);
   const std::vector<Crossed> sides = crossings(pose, near, 1, false), edge = crossings(pose, near, 0, true);
   const DepthSums ends(crossings(pose, near, 0, false), weights, 0.0), faces(sides, weights, 0.0);
   // The plane of the tops leans by so much less or more.
@@ -341,27 +264,45 @@ BedHeight bed_height(const FittedBed& fit, const std::vector<Ray>& rays, const T
   Weights edges{};
   if (!edge.empty()) edges = blurred(weigh_edges(DepthSums(edge, weights, 0.0)), at_edge);
   const double flush = ends.all[OffWeights::kWall] + faces.all[OffWeights::kWall] + std::log(kFlushOften);
-  const Weights box = allowed(pose, ranges, false), half = allowed(pose, ranges, true);
-  Weights inside = weigh_inside(floors_by(pose, near, false), kFloorSpread, kFlatLoad), boxes{}, pipes{};
-  for (std::size_t i = 0; i < kDepths; ++i) boxes[i] = box[i] + inside[i] + edges[i] + add_logs(end_feet[i] + side_feet[i] + std::log(1.0 - kFlushOften), flush);
+  const ClassHeights box = class_heights(classes, false, pose.width), half = class_heights(classes, true, pose.width);
+  const ReturnsWithin returns = returns_within(pose, near);
+  const Weights inside = weigh_box_inside(returns);
+  Weights boxes{}, pipes{}, other_pipes{};
+  for (std::size_t i = 0; i < kDepths; ++i) boxes[i] = inside[i] + edges[i] + add_logs(end_feet[i] + side_feet[i] + std::log(1.0 - kFlushOften), flush);
+  const double likeliest_box = likeliest(boxes, either(either(box.within, box.in_slack), box.beyond));
   pipes.fill(kImpossible);
-  if (*std::max_element(half.begin(), half.end()) > kImpossible) {
-    inside = weigh_inside(floors_by(pose, near, true), kPipeSpread, kRoundLoad);
+  other_pipes.fill(kImpossible);
+  if (half.any()) {
+    const Weights round = weigh_pipe_inside(returns);
     if (!edge.empty()) edges = blurred(weigh_edges(DepthSums(edge, weights, pose.width / 2)), at_edge);
-    const Weights drawn_in = blurred(weigh_pipes(pose, sides, weights, half), kPipeUnsure);
-    for (std::size_t i = 0; i < kDepths; ++i) pipes[i] = half[i] + inside[i] + edges[i] + end_feet[i] + drawn_in[i];
+    Weights but_sides{};
+    for (std::size_t i = 0; i < kDepths; ++i) but_sides[i] = round[i] + edges[i] + end_feet[i];
+    const auto with_sides = [&](const Weights& may_be) {
+      Weights out = blurred(weigh_pipes(pose, sides, weights, may_be), kPipeUnsure);
+      for (std::size_t i = 0; i < kDepths; ++i) out[i] += but_sides[i];
+      return out;
+    };
+    pipes = with_sides(half.within);
+    // A half pipe deeper than the classes' looks as a box does whose foot is where its sides begin to draw in: it is thought of only where the classes' are likelier than any box.
+    if (likeliest(pipes, half.within) > likeliest_box) other_pipes = with_sides(either(half.in_slack, half.beyond));
   }
-  const double most = std::max(*std::max_element(boxes.begin(), boxes.end()), *std::max_element(pipes.begin(), pipes.end()));
-  double sum = 0.0, first = 0.0, second = 0.0;
+  const double most = std::max({likeliest_box, likeliest(pipes, half.within), likeliest(other_pipes, either(half.in_slack, half.beyond))});
+  Likely of_class, outside;
   for (std::size_t i = 0; i < kDepths; ++i) {
-    const double of_box = std::exp(boxes[i] - most), of_pipe = std::exp(pipes[i] - most), depth = depth_of(i);
-    sum += of_box + of_pipe;
-    first += (of_box + of_pipe) * depth;
-    second += of_box * (depth * depth + kBoxUnsure * kBoxUnsure) + of_pipe * (depth * depth + kPipeUnsure * kPipeUnsure);
+    const double depth = depth_of(i);
+    for (const double classes_say : {box.within[i], box.in_slack[i]}) of_class.add(std::exp(boxes[i] + classes_say - most), depth, kBoxUnsure, false);
+    of_class.add(std::exp(pipes[i] + half.within[i] - most), depth, kPipeUnsure, true);
+    of_class.add(std::exp(other_pipes[i] + half.in_slack[i] - most), depth, kPipeUnsure, true);
+    outside.add(std::exp(boxes[i] + box.beyond[i] - most), depth, kBoxUnsure, false);
+    outside.add(std::exp(other_pipes[i] + half.beyond[i] - most), depth, kPipeUnsure, true);
   }
   BedHeight out;
-  out.height = first / sum;
-  out.deviation = std::sqrt(std::max(0.0, second / sum - out.height * out.height) + kStep * kStep / 12.0 + fit.covariance(2, 2));
+  out.beyond = outside.sum() / (of_class.sum() + outside.sum());
+  Likely told = out.beyond > kLikelyNone ? outside : of_class;
+  if (out.beyond > kHardlyNone && out.beyond <= kLikelyNone) told.add(outside);
+  out.height = told.mean();
+  out.half_pipe = told.half_pipe();
+  out.deviation = std::sqrt(told.variance() + kStep * kStep / 12.0 + fit.covariance(2, 2));
   return out;
 }
 

@@ -11,12 +11,15 @@ namespace berm::app {
 struct BedHeight {
   double height = 0.0;     // m, from the floor, of a half pipe from its lowest line, to the walls' top
   double deviation = 0.0;  // m, standard; some 0.2 where neither floor nor foot is seen
+  double beyond = 0.0;     // how likely no class has the height. Up to kHardlyNone all else is of the classes' heights, above kLikelyNone of the others, between of all
+  double half_pipe = 0.0;  // how likely the bed is a half pipe
 };
+constexpr double kHardlyNone = 0.1, kLikelyNone = 0.9;
 
-// fit: a bed with the sizes of a class; rays: those near it, down to 2.5 m below its tops. What the classes of its sizes allow is weighed by three things: where
-// rays begin to pass below the outer faces that the sensor sees; how a half pipe's side draws in; and what lies deepest within, for nothing lies deeper
+// fit: a bed; rays: those near it, down to 2.5 m below its tops; classes: those that take in its other sizes. Every height is weighed, those that no class allows as rare ones, by where
+// rays begin to pass below the outer faces that the sensor sees; by how a half pipe's side draws in; and by what lies deepest within and on inner faces, for nothing lies deeper
 // than the floor, and a bed without load shows it. A load may lie as flat as a floor, and what carries the bed be flush with its walls, so that none of
-// the three must be there.
-BedHeight bed_height(const FittedBed& fit, const std::vector<Ray>& rays, const TruckRangeSet& ranges);
+// these must be there: then the classes are all that is known. A half pipe is thought of only where a class is one.
+BedHeight bed_height(const FittedBed& fit, const std::vector<Ray>& rays, const TruckRangeSet& classes);
 
 }  // namespace berm::app

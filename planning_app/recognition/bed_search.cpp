@@ -126,7 +126,7 @@ SizeRange fitted_lengths(const TruckRangeSet& ranges) {
 std::vector<BedEnds> over_ground(const FanSweep& sweep, std::vector<BedEnds> all, const TruckRangeSet& ranges) {
   SizeRange high = ranges.hull(&TruckRanges::top_over_ground);
   high[0] -= kHeightUnsure, high[1] += kHeightUnsure;
-  std::erase_if(all, [&](const BedEnds& e) { return share_of_ground(sweep, e.pose, high, kGroundStride) < 0.5 * kGroundLeast; });
+  std::erase_if(all, [&](const BedEnds& e) { return share_of_ground(depths_beside(sweep, e.pose, kGroundStride), high, kGroundStride) < 0.5 * kGroundLeast; });
   return all;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "recognition/bed_class.hpp"
 #include "recognition/bed_ground.hpp"
 
 namespace berm::app {
@@ -21,7 +22,6 @@ constexpr double kCabFaint = 2.0;      // evidence of anything at all where the 
 constexpr double kCabLeast = -12.0;   // evidence of its cab
 constexpr int kInnerBeforeCab = 50, kInnerAlone = 150;  // returns on inner faces of a bed that shows no outer one, with its cab and without
 constexpr double kLengthUnsure = 0.5;  // m, standard deviation
-constexpr double kLengthOpen = 0.12;   // m, of a length outside a class, at most: look-alikes are 0.3 m outside and more
 constexpr double kLidShare = 0.83;  // of the returns over an opening; of look-alikes with a lid 0.87 at least
 constexpr double kThroughFew = 8.0, kThroughShare = 0.04;  // rays through walls; of those on faces and tops: of look-alikes that nothing else refuses first 1.4 times as many at least
 constexpr int kBeyondMost = 12;
@@ -30,18 +30,6 @@ constexpr int kBeyondMost = 12;
 bool has_own_cab(const BedInterpretation& i) { return i.cab >= kCabLikely && i.cab >= kCabAsideShare * i.cab_seen; }
 
 }  // namespace
-
-const TruckRanges* class_of(const FittedBed& fit, const TruckRangeSet& ranges) {
-  const BedPose& p = fit.pose;
-  const TruckRanges* found = ranges.find(p.length, p.width, p.open_end != 0);
-  if (found != nullptr || !fit.converged) return found;
-  FittedBed known = fit;
-  find_covariance(known, ranges.bed_sizes());
-  const double open = std::min(kLengthOpen, 2 * std::sqrt(known.covariance(6, 6)));
-  for (const double by : {open, -open})
-    if (found == nullptr) found = ranges.find(p.length + by, p.width, p.open_end != 0);
-  return found;
-}
 
 std::string refusal(const FanSweep& sweep, const BedInterpretation& i, FittedBed& fit, const TruckRangeSet& ranges, bool of_refused) {
   const BedEvidence& e = i.evidence;
@@ -62,8 +50,9 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, FittedBed
     const double unsure = std::sqrt(fit.covariance(6, 6));
     if (unsure > kLengthUnsure) return fmt::format("it has no cab, and its length is known to {:.2f} m only: an end of it is not seen", unsure);
   }
-  if (class_of(fit, ranges) == nullptr)
-    return fmt::format("its opening of {:.2f} by {:.2f} m is outside every class of trucks", p.length, p.width);
+  const TruckRangeSet classes = some_classes_of(fit, ranges);
+  if (classes.classes.empty())
+    return fmt::format("its opening of {:.2f} by {:.2f} m with walls {:.2f} m thick is outside every class of trucks", p.length, p.width, p.thickness);
   const bool own_cab = e.score >= kScoreOfCab && has_own_cab(i), inner_alone = from_behind || i.cab_seen >= kCabSeen || (own_cab && e.inner_face >= kInnerWithCab);
   if (e.outer_face < kOuterLeast && (!inner_alone || e.inner_face < (i.cab_seen < kCabFaint ? kInnerAlone : kInnerBeforeCab)))
     return fmt::format("the bed has {} returns on outer faces of its walls, and needs {}", e.outer_face, kOuterLeast);
@@ -74,10 +63,12 @@ std::string refusal(const FanSweep& sweep, const BedInterpretation& i, FittedBed
   if (e.through > kThroughFew + kThroughShare * explained) return fmt::format("{} rays pass through its walls, {} agree with them", e.through, explained);
   const int beyond = sides_beyond(sweep, p, i.cab_end);
   if (beyond > kBeyondMost) return fmt::format("{} returns lie where its sides would go on beyond its ends", beyond);
-  const SizeRange over_ground = ranges.hull(&TruckRanges::top_over_ground);
-  const double ground = share_of_ground(sweep, p, over_ground);
-  if (ground < kGroundLeast)
-    return fmt::format("{:.1f} % of the returns beside it lie {:.2f} to {:.2f} m below the walls' tops, where the ground would be", 100 * ground, over_ground[0], over_ground[1]);
+  const std::vector<double> beside = depths_beside(sweep, p);
+  if (standing_on(beside, classes).classes.empty()) {
+    const SizeRange over_ground = classes.hull(&TruckRanges::top_over_ground);
+    return fmt::format("{:.1f} % of the returns beside it lie {:.2f} to {:.2f} m below the walls' tops, where the ground would be", 100 * share_of_ground(beside, over_ground), over_ground[0],
+                       over_ground[1]);
+  }
   if (lies_in_level_ground(sweep, p, i.cab_end)) return "the ground beyond it lies level with its walls' tops: a pit";
   if (i.cab_seen < kCabSeen && !(own_cab && i.cab >= kCabOwn)) {
     // Without a cab, what goes on beyond the lengths of trucks' beds is a container.

@@ -15,7 +15,4 @@ constexpr double kCabOwn = 40.0;  // evidence of a cab that the bed's sides, wer
 // of_refused: the bed has another end than one that was refused.
 std::string refusal(const FanSweep& sweep, const BedInterpretation& i, FittedBed& fit, const TruckRangeSet& ranges, bool of_refused = false);
 
-// The class that takes in its sizes, or would with a length that its deviation leaves open; nullptr when none does.
-const TruckRanges* class_of(const FittedBed& fit, const TruckRangeSet& ranges);
-
 }  // namespace berm::app

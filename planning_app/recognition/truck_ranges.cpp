@@ -1,6 +1,7 @@
 #include "recognition/truck_ranges.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "config/strict_table.hpp"
 
@@ -29,12 +30,16 @@ SizeRange TruckRangeSet::hull(SizeRange TruckRanges::*size) const {
   return out;
 }
 
-const TruckRanges* TruckRangeSet::find(double length, double width, bool open_rear) const {
-  const auto within = [&](double x, const SizeRange& range) { return x >= range[0] - slack && x <= range[1] + slack; };
-  const auto found = std::find_if(classes.begin(), classes.end(), [&](const TruckRanges& c) {
-    return within(length, c.inside_length) && within(width, c.inside_width) && (c.open_rear || !open_rear);
+double beyond(double size, const SizeRange& range) { return std::max({0.0, range[0] - size, size - range[1]}); }
+
+TruckRangeSet TruckRangeSet::taking_in(const SeenBed& bed) const {
+  TruckRangeSet out;
+  out.slack = slack;
+  std::copy_if(classes.begin(), classes.end(), std::back_inserter(out.classes), [&](const TruckRanges& c) {
+    return beyond(bed.length, c.inside_length) <= slack + bed.length_open && beyond(bed.width, c.inside_width) <= slack &&
+           beyond(bed.thickness, c.wall_thickness) <= slack && (c.open_rear || !bed.open_rear);
   });
-  return found == classes.end() ? nullptr : &*found;
+  return out;
 }
 
 TruckRangeSet read_truck_ranges(const std::string& file) {

@@ -22,6 +22,13 @@ struct BedSizes {
   SizeRange width{}, thickness{};
 };
 
+// What a sweep shows of a bed before its height: the sizes that tell which classes it may be of. Metres.
+struct SeenBed {
+  double length = 0.0, width = 0.0, thickness = 0.0;
+  bool open_rear = false;
+  double length_open = 0.0;  // so much shorter or longer it may be
+};
+
 struct TruckRangeSet {
   std::vector<TruckRanges> classes;
   double slack = 0.0;  // m, for the errors of one sweep
@@ -29,9 +36,12 @@ struct TruckRangeSet {
   // From the least low end to the greatest high end of all classes.
   [[nodiscard]] SizeRange hull(SizeRange TruckRanges::*size) const;
   [[nodiscard]] BedSizes bed_sizes() const { return {hull(&TruckRanges::inside_width), hull(&TruckRanges::wall_thickness)}; }
-  // The first class that takes in both sizes and the kind of rear, within slack; nullptr when none does. Metres.
-  [[nodiscard]] const TruckRanges* find(double length, double width, bool open_rear) const;
+  // Those that take in every size and the kind of rear, within slack, in the file's order.
+  [[nodiscard]] TruckRangeSet taking_in(const SeenBed& bed) const;
 };
+
+// How far beyond a range a size is; 0 within.
+double beyond(double size, const SizeRange& range);
 
 // Reads interface_spec/config/truck_classes.toml or a file like it. Throws config::ConfigError, one line with file, field and limit.
 TruckRangeSet read_truck_ranges(const std::string& file);

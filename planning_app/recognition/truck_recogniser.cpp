@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "recognition/bed_choice.hpp"
+#include "recognition/bed_class.hpp"
+#include "recognition/bed_ground.hpp"
 #include "recognition/bed_height.hpp"
 #include "recognition/bed_other_ends.hpp"
 #include "recognition/bed_refinement.hpp"
@@ -153,7 +155,7 @@ RecognisedTruck recognise(ArrivingSweep& scanlines, const TruckRangeSet& ranges)
   FittedBed fit = chosen.fit;
   if (chosen.refusal.empty()) {  // with every ray
     FittedBed last = fit_bed(fit.pose, rays_near(whole, fit.pose), kPolishRounds, ranges.bed_sizes(), BedSolver::ceres);
-    if (last.converged && class_of(last, ranges) != nullptr) fit = std::move(last);
+    if (last.converged && !classes_of(last, ranges).classes.empty()) fit = std::move(last);
     else find_covariance(fit, ranges.bed_sizes());
   }
   out.evidence = best.evidence;
@@ -162,7 +164,13 @@ RecognisedTruck recognise(ArrivingSweep& scanlines, const TruckRangeSet& ranges)
   out.reason = chosen.refusal;
   if (!out.reason.empty()) return out;
 
-  out.truck_class = class_of(fit, ranges)->name;
+  const TruckRangeSet of_sizes = classes_of(fit, ranges), on_ground = standing_on(depths_beside(sweep, fit.pose), of_sizes);
+  const TruckRangeSet& classes = on_ground.classes.empty() ? of_sizes : on_ground;
+  const BedHeight height = bed_height(fit, rays_near(whole, fit.pose, kBelowTops), classes);
+  out.reason = refusal_of_height(height, classes);
+  if (!out.reason.empty()) return out;
+
+  out.truck_class = class_told(fit, height, classes).name;
   if (best.cab_end < 0) {
     turn_round(fit.pose);
     const Eigen::Matrix<double, 8, 1> sign{1, 1, 1, 1, -1, -1, 1, 1};
@@ -174,7 +182,6 @@ RecognisedTruck recognise(ArrivingSweep& scanlines, const TruckRangeSet& ranges)
   out.yaw = fit.pose.yaw;
   out.length = fit.pose.length;
   out.width = fit.pose.width;
-  const BedHeight height = bed_height(fit, rays_near(whole, fit.pose, kBelowTops), ranges);
   out.height = height.height;
   out.height_deviation = height.deviation;
   out.open_rear = fit.pose.open_end != 0;

@@ -19,7 +19,7 @@ namespace berm::app {
 struct RecognisedTruck {
   bool found = false;
   std::string reason;                           // a sentence; empty when found
-  std::string truck_class;                      // the first that takes in the sizes
+  std::string truck_class;                      // the one that fits best: class_told
   // On the inner top edge: front left, rear left, rear right, front right as seen towards the cab.
   std::array<Eigen::Vector3d, 4> corners{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   double yaw = 0.0;                             // of the bed's long axis, towards the cab

@@ -83,6 +83,56 @@ TEST(BedHeight, IsOfTheClassesWhereNothingShowsIt) {
   EXPECT_NEAR(narrow.deviation, 0.1 / std::sqrt(12.0), 0.02);
 }
 
+// The returns tell a height that no class has.
+TEST(BedHeight, BeyondTheClassesIsTold) {
+  for (const double high : {0.62, 0.75, 2.05, 2.25}) {
+    DrawnBed bed;
+    bed.floor = bed.top - high;
+    bed.ground = bed.floor - 1.0;
+    const BedHeight height = height_of(bed, shipped());
+    EXPECT_GT(height.beyond, 0.99) << high;
+    EXPECT_NEAR(height.height, high, 0.04);
+    EXPECT_LT(height.deviation, 0.05) << high;
+    EXPECT_LT(height.half_pipe, 0.5);
+  }
+  EXPECT_LT(height_of({}, shipped()).beyond, 0.01);
+}
+
+// A class's slack is for the errors of one sweep.
+TEST(BedHeight, WithinTheSlackIsOfTheClass) {
+  for (const double high : {1.0 - 0.05, 1.75 + 0.05, 1.0 - 0.2, 1.75 + 0.2}) {
+    DrawnBed bed;
+    bed.floor = bed.top - high;
+    TruckRangeSet ranges = shipped();
+    ranges.classes.resize(1);
+    const BedHeight height = height_of(bed, ranges);
+    EXPECT_NEAR(height.height, high, 0.04);
+    if (high > 0.9 && high < 1.85) EXPECT_LT(height.beyond, kLikelyNone) << high;
+    else EXPECT_GT(height.beyond, kLikelyNone) << high;
+  }
+}
+
+// No ray shows floor or foot: what is possible beyond the classes stays as rare as it is.
+TEST(BedHeight, BeyondTheClassesIsNotTakenWhereNothingShowsIt) {
+  EXPECT_LT(height_of(full_block(), shipped()).beyond, kHardlyNone);
+  const BedHeight blind = bed_height(known({}), {}, shipped());
+  EXPECT_LT(blind.beyond, kHardlyNone);
+  EXPECT_GT(blind.deviation, 0.15);
+}
+
+// Far walls are seen down to the floor: a rear that was taken for open, with its wall in the end's plane, is no floor far up.
+TEST(BedHeight, IsThatOfTheFootOfAWallWhereAnOpenEndWasThought) {
+  DrawnBed bed;
+  bed.yaw = 1.57;
+  FittedBed fit = known(bed);
+  fit.pose.open_end = -1;
+  fit.pose.length += bed.thickness;
+  fit.pose.middle.y() -= bed.thickness / 2;
+  const BedHeight height = bed_height(fit, rays_near(make_fans(sweep_of(bed), drawn_viewpoint), fit.pose, 2.5), shipped());
+  EXPECT_NEAR(height.height, bed.top - bed.floor, 0.06);
+  EXPECT_LT(height.beyond, kHardlyNone);
+}
+
 // The plane of the tops is as uncertain as the fit says, and so is what is measured from it.
 TEST(BedHeight, IsNoBetterKnownThanTheTops) {
   const DrawnBed bed;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "drawn_bed.hpp"
+#include "recognition/bed_class.hpp"
 #include "recognition/rays_of_sweep.hpp"
 
 namespace berm::app {
@@ -186,16 +187,16 @@ TEST(BedVerification, ALengthThatItsDeviationLeavesOpenIsOfTheClass) {
   unsure.converged = true, unsure.pose = known.pose;  // without a statement
   const auto of_length = [&](FittedBed& fit, double length) {
     fit.pose.length = length;
-    return class_of(fit, ranges);
+    return !some_classes_of(fit, ranges).classes.empty();
   };
   for (const double out : {5.1 - 0.11, 6.1 + 0.11}) {
-    EXPECT_NE(of_length(unsure, out), nullptr) << out;
-    EXPECT_EQ(of_length(known, out), nullptr) << out;
+    EXPECT_TRUE(of_length(unsure, out)) << out;
+    EXPECT_FALSE(of_length(known, out)) << out;
   }
-  for (const double out : {5.1 - 0.13, 6.1 + 0.13}) EXPECT_EQ(of_length(unsure, out), nullptr) << out;
-  for (const double near : {5.1 - 0.5 * std::sqrt(known.covariance(6, 6)), 6.1 + 0.5 * std::sqrt(known.covariance(6, 6))}) EXPECT_NE(of_length(known, near), nullptr) << near;
+  for (const double out : {5.1 - 0.13, 6.1 + 0.13}) EXPECT_FALSE(of_length(unsure, out)) << out;
+  for (const double near : {5.1 - 0.5 * std::sqrt(known.covariance(6, 6)), 6.1 + 0.5 * std::sqrt(known.covariance(6, 6))}) EXPECT_TRUE(of_length(known, near)) << near;
   unsure.converged = false;
-  EXPECT_EQ(of_length(unsure, 5.1 - 0.05), nullptr) << "no fit, no deviation";
+  EXPECT_FALSE(of_length(unsure, 5.1 - 0.05)) << "no fit, no deviation";
 }
 
 }  // namespace

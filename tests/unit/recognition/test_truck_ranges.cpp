@@ -14,16 +14,37 @@ std::string error_with(const std::string& from, const std::string& to) {
   return test::refused_edit<config::ConfigError>(BERM_TRUCK_RANGES, from, to, read_truck_ranges);
 }
 
+std::string names(const TruckRangeSet& set) {
+  std::string all;
+  for (const TruckRanges& c : set.classes) all += (all.empty() ? "" : " ") + c.name;
+  return all;
+}
+
 TEST(TruckRanges, ShippedFileHasItsClasses) {
   const TruckRangeSet set = read_truck_ranges(BERM_TRUCK_RANGES);
   ASSERT_EQ(set.classes.size(), 4U);
   EXPECT_EQ(set.hull(&TruckRanges::inside_length), (SizeRange{4.05, 6.4}));
-  ASSERT_NE(set.find(4.1, 2.4, false), nullptr);
-  EXPECT_EQ(set.find(4.1, 2.4, false)->name, "crawler");
+  EXPECT_EQ(names(set.taking_in({4.1, 2.4, 0.1, false, 0.0})), "crawler");
   EXPECT_FALSE(set.classes[0].half_round);
   EXPECT_TRUE(set.classes[1].half_round);
-  EXPECT_EQ(set.find(7.0, 2.4, false), nullptr);
-  EXPECT_EQ(set.find(5.0, 1.9, false), nullptr);
+  EXPECT_EQ(names(set.taking_in({7.0, 2.4, 0.1, false, 0.0})), "");
+  EXPECT_EQ(names(set.taking_in({5.0, 1.9, 0.1, false, 0.0})), "");
+}
+
+// Every size by itself, just within the slack and just beyond it.
+TEST(TruckRanges, AClassTakesInABedByEachOfItsSizes) {
+  TruckRangeSet set = read_truck_ranges(BERM_TRUCK_RANGES);
+  EXPECT_EQ(names(set.taking_in({5.0, 2.4, 0.1, true, 0.0})), "box half_round canopy");
+  EXPECT_EQ(names(set.taking_in({5.67, 2.4, 0.1, true, 0.0})), "box half_round canopy");
+  EXPECT_EQ(names(set.taking_in({5.69, 2.4, 0.1, true, 0.0})), "box half_round");
+  EXPECT_EQ(names(set.taking_in({6.09, 2.4, 0.1, true, 0.0})), "half_round");
+  EXPECT_EQ(names(set.taking_in({6.09, 2.4, 0.1, true, 0.02})), "box half_round") << "a length that is open";
+  EXPECT_EQ(names(set.taking_in({5.0, 2.54, 0.1, true, 0.0})), "box canopy");
+  EXPECT_EQ(names(set.taking_in({5.0, 2.4, 0.21, true, 0.0})), "box canopy") << "too thick for a half pipe";
+  EXPECT_EQ(names(set.taking_in({5.0, 2.4, 0.23, true, 0.0})), "");
+  set.classes[0].open_rear = false;
+  EXPECT_EQ(names(set.taking_in({5.0, 2.4, 0.1, true, 0.0})), "half_round canopy");
+  EXPECT_EQ(names(set.taking_in({5.0, 2.4, 0.1, false, 0.0})), "box half_round canopy");
 }
 
 TEST(TruckRanges, RefusesWhatIsWrong) {
