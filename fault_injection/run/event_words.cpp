@@ -28,6 +28,7 @@ std::string words_of(const nlohmann::json& event) {
   if (name == "operator_needed") return fmt::format("operator needed, {}: {}", operator_needed_for(event), event.value("advice", ""));
   if (name == "move_back") return fmt::format("the app asks for a bench move, {:.1f} m back: {}", event.value("distance_m", 0.0), event.value("why", ""));
   if (name == "moved") return "the machine was moved: the app looks round anew";
+  if (name == "base_moved") return "the base had moved: the app looks round anew, and for the truck";
   if (name == "resumed" || name == "released") return "moving again";
   return {};
 }

@@ -41,6 +41,7 @@ void Sequencer::enter_phase(std::uint16_t phase, const Observation& o) {
 
 void Sequencer::look(const Observation& o) {
   if (skyline_ && o.time_s - skyline_s_ < skyline_period) return;
+  site_.truck_admitted = o.truck_parked;  // as for the kernel: a bucket whose truck is to be recognised anew may stand over it
   skyline_.emplace(machine_, site_, kernel_map_.ground(KernelMap::Unseen::blocked), Skyline::OverHigh::refused);
   skyline_s_ = o.time_s;
 }
@@ -154,7 +155,7 @@ Joints Sequencer::settle(const Observation& o) {
 Joints Sequencer::plan(const Observation& o) {
   switch (stage_) {
     case Stage::survey:
-      if (scanners_.full_sweep_done()) enter(Stage::wait_truck, o);
+      if (scanners_.full_sweep_done()) enter(after_survey_, o);
       return {};
     case Stage::wait_truck:
       if (o.truck_parked) {
@@ -250,19 +251,22 @@ Answer Sequencer::step(const Observation& o) {
   plan_landing(o);
   follow_truck(o);
   Answer answer;
+  const bool slipped = base_.step(o, kernel_map_.is_void());
   if (stage_ == Stage::ask_move || stage_ == Stage::being_moved) await_move(o);
+  else if (slipped) note_slip(o);
   const Recovery::Advice advice = recover(o);
   restart_call_.step(o, log_);
   start_call_.step(o, log_);
   if (advice.rescan && stage_ != Stage::survey) scanners_.begin_full_sweep();  // a survey is one, and would have no end
-  if (advice.resumed) go_on_with_script(o);
+  if (advice.resumed && slipped_) begin_anew_after_slip(o);
+  else if (advice.resumed) go_on_with_script(o);
   if (advice.resumed && advice.moved && begins_anew_where_moved()) begin_dig_from_here(o);
   if (advice.resumed && (stage_ == Stage::go_look || stage_ == Stage::look)) begin_look(o);
   if (standing_.step(o, works() && o.running() && !advice.in_charge)) go_on_from_a_stand(o);
   if (advice.in_charge) {
     answer.velocity = advice.velocity;
     if (stage_ == Stage::look) look_.stop(scanners_);
-    if (stage_ == Stage::survey && scanners_.full_sweep_done()) enter(Stage::wait_truck, o);
+    if (stage_ == Stage::survey && scanners_.full_sweep_done()) enter(after_survey_, o);
   } else {
     const Joints wanted = plan(o);
     const bool moves = std::any_of(wanted.begin(), wanted.end(), [](double v) { return v != 0.0; });

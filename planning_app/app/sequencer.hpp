@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "app/base_watch.hpp"
 #include "app/bench_move.hpp"
 #include "app/hold_watch.hpp"
 #include "app/joint_watch.hpp"
@@ -92,6 +93,7 @@ private:
   static constexpr double over_heaps = 0.4;  // z, on the ground that it stands on: what raised implements are clear of
   std::optional<Script> raised(const Observation& o, double bearing) const;  // to that bearing, the implements up
   void begin_look(const Observation& o);
+  void raise_to_wait(const Observation& o);
   void wait_raised(const Observation& o);
   void follow_truck(const Observation& o);    // trucks come and go while the kernel keeps the machine, too
   void next_truck(const Observation& o);
@@ -152,6 +154,10 @@ private:
   void await_move(const Observation& o);
   void hand_over(const Observation& o);       // to the operator, for the move
   void begin_anew(const Observation& o);
+  void note_slip(const Observation& o);
+  void begin_anew_after_slip(const Observation& o);
+  void forget_surroundings(const Observation& o);
+  bool truck_is_begun() const;
   void look(const Observation& o);            // renews the skyline now and then
   // What the kernel last stopped the machine for.
   bool too_high_stands() const;
@@ -183,6 +189,8 @@ private:
   RestartCall restart_call_;
   StartCall start_call_;
   LookWatch look_watch_;
+  BaseWatch base_;
+  bool slipped_ = false;                      // the base, and the plan is not in charge again yet
   SlowDown slow_down_;
   StandingWatch standing_;
   int stands_ = 0, missed_digs_ = 0;          // in a row
@@ -195,7 +203,7 @@ private:
   PassTask task_;
   PassPoses poses_;
 
-  Stage stage_ = Stage::survey;
+  Stage stage_ = Stage::survey, after_survey_ = Stage::wait_truck;
   double stage_s_ = 0.0;
   std::uint16_t phase_ = BERM_PHASE_WAIT;
   DigPlan dig_;
@@ -215,7 +223,7 @@ private:
   double back_m_ = 0.0;                       // asked for
   double loaded_here_kg_ = 0.0;               // since the machine stands where it does
   int vain_moves_ = 0;                        // in a row
-  bool saw_run_ = false, part_filled_ = false;  // part_filled_: this truck was left in the middle for a move
+  bool saw_run_ = false, part_filled_ = false;  // part_filled_: of this truck the bed is not known any more, or not yet again; what is in it is
   bool waits_raised_ = false;                 // for the next truck
   TruckPresence presence_;                    // of the truck that is looked at, loaded or full
   bool called_for_truck_ = false;             // in this stage

@@ -1,5 +1,7 @@
-// The sequencer between two stands of the machine: when the face is dug out, what the operator is told, and how work is taken up after the move.
+// The sequencer between two stands of the machine: when the face is dug out, what the operator is told, and how work is taken up after the move, or after the base
+// has slipped.
 #include <cmath>
+#include <utility>
 
 #include "app/move_bearing.hpp"
 #include "app/sequencer.hpp"
@@ -76,25 +78,66 @@ void Sequencer::hand_over(const Observation& o) {
   enter(Stage::being_moved, o);
 }
 
+// What was seen is not where it was. What was learned of the soil and of the machine holds, and so do the books.
+void Sequencer::forget_surroundings(const Observation& o) {
+  terrain_ = TerrainMap();
+  ground_ = DigGround(site_);
+  kernel_map_ = KernelMap();
+  search_.reset();
+  skyline_.reset();
+  look(o);
+  missed_digs_ = stands_ = 0;
+  region_ = DigRegion{};
+  scanners_.begin_full_sweep();
+}
+
 // The machine stands elsewhere: what was known of the ground holds no more, but where the face was dug to, and what is in the truck.
 void Sequencer::begin_anew(const Observation& o) {
   log_.event("moved", {{"time_s", o.time_s}, {"truck", truck_}, {"distance_m", back_m_}});
   presence_.begin();  // the truck made way, and comes back
   expect_another_truck();
-  terrain_ = TerrainMap();
-  ground_ = DigGround(site_, ground_, back_m_);
-  kernel_map_ = KernelMap();
-  skyline_.reset();
-  cut_.reset();
-  search_.reset();
-  look(o);
+  DigGround before = DigGround(site_, ground_, back_m_);
   forget_bed();
-  poor_passes_ = missed_digs_ = stands_ = 0;
+  cut_.reset();
+  forget_surroundings(o);
+  ground_ = std::move(before);
+  poor_passes_ = 0;
   face_yield_.clear();
   yield_ = 1.0;  // what was learned last was of loose soil at the foot of the old face
   loaded_here_kg_ = 0.0;
-  region_ = DigRegion{};
-  scanners_.begin_full_sweep();
+  slipped_ = false;
+  after_survey_ = Stage::wait_truck;
+  enter(Stage::survey, o);
+}
+
+// Whether this truck's load is in the books already, or will be.
+bool Sequencer::truck_is_begun() const { return part_filled_ || digs_or_comes_to_dig() || stage_ == Stage::curl || stage_ == Stage::pass || stage_ == Stage::leave_bed; }
+
+// The operator has reset a stop in which the base moved. Unlike after a bench move nobody knows by how far, so that not even where the face was dug to holds.
+void Sequencer::note_slip(const Observation& o) {
+  if (stage_ == Stage::exhausted || stage_ == Stage::finished) return;
+  forget_surroundings(o);
+  slipped_ = true;
+}
+
+// The face is the same, and so is the truck, if nobody has said that it left. Booked is only now: what mends a stop may have poured on from an open bucket.
+void Sequencer::begin_anew_after_slip(const Observation& o) {
+  slipped_ = false;
+  part_filled_ = truck_is_begun();
+  take_load_back(o);  // with the bed that it was poured into
+  log_.event("base_moved", {{"time_s", o.time_s}, {"truck", truck_}, {"loaded_kg", part_filled_ ? fill_.loaded_kg() : 0.0}, {"brings_load", brings_load_}});
+  forget_bed();
+  cut_.reset();
+  skyline_.reset();
+  look(o);
+  if (stage_ == Stage::raise_for_move) {  // after the move all is begun anew once more
+    go_on_with_script(o);
+    return;
+  }
+  const bool full_stands = stage_ == Stage::horn || stage_ == Stage::wait_leave || (stage_ == Stage::survey && after_survey_ == Stage::wait_leave);
+  after_survey_ = full_stands ? Stage::wait_leave : Stage::wait_truck;
+  enter_phase(BERM_PHASE_WAIT, o);
+  raise_to_wait(o);  // when all has been seen
   enter(Stage::survey, o);
 }
 

@@ -32,10 +32,14 @@ void Sequencer::begin_look(const Observation& o) {
 }
 
 // Between two trucks: a bucket that stays low hides the ground round it until that is too old to move over.
-void Sequencer::wait_raised(const Observation& o) {
+void Sequencer::raise_to_wait(const Observation& o) {
   const auto script = raised(o, o.angle[swing]);
   waits_raised_ = script.has_value();
   if (script) begin_script(*script);
+}
+
+void Sequencer::wait_raised(const Observation& o) {
+  raise_to_wait(o);
   enter(Stage::wait_truck, o);
 }
 
@@ -64,7 +68,8 @@ void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
   }
   skyline_.reset();
   look(o);
-  if (part_filled_) {
+  const bool goes_on = part_filled_;
+  if (goes_on) {
     for (const Dump& dump : dumps_) bed_->note_dump(dump.at, dump.kg);
   } else {
     fill_ = TruckFill(site_.place.target_kg, full_bucket_kg());
@@ -75,7 +80,8 @@ void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
   part_filled_ = false;
   stands_ = 0;
   pass_began_s_ = o.time_s;
-  begin_approach(o, true);
+  if (goes_on) go_on_after_pass(o, false);  // what it was left with may have filled it
+  else begin_approach(o, true);
 }
 
 // Again while the full truck stands there: a driver may not have heard it, or could not leave then.

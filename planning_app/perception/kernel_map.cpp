@@ -16,12 +16,15 @@ KernelMap::KernelMap() : level_(static_cast<std::size_t>(side * side), level_gro
 void KernelMap::take(const berm_state_segment& segment) {
   cell_ = segment.cell_mm > 0 ? segment.cell_mm * 1e-3 : 0.3;
   origin_ = segment.map_origin_mm * 1e-3;
+  void_ = true;
   for (int iy = 0; iy < side; ++iy)
     for (int ix = 0; ix < side; ++ix) {
       const std::size_t i = static_cast<std::size_t>(iy * side + ix);
       const double height = __atomic_load_n(&segment.map_height_mm[iy][ix], __ATOMIC_RELAXED) * 1e-3;
       const auto status = __atomic_load_n(&segment.map_status[iy][ix], __ATOMIC_RELAXED);
-      level_[i] = status == BERM_CELL_OBSERVED || status == BERM_CELL_STALE ? height : level_ground;
+      const bool seen = status == BERM_CELL_OBSERVED || status == BERM_CELL_STALE;
+      void_ = void_ && !seen;
+      level_[i] = seen ? height : level_ground;
       // Under the own body level as well: the implements' least distance from the axis is checked by itself.
       blocked_[i] = status == BERM_CELL_OBSERVED ? height : status == BERM_CELL_OWN_BODY ? level_ground : infinite;
     }

@@ -54,9 +54,11 @@ public:
   };
   CellGround ground(Unseen unseen) const;  // refers to this map
   double cell() const { return cell_; }    // m
+  bool is_void() const { return void_; }   // no cell of it was ever seen, as where the kernel begins it anew
 
 private:
   double cell_ = 0.3, origin_ = 0.0;  // m
+  bool void_ = true;
   std::vector<double> level_, blocked_;  // as ground gives them
 };
 

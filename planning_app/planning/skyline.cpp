@@ -71,7 +71,7 @@ double pass_over_limit(const SiteModel& site, double x, double y) {
   for (const GroundZone& z : site.ground_zones)
     if (z.pass_over < limit && meets_zone(z, x, y)) limit = z.pass_over;
   for (const TruckZone& z : site.truck_zones)
-    if (site.bed && z.ceiling > limit && in_zone(z, x, y)) limit = z.ceiling;
+    if ((site.bed || site.truck_admitted) && z.ceiling > limit && in_zone(z, x, y)) limit = z.ceiling;
   for (const DigZone& z : site.dig_zones)
     if (z.ceiling > limit && in_zone(z, x, y)) limit = z.ceiling;
   return limit;

@@ -75,6 +75,7 @@ void BenchMachine::step(const berm_request& request) {
   site_.slump();
   measure();
   scan(request);
+  if (map_void) std::fill(seen_.begin(), seen_.end(), -1e9);
   check();
   publish();
 }
@@ -306,7 +307,8 @@ void BenchMachine::publish() {
   }
   state.kernel_state = kernel_runs ? BERM_STATE_RUN : BERM_STATE_STOPPED;
   state.stop_reason = kernel_runs ? std::uint8_t{BERM_STOP_NONE} : stop_reason;
-  state.stop_category = kernel_runs ? 255 : 2;
+  const bool latches = stop_reason == BERM_STOP_BASE_MOVED || stop_reason == BERM_STOP_EMERGENCY;
+  state.stop_category = kernel_runs ? 255 : latches ? 1 : 2;
   for (int rows = 0; rows < 4; ++rows, next_row_ = (next_row_ + 1) % kernel_side)
     for (int ix = 0; ix < kernel_side; ++ix) publish_cell(ix, next_row_);
   state.panel = BERM_PANEL_OPERATOR_RUN | (truck_parked ? BERM_PANEL_TRUCK_PARKED : 0u) | (truck_leaves ? BERM_PANEL_TRUCK_LEAVING : 0u);

@@ -54,10 +54,12 @@ public:
   const app::Joints& angle() const { return angle_; }
   void put(app::Joint joint, double angle) { angle_[joint] = angle; }  // by hand
   void take(double kg) { payload_ = std::max(0.0, payload_ - kg); }  // out of the bucket
+  void slip(double x, double y) { site_.slip(x, y); }  // the base
   void put_pan(std::size_t scanner, double pan) { pan_[scanner] = pan; }
 
   bool truck_parked = true, truck_leaves = false;
-  bool kernel_runs = true;        // false: STOPPED, for collision_reason, nothing moves but at creep speeds
+  bool kernel_runs = true;        // false: STOPPED, for stop_reason, nothing moves but at creep speeds
+  bool map_void = false;          // the kernel begins its map anew in every cycle, as long as its base has moved
   std::uint8_t stop_reason = BERM_STOP_COLLISION_PREDICTED;
   bool weighs = true;             // false: the on-board weighing says nothing
   double weighing_error_kg = 0.0;

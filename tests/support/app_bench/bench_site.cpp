@@ -28,26 +28,36 @@ BenchSite::BenchSite() : ground_(static_cast<std::size_t>(side * side)) {
     }
 }
 
-bool BenchSite::in_bed(double x, double y) const { return std::fabs(x - bed_x) < bed_half_length && std::fabs(y - bed_y) < bed_half_width; }
+double& BenchSite::ground(double x, double y) { return ground_[static_cast<std::size_t>(index(y + slipped_y_) * side + index(x + slipped_x_))]; }
+
+double BenchSite::ground(double x, double y) const { return ground_[static_cast<std::size_t>(index(y + slipped_y_) * side + index(x + slipped_x_))]; }
+
+void BenchSite::slip(double x, double y) {
+  slipped_x_ += x;
+  slipped_y_ += y;
+}
+
+bool BenchSite::in_bed(double x, double y) const { return std::fabs(x + slipped_x_ - bed_x) < bed_half_length && std::fabs(y + slipped_y_ - bed_y) < bed_half_width; }
 
 bool BenchSite::on_truck(double x, double y) const {
-  const bool across = std::fabs(y - bed_y) < bed_half_width + wall;
-  return across && ((std::fabs(x - bed_x) < bed_half_length + wall) || (x > cab_x_low && x < cab_x_high));
+  const double along = x + slipped_x_;
+  const bool across = std::fabs(y + slipped_y_ - bed_y) < bed_half_width + wall;
+  return across && ((std::fabs(along - bed_x) < bed_half_length + wall) || (along > cab_x_low && along < cab_x_high));
 }
 
 double BenchSite::height(double x, double y) const {
   if (in_bed(x, y)) {
-    const int i = std::clamp(static_cast<int>((x - bed_x + bed_half_length) / (2.0 * bed_half_length / 3.0)), 0, 2);
+    const int i = std::clamp(static_cast<int>((x + slipped_x_ - bed_x + bed_half_length) / (2.0 * bed_half_length / 3.0)), 0, 2);
     return bed_floor + third_[i] / loose_density / (2.0 * bed_half_width * 2.0 * bed_half_length / 3.0);
   }
-  if (on_truck(x, y)) return x > cab_x_low ? cab_top : wall_top;
-  return ground_[static_cast<std::size_t>(index(y) * side + index(x))];
+  if (on_truck(x, y)) return x + slipped_x_ > cab_x_low ? cab_top : wall_top;
+  return ground(x, y);
 }
 
 double BenchSite::cut(double x, double y, double bearing, double half_width, double z) {
   double volume = 0.0;
   for (double across = -half_width; across <= half_width; across += 0.5 * cell) {
-    double& h = ground_[static_cast<std::size_t>(index(y + across * std::cos(bearing)) * side + index(x - across * std::sin(bearing)))];
+    double& h = ground(x - across * std::sin(bearing), y + across * std::cos(bearing));
     if (h > z) {
       volume += (h - z) * cell * cell;
       h = z;
@@ -55,10 +65,10 @@ double BenchSite::cut(double x, double y, double bearing, double half_width, dou
   }
   if (volume > 0.0) {
     constexpr int about = 15;
-    low_x_ = std::max(0, std::min(low_x_, index(x) - about));
-    high_x_ = std::min(side - 2, std::max(high_x_, index(x) + about));
-    low_y_ = std::max(0, std::min(low_y_, index(y) - about));
-    high_y_ = std::min(side - 2, std::max(high_y_, index(y) + about));
+    low_x_ = std::max(0, std::min(low_x_, index(x + slipped_x_) - about));
+    high_x_ = std::min(side - 2, std::max(high_x_, index(x + slipped_x_) + about));
+    low_y_ = std::max(0, std::min(low_y_, index(y + slipped_y_) - about));
+    high_y_ = std::min(side - 2, std::max(high_y_, index(y + slipped_y_) + about));
   }
   return volume;
 }
@@ -90,7 +100,7 @@ void BenchSite::dump(double x, double y, double mass_kg) {
     return;
   }
   bed_mass_ += mass_kg;
-  third_[std::clamp(static_cast<int>((x - bed_x + bed_half_length) / (2.0 * bed_half_length / 3.0)), 0, 2)] += mass_kg;
+  third_[std::clamp(static_cast<int>((x + slipped_x_ - bed_x + bed_half_length) / (2.0 * bed_half_length / 3.0)), 0, 2)] += mass_kg;
 }
 
 void BenchSite::new_truck() {

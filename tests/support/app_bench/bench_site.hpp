@@ -18,6 +18,8 @@ public:
   void slump();
   void dump(double x, double y, double mass_kg);
   void new_truck();
+  // The base slips by so much: everything lies so much the other way from where it was.
+  void slip(double x, double y);
 
   double bed_mass() const { return bed_mass_; }
   double spilled_mass() const { return spilled_mass_; }
@@ -30,7 +32,10 @@ private:
   static constexpr double cell = 0.1, half_side = 16.0;
   static constexpr int side = 320;
   static int index(double v);
+  double& ground(double x, double y);               // base frame
+  double ground(double x, double y) const;
 
+  double slipped_x_ = 0.0, slipped_y_ = 0.0;        // base in the site; everything below is in the site
   std::vector<double> ground_;
   int low_x_ = side, high_x_ = -1, low_y_ = side, high_y_ = -1;  // cells about what was cut
   double bed_mass_ = 0.0, spilled_mass_ = 0.0;
