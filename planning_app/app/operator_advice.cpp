@@ -36,7 +36,7 @@ constexpr Advice advices[] = {
     {BERM_STOP_MACHINE_FAULT, "the machine reports an error of its own: read its display, look at its bus, its lock and emergency stop receivers and its switches, then " RESET},
     {BERM_STOP_INTERNAL, "the kernel found an error in itself: end kernel and app, keep the journal, start both anew; if it comes again, do not let the machine work"},
     {BERM_STOP_CLOCK, "the kernel's cycle came too late or its clock jumped: look what else runs on the kernel's computer and what sets its clock, then " RESET},
-    {BERM_STOP_BASE_MOVED, "the machine tilted, turned or slipped: set it firmly, look whether truck and dig are still where the site file has them from where it stands, " THEN_RESET},
+    {BERM_STOP_BASE_MOVED, "the machine tilted, turned or slipped: set it firmly, look whether truck and dig are still where the site file has them from where it stands, then " RESET},
     {BERM_STOP_UNCOMMANDED, "a joint moved otherwise than it was told: keep everybody away, look whether somebody is at the levers, have valves and joint sensors checked, then " RESET},
     {BERM_STOP_OVERPASS, "send away who or what stands there, or admit the truck; if nothing stands there, press relearn, with the implements lifted by hand if need be"},
     {BERM_STOP_TAIL, "send away who stands behind the machine, look all round it, beside the tracks too, then " RESET},

@@ -53,7 +53,7 @@ const TruckRanges& class_told(const FittedBed& fit, const BedHeight& height, con
   const BedPose& p = fit.pose;
   const auto outside = [&](const TruckRanges& c) {
     if (c.half_round != (height.half_pipe > 0.5)) return std::numeric_limits<double>::max();
-    return std::hypot(beyond(p.length, c.inside_length), std::hypot(beyond(p.width, c.inside_width), beyond(p.thickness, c.wall_thickness), beyond(height.height, c.wall_height)));
+    return std::hypot(outside_by(p.length, c.inside_length), std::hypot(outside_by(p.width, c.inside_width), outside_by(p.thickness, c.wall_thickness), outside_by(height.height, c.wall_height)));
   };
   return *std::min_element(classes.classes.begin(), classes.classes.end(), [&](const TruckRanges& a, const TruckRanges& b) { return outside(a) < outside(b); });
 }

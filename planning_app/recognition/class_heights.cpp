@@ -24,7 +24,7 @@ ClassHeights class_heights(const TruckRangeSet& ranges, bool half_pipe, double w
     bool allowed = false;
     for (const TruckRanges& c : ranges.classes) {
       if (c.half_round != half_pipe) continue;
-      const double off = beyond(depth, c.wall_height), steps = off / kStep;
+      const double off = outside_by(depth, c.wall_height), steps = off / kStep;
       allowed = allowed || off <= ranges.slack;
       if (steps < kSoftSteps) out.within[i] = add_logs(out.within[i], -0.5 * steps * steps - std::log(std::max(c.wall_height[1] - c.wall_height[0], kStep)));
     }

@@ -30,14 +30,14 @@ SizeRange TruckRangeSet::hull(SizeRange TruckRanges::*size) const {
   return out;
 }
 
-double beyond(double size, const SizeRange& range) { return std::max({0.0, range[0] - size, size - range[1]}); }
+double outside_by(double size, const SizeRange& range) { return std::max({0.0, range[0] - size, size - range[1]}); }
 
 TruckRangeSet TruckRangeSet::taking_in(const SeenBed& bed) const {
   TruckRangeSet out;
   out.slack = slack;
   std::copy_if(classes.begin(), classes.end(), std::back_inserter(out.classes), [&](const TruckRanges& c) {
-    return beyond(bed.length, c.inside_length) <= slack + bed.length_open && beyond(bed.width, c.inside_width) <= slack &&
-           beyond(bed.thickness, c.wall_thickness) <= slack && (c.open_rear || !bed.open_rear);
+    return outside_by(bed.length, c.inside_length) <= slack + bed.length_open && outside_by(bed.width, c.inside_width) <= slack &&
+           outside_by(bed.thickness, c.wall_thickness) <= slack && (c.open_rear || !bed.open_rear);
   });
   return out;
 }

@@ -40,8 +40,8 @@ struct TruckRangeSet {
   [[nodiscard]] TruckRangeSet taking_in(const SeenBed& bed) const;
 };
 
-// How far beyond a range a size is; 0 within.
-double beyond(double size, const SizeRange& range);
+// How far outside of a range a size is; 0 within.
+double outside_by(double size, const SizeRange& range);
 
 // Reads interface_spec/config/truck_classes.toml or a file like it. Throws config::ConfigError, one line with file, field and limit.
 TruckRangeSet read_truck_ranges(const std::string& file);

@@ -1,9 +1,7 @@
 // Recordings that were made at the same time are played by time.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <span>
 #include <tuple>
 
@@ -12,6 +10,7 @@
 #include "gathering/scan_frame.hpp"
 #include "points/pcd.hpp"
 #include "points/recording.hpp"
+#include "scratch.hpp"
 #include "scanned_room.hpp"
 
 namespace berm::app {
@@ -46,13 +45,13 @@ protected:
         ++scanline[s];
       }
     }
+    const berm::test::Scratch scratch;
     for (std::size_t s = 0; s < 2; ++s) {
-      const std::string path = testing::TempDir() + "together_" + std::to_string(getpid()) + "_" + std::to_string(s) + ".pcd";
+      const std::string path = scratch.path("together_" + std::to_string(s) + ".pcd");
       const double middle[] = {0.0};
       const Eigen::Vector3d centre = chains[s].pose(middle).translation();
       write_pcd(path, points[s], {centre.x(), centre.y(), centre.z()});
       recordings_.push_back(read_recording(path));
-      std::filesystem::remove(path);
     }
   }
 
