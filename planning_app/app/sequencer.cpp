@@ -41,7 +41,7 @@ void Sequencer::enter_phase(std::uint16_t phase, const Observation& o) {
 
 void Sequencer::look(const Observation& o) {
   if (skyline_ && o.time_s - skyline_s_ < skyline_period) return;
-  site_.truck_admitted = o.truck_parked;  // as for the kernel: a bucket whose truck is to be recognised anew may stand over it
+  site_.truck_admitted = bed_slipped_ && o.truck_parked;
   skyline_.emplace(machine_, site_, kernel_map_.ground(KernelMap::Unseen::blocked), Skyline::OverHigh::refused);
   skyline_s_ = o.time_s;
 }

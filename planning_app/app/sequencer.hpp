@@ -191,6 +191,7 @@ private:
   LookWatch look_watch_;
   BaseWatch base_;
   bool slipped_ = false;                      // the base, and the plan is not in charge again yet
+  bool bed_slipped_ = false;                  // this truck's, and is not known again yet: the bucket may stand over it
   SlowDown slow_down_;
   StandingWatch standing_;
   int stands_ = 0, missed_digs_ = 0;          // in a row

@@ -127,6 +127,7 @@ void Sequencer::begin_anew_after_slip(const Observation& o) {
   take_load_back(o);  // with the bed that it was poured into
   log_.event("base_moved", {{"time_s", o.time_s}, {"truck", truck_}, {"loaded_kg", part_filled_ ? fill_.loaded_kg() : 0.0}, {"brings_load", brings_load_}});
   forget_bed();
+  bed_slipped_ = true;
   cut_.reset();
   skyline_.reset();
   look(o);

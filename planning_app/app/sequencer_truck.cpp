@@ -60,6 +60,7 @@ Joints Sequencer::look_for_truck(const Observation& o) {
 
 void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
   site_.bed = bed;
+  bed_slipped_ = false;
   bed_.emplace(bed, scale_);
   const std::vector<ScanPoint>& seen = look_.sweep().points();
   for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -80,7 +81,7 @@ void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
   part_filled_ = false;
   stands_ = 0;
   pass_began_s_ = o.time_s;
-  if (goes_on) go_on_after_pass(o, false);  // what it was left with may have filled it
+  if (goes_on && fill_.full()) go_on_after_pass(o, false);  // by the pass with which it was left
   else begin_approach(o, true);
 }
 
@@ -99,6 +100,7 @@ void Sequencer::finish(const Observation& o) {
 void Sequencer::forget_bed() {
   site_.bed.reset();
   bed_.reset();
+  bed_slipped_ = false;
 }
 
 void Sequencer::expect_another_truck() {

@@ -36,7 +36,7 @@ struct SiteModel {
   double pass_over = std::numeric_limits<double>::infinity();  // z: over what stands higher the kernel lets nothing pass, but in the zones
   std::vector<GroundZone> ground_zones;
   std::optional<TruckBed> bed;    // of the truck that was recognised, while it is there
-  bool truck_admitted = false;    // the spotter says that one stands there, recognised or not
+  bool truck_admitted = false;    // one stands there by the spotter's word whose bed is not known any more
   double dig_swing_left = 0.0, dig_swing_right = 0.0;  // bearings between which the app digs; left > right
   double dig_radius_start = 0.0, dig_radius_end = 0.0; // of the tip, start > end
   double dig_floor = -std::numeric_limits<double>::infinity();  // z of the ground that digs leave

@@ -120,10 +120,11 @@ TEST(BedHeight, BeyondTheClassesIsNotTakenWhereNothingShowsIt) {
   EXPECT_GT(blind.deviation, 0.15);
 }
 
-// Far walls are seen down to the floor: a rear that was taken for open, with its wall in the end's plane, is no floor far up.
+// A rear that was taken for open, with its wall in the end's plane: that is no floor's edge from far up on.
 TEST(BedHeight, IsThatOfTheFootOfAWallWhereAnOpenEndWasThought) {
   DrawnBed bed;
   bed.yaw = 1.57;
+  bed.load = bed.top - 0.1;  // nothing else is seen of it
   FittedBed fit = known(bed);
   fit.pose.open_end = -1;
   fit.pose.length += bed.thickness;
