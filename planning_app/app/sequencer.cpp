@@ -234,10 +234,10 @@ bool Sequencer::unseen_lies_there() const {
   return false;
 }
 
-// While the operator trams the machine its stops are his; when he has switched run on again they are as any other, but nothing is to move yet.
+// While the operator trams the machine its stops are his, also where he left run on for it; when he has switched run on again they are as any other, but nothing is to move yet.
 Recovery::Advice Sequencer::recover(const Observation& o) {
   const bool moved = stage_ == Stage::being_moved;
-  if (moved && !o.run_switch) return {};
+  if (moved && !(run_was_off_ && o.run_switch)) return {};
   Recovery::Advice advice = recovery_.step(o, log_, {too_high_stands(), unseen_lies_there()});
   if (moved) advice.velocity = {};
   return advice;

@@ -224,6 +224,7 @@ private:
   double back_m_ = 0.0;                       // asked for
   double loaded_here_kg_ = 0.0;               // since the machine stands where it does
   int vain_moves_ = 0;                        // in a row
+  bool run_was_off_ = false;                  // since the operator took over for a bench move
   bool saw_run_ = false, part_filled_ = false;  // part_filled_: of this truck the bed is not known any more, or not yet again; what is in it is
   bool waits_raised_ = false;                 // for the next truck
   TruckPresence presence_;                    // of the truck that is looked at, loaded or full

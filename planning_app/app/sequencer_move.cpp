@@ -71,10 +71,12 @@ void Sequencer::await_move(const Observation& o) {
   const bool taken_over = saw_run_ && !o.run_switch, moves = o.stop_reason == BERM_STOP_BASE_MOVED;
   if (stage_ == Stage::ask_move && (taken_over || moves)) hand_over(o);
   else if (stage_ == Stage::being_moved && o.running()) begin_anew(o);
+  run_was_off_ = run_was_off_ || !o.run_switch;
 }
 
 void Sequencer::hand_over(const Observation& o) {
   recovery_ = Recovery(machine_);  // what kept the machine here has no part in what keeps it there
+  run_was_off_ = false;
   enter(Stage::being_moved, o);
 }
 

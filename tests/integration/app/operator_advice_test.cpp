@@ -42,7 +42,7 @@ const Expected expected[] = {
     {BERM_STOP_MACHINE_FAULT, true, at_once, {"error of its own", "display"}},
     {BERM_STOP_INTERNAL, true, at_once, {"error in itself", "start both anew"}},
     {BERM_STOP_CLOCK, true, at_once, {"clock", "kernel's computer"}},
-    {BERM_STOP_BASE_MOVED, true, at_once, {"tilted", "stands firmly"}},
+    {BERM_STOP_BASE_MOVED, true, at_once, {"tilted", "set it firmly", "site file"}},
     {BERM_STOP_UNCOMMANDED, true, at_once, {"otherwise than it was told", "keep everybody away", "levers"}},
     {BERM_STOP_OVERPASS, false, in_time, {"send away", "admit the truck"}},
     {BERM_STOP_TAIL, true, at_once, {"behind the machine"}},
