@@ -128,8 +128,9 @@ void Sequencer::begin_anew_after_slip(const Observation& o) {
   part_filled_ = truck_is_begun();
   take_load_back(o);  // with the bed that it was poured into
   log_.event("base_moved", {{"time_s", o.time_s}, {"truck", truck_}, {"loaded_kg", part_filled_ ? fill_.loaded_kg() : 0.0}, {"brings_load", brings_load_}});
+  const bool had_bed = bed_slipped_ || site_.bed;
   forget_bed();
-  bed_slipped_ = true;
+  bed_slipped_ = had_bed;
   cut_.reset();
   skyline_.reset();
   look(o);

@@ -22,9 +22,6 @@ protected:
     site.dig_radius_start = 14.0, site.dig_radius_end = 13.0;
     return site;
   }
-  static void go(Loading& run, double seconds) {
-    for (const double end = run.seconds + seconds; run.seconds < end;) run.step();
-  }
   // Whether the horn sounds within so long.
   static bool sounds(Loading& run, double seconds) {
     for (const double end = run.seconds + seconds; run.seconds < end;) {
@@ -44,7 +41,7 @@ protected:
   static void stop(Loading& run, std::uint8_t reason, double seconds) {
     run.plant.stop_reason = reason;
     run.plant.kernel_runs = false;
-    go(run, seconds);
+    run.go(seconds);
     run.plant.kernel_runs = true;
   }
   long calls(const std::string& reason) const {
@@ -61,16 +58,16 @@ TEST_F(BenchMove, AMovedBaseIsTheMoveThatWasAskedFor) {
   await_call(run, 1);
   run.plant.stop_reason = BERM_STOP_BASE_MOVED;
   run.plant.kernel_runs = false;
-  go(run, 0.1);
+  run.go(0.1);
   EXPECT_FALSE(sounds(run, 70.0)) << "nobody is called while he does it";
   EXPECT_EQ(events_.named("operator_needed").size(), 1u) << "nor is the operator told of his own stop";
   EXPECT_TRUE(events_.named("moved").empty()) << "before the kernel lets it work";
   const std::size_t looks = run.finder.looks.size();
   run.plant.kernel_runs = true;
-  go(run, 1.0);
+  run.go(1.0);
   ASSERT_EQ(events_.named("moved").size(), 1u);
   EXPECT_EQ(events_.named("moved")[0].at("distance_m"), events_.named("move_back")[0].at("distance_m"));
-  go(run, 30.0);
+  run.go(30.0);
   EXPECT_GT(run.finder.looks.size(), looks) << "the truck stands elsewhere, as seen from the machine";
 }
 
@@ -78,7 +75,7 @@ TEST_F(BenchMove, AnotherStopIsNoMove) {
   Loading run(1, start_pose(), events_.fd(), out_of_reach());
   await_call(run, 1);
   stop(run, BERM_STOP_INTRUDER, 5.0);
-  go(run, 5.0);
+  run.go(5.0);
   EXPECT_TRUE(events_.named("moved").empty());
   EXPECT_EQ(events_.named("move_back").size(), 1u);
   EXPECT_TRUE(sounds(run, 40.0)) << "it is asked for on";
@@ -92,7 +89,7 @@ TEST_F(BenchMove, WhenMovingBackDoesNotHelpTheFaceIsExhausted) {
     await_call(run, ++moves);
     if (HasFatalFailure()) return;
     stop(run, BERM_STOP_BASE_MOVED, 5.0);
-    for (const double end = run.seconds + 120.0; run.seconds < end && events_.named("face_exhausted").empty() && events_.named("move_back").size() <= moves;) go(run, 1.0);
+    for (const double end = run.seconds + 120.0; run.seconds < end && events_.named("face_exhausted").empty() && events_.named("move_back").size() <= moves;) run.go(1.0);
   }
   EXPECT_EQ(moves, 2u) << "three stands in a row gave nothing";
   ASSERT_EQ(events_.named("face_exhausted").size(), 1u);

@@ -26,9 +26,6 @@ protected:
     return site;
   }
 
-  static void go(Loading& run, double seconds) {
-    for (const double end = run.seconds + seconds; run.seconds < end;) run.step();
-  }
   static void until(Loading& run, std::uint16_t phase, double longest_s = 90.0) {
     for (const double end = run.seconds + longest_s; run.last.phase != phase && run.seconds < end;) run.step();
     ASSERT_EQ(run.last.phase, phase);
@@ -41,13 +38,13 @@ protected:
     run.plant.stop_reason = reason;
     run.plant.kernel_runs = false;
     run.plant.map_void = true;
-    go(run, 5.0);
+    run.go(5.0);
     run.plant.map_void = false;
     run.plant.kernel_runs = true;
     run.step();  // still answers the cycle before
     run.step();
     known_after_reset_ = cells_known(run);
-    go(run, 1.5);  // who carried on swinging as it stopped is asked to stand for a second
+    run.go(1.5);  // who carried on swinging as it stopped is asked to stand for a second
   }
   static bool moves(const Loading& run) {
     return std::any_of(run.last.velocity.begin(), run.last.velocity.end(), [](double v) { return v != 0.0; });
@@ -81,7 +78,7 @@ TEST_F(SequencerSlips, TheTruckIsLoadedWhereItStandsAfterwards) {
   Loading run(1, start_pose(), events_.fd(), half_loads());
   while (events_.named("pass").size() < 2 && run.seconds < 120.0) run.step();
   until(run, BERM_PHASE_SWING_TO_TRUCK);
-  go(run, 1.0);
+  run.go(1.0);
   const double carried = run.plant.payload_kg();
   ASSERT_GT(carried, 500.0);
   slip(run);
@@ -106,7 +103,7 @@ TEST_F(SequencerSlips, TheTruckIsLoadedWhereItStandsAfterwards) {
 TEST_F(SequencerSlips, ADigIsLeft) {
   Loading run(1, start_pose(), events_.fd(), half_loads());
   until(run, BERM_PHASE_DIG);
-  go(run, 1.5);
+  run.go(1.5);
   slip(run);
   expect_loaded(run);
   EXPECT_EQ(run.finder.looks.size(), 2u);
@@ -120,7 +117,7 @@ TEST_F(SequencerSlips, APourIsBookedAsFarAsItCame) {
   while (run.plant.payload_kg() > 0.6 * carried && run.seconds < 90.0) run.step();
   run.plant.kernel_runs = false;
   run.plant.stop_reason = BERM_STOP_BASE_MOVED;
-  go(run, 0.3);
+  run.go(0.3);
   slip(run);
   const double bed = run.plant.site().bed_mass();
   ASSERT_GT(bed, 200.0);
@@ -128,7 +125,7 @@ TEST_F(SequencerSlips, APourIsBookedAsFarAsItCame) {
   EXPECT_NEAR(events_.named("pass")[0].at("payload_kg").get<double>(), bed, 120.0);
   ASSERT_EQ(events_.named("base_moved").size(), 1u);
   EXPECT_EQ(events_.named("base_moved")[0].at("loaded_kg"), events_.named("pass")[0].at("loaded_kg"));
-  go(run, 60.0);
+  run.go(60.0);
   EXPECT_GE(events_.named("pass").size(), 1u);
   EXPECT_EQ(run.finder.looks.size(), 2u);
 }
@@ -140,7 +137,7 @@ TEST_F(SequencerSlips, ATruckThatWasFullByThenIsSentOff) {
   Loading run(1, start_pose(), events_.fd(), site);
   until(run, BERM_PHASE_DUMP);
   until(run, BERM_PHASE_SWING_TO_DIG);
-  go(run, 0.5);
+  run.go(0.5);
   slip(run);
   const std::size_t digs = events_.named("dig").size();
   while (!run.sequencer.finished() && run.seconds < 200.0) run.step();
@@ -158,15 +155,15 @@ TEST_F(SequencerSlips, AFullTruckThatStandsThereIsWaitedForOn) {
   while (run.last.horn) run.step();
   slip(run);
   EXPECT_EQ(known_after_reset_, 0);
-  go(run, 60.0);
+  run.go(60.0);
   EXPECT_EQ(run.finder.looks.size(), 1u) << "the full truck is taken for the next";
   run.plant.truck_parked = false;
   run.plant.truck_leaves = true;
-  go(run, 8.0);
+  run.go(8.0);
   run.plant.truck_leaves = false;
   run.plant.site().new_truck();
   run.plant.truck_parked = true;
-  go(run, 60.0);
+  run.go(60.0);
   EXPECT_EQ(run.finder.looks.size(), 2u);
   EXPECT_GT(run.plant.site().bed_mass(), 500.0);
 }
@@ -175,11 +172,11 @@ TEST_F(SequencerSlips, AFullTruckThatStandsThereIsWaitedForOn) {
 TEST_F(SequencerSlips, ATruckThatIsNotFoundAfterwardsIsLookedForWithTheLoadKept) {
   Loading run(1, start_pose(), events_.fd(), half_loads());
   until(run, BERM_PHASE_SWING_TO_TRUCK);
-  go(run, 1.0);
+  run.go(1.0);
   const double carried = run.plant.payload_kg();
   run.finder.truck.found = false;
   slip(run);
-  go(run, 60.0);
+  run.go(60.0);
   EXPECT_EQ(calls("no_truck"), 1);
   EXPECT_NEAR(run.plant.payload_kg(), carried, 0.05 * carried);
   EXPECT_EQ(run.plant.site().bed_mass(), 0.0);
@@ -191,7 +188,7 @@ TEST_F(SequencerSlips, ATruckThatIsNotFoundAfterwardsIsLookedForWithTheLoadKept)
 TEST_F(SequencerSlips, IsTakenForOneInAnotherLatchedStopToo) {
   Loading run(1, start_pose(), events_.fd());
   until(run, BERM_PHASE_SWING_TO_TRUCK);
-  go(run, 1.0);
+  run.go(1.0);
   slip(run, x_, y_, BERM_STOP_EMERGENCY);
   EXPECT_EQ(events_.named("base_moved").size(), 1u);
   EXPECT_EQ(run.sequencer.bed(), nullptr);
@@ -200,12 +197,12 @@ TEST_F(SequencerSlips, IsTakenForOneInAnotherLatchedStopToo) {
 TEST_F(SequencerSlips, AnotherLatchedStopForgetsNothing) {
   Loading run(1, start_pose(), events_.fd());
   until(run, BERM_PHASE_SWING_TO_TRUCK);
-  go(run, 1.0);
+  run.go(1.0);
   run.plant.stop_reason = BERM_STOP_EMERGENCY;
   run.plant.kernel_runs = false;
-  go(run, 5.0);
+  run.go(5.0);
   run.plant.kernel_runs = true;
-  go(run, 30.0);
+  run.go(30.0);
   EXPECT_TRUE(events_.named("base_moved").empty());
   EXPECT_EQ(run.finder.looks.size(), 1u);
   EXPECT_GT(run.plant.site().bed_mass(), 500.0);
@@ -228,9 +225,9 @@ TEST_F(SequencerSlips, AMoveThatWasAskedForIsNone) {
     if (!events_.named("truck_full").empty()) run.plant.truck_parked = false;
   }
   ASSERT_EQ(events_.named("move_back").size(), 1u);
-  go(run, 25.0);
+  run.go(25.0);
   slip(run, -1.0, 0.0);
-  go(run, 5.0);
+  run.go(5.0);
   EXPECT_TRUE(events_.named("base_moved").empty());
   EXPECT_EQ(events_.named("moved").size(), 1u);
 }

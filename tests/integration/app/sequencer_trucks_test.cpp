@@ -27,9 +27,6 @@ protected:
     site.place.target_kg = 6000.0;
     return site;
   }
-  static void go(Loading& run, double seconds) {
-    for (const double end = run.seconds + seconds; run.seconds < end;) run.step();
-  }
   static void fill(Loading& run) {
     while (!run.last.horn && run.seconds < 600.0) run.step();
     ASSERT_TRUE(run.last.horn) << "the truck is not full after " << run.seconds << " s";
@@ -37,14 +34,14 @@ protected:
   static void carry_a_bucket_to_the_truck(Loading& run) {
     while (run.last.phase != BERM_PHASE_SWING_TO_TRUCK && run.seconds < 120.0) run.step();
     ASSERT_LT(run.seconds, 120.0);
-    go(run, 1.0);
+    run.go(1.0);
     ASSERT_GT(run.plant.payload_kg(), 500.0);
   }
   // The spotter's truck drives off.
   static void leave(Loading& run) {
     run.plant.truck_parked = false;
     run.plant.truck_leaves = true;
-    go(run, 8.0);
+    run.go(8.0);
     run.plant.truck_leaves = false;
   }
   static void come(Loading& run) {
@@ -58,18 +55,18 @@ protected:
 TEST_F(SequencerTrucks, AreExchangedWhileTheKernelKeepsTheMachine) {
   Loading run(2, start_pose(), events_.fd(), small_trucks());
   fill(run);
-  go(run, 0.4);  // in the middle of the horn
+  run.go(0.4);  // in the middle of the horn
   run.plant.stop_reason = BERM_STOP_INTRUDER;
   run.plant.kernel_runs = false;
-  go(run, 1.0);
+  run.go(1.0);
   EXPECT_FALSE(run.last.horn) << "one blast, though the kernel keeps the machine";
   leave(run);
-  go(run, 8.0);
+  run.go(8.0);
   const std::size_t looks = run.finder.looks.size();
   come(run);
-  go(run, 5.0);
+  run.go(5.0);
   run.plant.kernel_runs = true;
-  go(run, 60.0);
+  run.go(60.0);
   EXPECT_GT(run.finder.looks.size(), looks) << "the second truck was taken for the first";
   EXPECT_GT(run.plant.site().bed_mass(), 500.0) << "and is not loaded";
 }
@@ -85,21 +82,21 @@ TEST_F(SequencerTrucks, AFullOneThatStaysHearsTheHornAgainAndTheOperatorIsTold) 
     before = run.last.horn;
   }
   EXPECT_EQ(blasts, 3);
-  go(run, 1.0);
+  run.go(1.0);
   EXPECT_EQ(calls("truck stays"), 1);
   leave(run);
   const std::size_t looks = run.finder.looks.size();
   come(run);
-  go(run, 60.0);
+  run.go(60.0);
   EXPECT_GT(run.finder.looks.size(), looks);
 }
 
 TEST_F(SequencerTrucks, TheOperatorIsToldOnceThatNoneComes) {
   Loading run(1, start_pose(), events_.fd());
   run.plant.truck_parked = false;
-  go(run, 280.0);
+  run.go(280.0);
   EXPECT_EQ(calls("no truck comes"), 0);
-  go(run, 400.0);
+  run.go(400.0);
   EXPECT_EQ(calls("no truck comes"), 1);
 }
 
@@ -110,7 +107,7 @@ TEST_F(SequencerTrucks, WhatWasMeantForOneThatLeftEarlyGoesBackToTheFace) {
   leave(run);
   ASSERT_EQ(events_.named("truck_lost").size(), 1u);
   EXPECT_EQ(events_.named("truck_lost").front().at("why"), "left");
-  go(run, 30.0);
+  run.go(30.0);
   EXPECT_NEAR(run.plant.payload_kg(), carried, 0.05 * carried) << "poured where no truck stands";
   EXPECT_NEAR(run.plant.site().spilled_mass(), spilled, 0.05 * carried);
   for (const double v : run.last.velocity) EXPECT_NEAR(v, 0.0, 0.01);
@@ -134,7 +131,7 @@ TEST_F(SequencerTrucks, OneThatIsAdmittedAgainIsNotOverloaded) {
   const double had = run.plant.site().bed_mass();
   ASSERT_GE(had, 6000.0);
   run.plant.truck_parked = false;
-  go(run, 20.0);
+  run.go(20.0);
   ASSERT_EQ(events_.named("truck_lost").size(), 1u);
   EXPECT_EQ(events_.named("truck_lost").front().at("why"), "no longer admitted");
   run.plant.truck_parked = true;
@@ -148,9 +145,9 @@ TEST_F(SequencerTrucks, AShortSilenceOfTheSpotterChangesNothing) {
   Loading run(1, start_pose(), events_.fd());
   carry_a_bucket_to_the_truck(run);
   run.plant.truck_parked = false;
-  go(run, 1.0);
+  run.go(1.0);
   run.plant.truck_parked = true;
-  go(run, 20.0);
+  run.go(20.0);
   EXPECT_TRUE(events_.named("truck_lost").empty());
   EXPECT_EQ(run.finder.looks.size(), 1u);
   EXPECT_GT(run.plant.site().bed_mass(), 500.0);

@@ -61,9 +61,6 @@ protected:
     const auto all = events_.named("operator_needed");
     return std::count_if(all.begin(), all.end(), [&](const auto& e) { return e.at("reason") == reason; });
   }
-  static void go(Loading& run, double seconds) {
-    for (const double end = run.seconds + seconds; run.seconds < end;) run.step();
-  }
   // The shipped script of a pass with this in it changed.
   static ScriptText changed(const std::string& from, const std::string& to) {
     std::ifstream file(BERM_SCRIPTS "/pass.script");
@@ -89,7 +86,7 @@ TEST_F(SequencerStand, AScriptThatWaitsForWhatNeverComesIsBegunAnewAndTheOperato
   EXPECT_EQ(stood[0].at("waits").at("swing"), "boom high: swing to truck");
   EXPECT_EQ(stood[0].at("phase"), "lift");
   EXPECT_EQ(calls("work stands"), 0) << "it may help by itself";
-  go(run, 150.0);
+  run.go(150.0);
   EXPECT_GE(events_.named("stands").size(), 3u);
   EXPECT_EQ(calls("work stands"), 1);
   EXPECT_EQ(run.plant.site().bed_mass(), 0.0);
@@ -132,7 +129,7 @@ TEST_F(SequencerStand, ATruckOutOfReachIsRefusedAndLookedAtAgain) {
   Loading run(1, start_pose(), events_.fd());
   const RecognisedTruck right = run.finder.truck;
   run.finder.truck.pose.middle.z() = 6.0;
-  go(run, 120.0);
+  run.go(120.0);
   EXPECT_EQ(calls("truck out of reach"), 1);
   ASSERT_FALSE(events_.named("truck_lost").empty());
   EXPECT_EQ(events_.named("truck_lost")[0].at("why"), "out of reach");
@@ -167,7 +164,7 @@ TEST_F(SequencerStand, NoWayThroughTheSoilIsAMoveOfTheMachineToo) {
   SiteModel site = app_bench::bench();
   site.dig_radius_end = 1.0;
   Loading run(1, start_pose(), events_.fd(), site);
-  go(run, 90.0);
+  run.go(90.0);
   ASSERT_FALSE(events_.named("move_back").empty());
   EXPECT_EQ(events_.named("move_back")[0].at("why"), "the soil before the machine is out of the bucket's reach");
   EXPECT_EQ(events_.named("unreachable").size(), 3u) << "so often it is tried";
@@ -178,7 +175,7 @@ TEST_F(SequencerStand, SoilOutOfReachIsAMoveOfTheMachine) {
   SiteModel site = app_bench::bench();
   site.dig_radius_start = 14.0, site.dig_radius_end = 13.0;
   Loading run(1, start_pose(), events_.fd(), site);
-  go(run, 90.0);
+  run.go(90.0);
   ASSERT_FALSE(events_.named("move_back").empty());
   EXPECT_EQ(events_.named("move_back")[0].at("why"), "the start of the next dig is out of the bucket's reach");
   EXPECT_EQ(calls("move back"), 1);
@@ -190,7 +187,7 @@ TEST_F(SequencerStand, WhatKeepsTheMachineAfterTheMoveIsTold) {
   SiteModel site = app_bench::bench();
   site.dig_radius_start = 14.0, site.dig_radius_end = 13.0;
   Loading run(1, start_pose(), events_.fd(), site);
-  go(run, 90.0);
+  run.go(90.0);
   ASSERT_EQ(calls("move back"), 1);
   const auto kept = [&](double seconds, std::uint8_t reason, bool run_switch) {
     for (const double end = run.seconds + seconds; run.seconds < end;) {
@@ -211,7 +208,7 @@ TEST_F(SequencerStand, WhatKeepsTheMachineAfterTheMoveIsTold) {
   kept(3.0, BERM_STOP_UNKNOWN_GROUND, true);
   EXPECT_EQ(calls("unknown ground"), 1);
   EXPECT_TRUE(std::all_of(run.last.velocity.begin(), run.last.velocity.end(), [](double v) { return v == 0.0; })) << "nothing moves before it looks round anew";
-  go(run, 1.0);
+  run.go(1.0);
   EXPECT_EQ(events_.named("moved").size(), 1u);
 }
 

@@ -23,6 +23,9 @@ struct Loading {
     plant.step(request);
     seconds += machine.cycle;
   }
+  void go(double for_s) {
+    for (const double end = seconds + for_s; seconds < end;) step();
+  }
 
   app::MachineModel machine;
   BenchMachine plant;

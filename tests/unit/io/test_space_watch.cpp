@@ -377,16 +377,16 @@ TEST_F(WatchedSpaceTest, SoilThatTheBucketMovesIsNobodyNorWhenItHasGone) {
   begin();
   see(x, 0, 75, 1050);
   EXPECT_TRUE(pass(10000)) << "somebody: the bucket was not there";
-  begin();
-  watch->dig(digging, false, now);
-  see(x, 0, 75, 1050);
-  EXPECT_FALSE(pass(10000));
+  const auto heap_up = [&] {
+    begin();
+    watch->dig(digging, false, now);
+    see(x, 0, 75, 1050);
+    EXPECT_FALSE(pass(10000));
+  };
+  heap_up();
   see(x, 0, 75, 1800);
   EXPECT_TRUE(pass(10000)) << "somebody: no soil is so high";
-  begin();
-  watch->dig(digging, false, now);
-  see(x, 0, 75, 1050);
-  EXPECT_FALSE(pass(10000));
+  heap_up();
   watch->dig(carrying, false, now);
   now += 3 * kSecond;
   watch->dig(carrying, false, now);
