@@ -7,7 +7,7 @@
 #include "io/parameter_loader.hpp"
 #include "record/cycle_record.hpp"
 #include "record/journal_file.hpp"
-#include "record/mcap_reader.hpp"
+#include "journal/mcap_reader.hpp"
 
 namespace berm::watch {
 

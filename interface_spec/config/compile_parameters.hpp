@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "config/machine_file.hpp"
 #include "config/parameter_block.h"
@@ -17,6 +18,8 @@ std::int32_t parameters_crc(const berm_parameters& block);
 void save_parameters(const berm_parameters& block, const std::string& path);
 // Reads a block and checks size, magic, version and CRC. Throws ConfigError naming the path and what is wrong.
 berm_parameters load_parameters(const std::string& path);
+// The same of bytes that are at hand; name stands in the message.
+berm_parameters parse_parameters(std::string_view bytes, const std::string& name);
 // For people: one field a line.
 std::string describe(const berm_parameters& block);
 

@@ -27,17 +27,22 @@ void save_parameters(const berm_parameters& block, const std::string& path) {
   }
 }
 
+berm_parameters parse_parameters(std::string_view bytes, const std::string& name) {
+  berm_parameters block{};
+  if (bytes.size() != sizeof block) throw ConfigError(fmt::format("{}: size: a parameter block has exactly {} bytes", name, sizeof block));
+  std::memcpy(&block, bytes.data(), sizeof block);
+  if (block.magic != BERM_PARAMETERS_MAGIC) throw ConfigError(fmt::format("{}: magic: no parameter block", name));
+  if (block.version != BERM_PARAMETERS_VERSION) throw ConfigError(fmt::format("{}: version: {}, {} is known", name, block.version, BERM_PARAMETERS_VERSION));
+  if (block.crc32 != parameters_crc(block)) throw ConfigError(fmt::format("{}: crc32: wrong", name));
+  return block;
+}
+
 berm_parameters load_parameters(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw ConfigError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  berm_parameters block{};
-  file.read(reinterpret_cast<char*>(&block), sizeof block);
-  if (file.gcount() != static_cast<std::streamsize>(sizeof block) || file.peek() != std::ifstream::traits_type::eof())
-    throw ConfigError(fmt::format("{}: size: a parameter block has exactly {} bytes", path, sizeof block));
-  if (block.magic != BERM_PARAMETERS_MAGIC) throw ConfigError(fmt::format("{}: magic: no parameter block", path));
-  if (block.version != BERM_PARAMETERS_VERSION) throw ConfigError(fmt::format("{}: version: {}, {} is known", path, block.version, BERM_PARAMETERS_VERSION));
-  if (block.crc32 != parameters_crc(block)) throw ConfigError(fmt::format("{}: crc32: wrong", path));
-  return block;
+  std::array<char, sizeof(berm_parameters) + 1> bytes{};  // one more than a block has, so that a longer file is noticed
+  file.read(bytes.data(), bytes.size());
+  return parse_parameters({bytes.data(), static_cast<std::size_t>(file.gcount())}, path);
 }
 
 }  // namespace berm::config

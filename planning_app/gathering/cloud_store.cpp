@@ -42,7 +42,7 @@ std::uint32_t CloudStore::make_block(const std::array<std::int32_t, 3>& key) {
   const std::size_t slot = slot_of(key);
   if (slots_[slot] != kNone) return slots_[slot];
   const auto number = static_cast<std::uint32_t>(blocks_.size());
-  Block fresh{key, 0, {}};
+  Block fresh{key, 0, 0.0F, {}};
   fresh.first.fill(kNone);
   blocks_.push_back(fresh);
   slots_[slot] = number;
@@ -77,6 +77,7 @@ void CloudStore::link(std::uint32_t index) {
   p.next = block.first[voxel];
   block.first[voxel] = index;
   block.occupied |= std::uint64_t{1} << voxel;
+  block.widest = std::max(block.widest, static_cast<float>(largest_half_width(p.covariance, 1.0)));
 }
 
 void CloudStore::unlink(std::uint32_t index) {
@@ -119,7 +120,8 @@ void CloudStore::move(std::uint32_t index, const GatheredPoint& point, std::uint
   GatheredPoint& old = points_[index];
   epochs_[index] = epoch;
   const auto same = [this](float a, float b) { return voxel_of(static_cast<double>(a)) == voxel_of(static_cast<double>(b)); };
-  if (same(old.x, point.x) && same(old.y, point.y) && same(old.z, point.z)) {
+  const bool wider = largest_half_width(point.covariance, 1.0) > largest_half_width(old.covariance, 1.0);
+  if (same(old.x, point.x) && same(old.y, point.y) && same(old.z, point.z) && !wider) {
     const std::uint32_t next = old.next;
     old = point;
     old.next = next;

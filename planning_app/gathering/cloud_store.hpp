@@ -2,6 +2,7 @@
 // No allocation for a point: arrays grow by halves.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -27,6 +28,7 @@ public:
   struct Block {
     std::array<std::int32_t, 3> key;
     std::uint64_t occupied;  // one bit a voxel
+    float widest;            // standard deviation along an axis, metres: no point has had a larger one here
     std::array<std::uint32_t, kEdge * kEdge * kEdge> first;
   };
 
@@ -38,9 +40,10 @@ public:
   void move(std::uint32_t index, const GatheredPoint& point, std::uint32_t epoch);
   void remove(std::uint32_t index);
 
-  // visit(index) for every point whose voxel meets the box.
+  // visit(index) for every point within half + quantile standard deviations of itself of the place along each axis, and for some beyond; none has more
+  // than widest, in metres. Each block is searched as far as its own points reach: what is uncertain far out does not make the search near by any longer.
   template <typename Visit>
-  void for_each_in_box(const Vector3& low, const Vector3& high, Visit visit) const;
+  void for_each_near(const Vector3& place, const Vector3& half, double quantile, double widest, Visit visit) const;
 
   std::size_t size() const { return size_; }
   std::size_t capacity() const { return capacity_; }
@@ -76,20 +79,26 @@ private:
 };
 
 template <typename Visit>
-void CloudStore::for_each_in_box(const Vector3& low, const Vector3& high, Visit visit) const {
+void CloudStore::for_each_near(const Vector3& place, const Vector3& half, double quantile, double widest, Visit visit) const {
   std::array<std::int32_t, 3> from, to;
   for (std::size_t i = 0; i < 3; ++i) {
-    from[i] = voxel_of(low[i]);
-    to[i] = voxel_of(high[i]);
+    from[i] = voxel_of(place[i] - half[i] - quantile * widest) >> 2;
+    to[i] = voxel_of(place[i] + half[i] + quantile * widest) >> 2;
   }
-  for (std::int32_t bz = from[2] >> 2; bz <= to[2] >> 2; ++bz)
-    for (std::int32_t by = from[1] >> 2; by <= to[1] >> 2; ++by)
-      for (std::int32_t bx = from[0] >> 2; bx <= to[0] >> 2; ++bx) {
+  for (std::int32_t bz = from[2]; bz <= to[2]; ++bz)
+    for (std::int32_t by = from[1]; by <= to[1]; ++by)
+      for (std::int32_t bx = from[0]; bx <= to[0]; ++bx) {
         const Block* found = block(bx, by, bz);
         if (found == nullptr) continue;
-        for (std::int32_t z = std::max(from[2], bz * kEdge); z <= std::min(to[2], bz * kEdge + 3); ++z)
-          for (std::int32_t y = std::max(from[1], by * kEdge); y <= std::min(to[1], by * kEdge + 3); ++y)
-            for (std::int32_t x = std::max(from[0], bx * kEdge); x <= std::min(to[0], bx * kEdge + 3); ++x) {
+        const double reach = quantile * static_cast<double>(found->widest);
+        std::array<std::int32_t, 3> low, high;
+        for (std::size_t i = 0; i < 3; ++i) {
+          low[i] = std::max(voxel_of(place[i] - half[i] - reach), found->key[i] * kEdge);
+          high[i] = std::min(voxel_of(place[i] + half[i] + reach), found->key[i] * kEdge + 3);
+        }
+        for (std::int32_t z = low[2]; z <= high[2]; ++z)
+          for (std::int32_t y = low[1]; y <= high[1]; ++y)
+            for (std::int32_t x = low[0]; x <= high[0]; ++x) {
               const auto voxel = static_cast<std::size_t>((z & 3) << 4 | (y & 3) << 2 | (x & 3));
               if ((found->occupied >> voxel & 1) == 0) continue;
               for (std::uint32_t index = found->first[voxel]; index != kNone; index = points_[index].next) visit(index);

@@ -7,7 +7,7 @@
 
 namespace berm::app {
 
-// One return: angle in the scan plane from the frame's x axis, radians; range from the optical centre, metres.
+// One return: angle in the scan plane from the frame's x axis, radians, -pi to pi; range from the optical centre, metres.
 struct PolarReturn {
   double angle_rad;
   double range_m;

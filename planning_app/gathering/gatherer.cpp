@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace berm::app {
 namespace {
@@ -48,7 +49,7 @@ void PointCloudGatherer::take_valid(std::span<const PolarReturn> returns) {
   valid_.clear();
   double last = -1e9;
   for (const PolarReturn& p : returns) {
-    const bool usable = std::isfinite(p.angle_rad) && p.angle_rad > last && p.range_m > 1e-3 && p.range_m <= options_.range_limit_m;
+    const bool usable = std::isfinite(p.angle_rad) && p.angle_rad > last && std::abs(p.angle_rad) <= std::numbers::pi && p.range_m > 1e-3 && p.range_m <= options_.range_limit_m;
     if (!usable) {
       ++counts_.ignored;
       continue;
@@ -155,18 +156,20 @@ void PointCloudGatherer::insert(const Scanner& scanner, const Eigen::Isometry3d&
                       point_covariance(scanner.deviations, p.range_m, {direction[0], direction[1], direction[2]}, {across[0], across[1], across[2]}),
                       times_.newest(),
                       CloudStore::kNone};
-  const double own_width = largest_half_width(fresh.covariance, options_.quantile);
-  widest_m_ = std::max(widest_m_, own_width);
-  const auto half = [&](float variance) { return options_.quantile * std::sqrt(static_cast<double>(variance)) + widest_m_; };
-  const double hx = half(fresh.covariance.xx), hy = half(fresh.covariance.yy), hz = half(fresh.covariance.zz);
+  const double quantile = options_.quantile;
+  const auto sd = [](float variance) { return std::sqrt(static_cast<double>(variance)); };
+  const Vector3 half{quantile * sd(fresh.covariance.xx), quantile * sd(fresh.covariance.yy), quantile * sd(fresh.covariance.zz)};
+  widest_m_ = std::max(widest_m_, largest_half_width(fresh.covariance, 1.0));
   std::uint32_t best = CloudStore::kNone;
   double best_separation = 1.0;
   Vector3 best_between{};
-  store_.for_each_in_box({place[0] - hx, place[1] - hy, place[2] - hz}, {place[0] + hx, place[1] + hy, place[2] + hz}, [&](std::uint32_t index) {
+  store_.for_each_near({place[0], place[1], place[2]}, half, quantile, widest_m_, [&](std::uint32_t index) {
     const GatheredPoint& old = store_[index];
     if (contributors_.has(index, scanner.number, old.scan)) return;
     const Vector3 between{static_cast<double>(fresh.x - old.x), static_cast<double>(fresh.y - old.y), static_cast<double>(fresh.z - old.z)};
-    if (std::abs(between[0]) > hx || std::abs(between[1]) > hy || std::abs(between[2]) > hz) return;
+    if (std::abs(between[0]) > half[0] + quantile * sd(old.covariance.xx) || std::abs(between[1]) > half[1] + quantile * sd(old.covariance.yy) ||
+        std::abs(between[2]) > half[2] + quantile * sd(old.covariance.zz))
+      return;
     const double separation = ellipsoid_separation(old.covariance, fresh.covariance, between, options_.quantile);
     if (separation > best_separation || !ellipsoids_overlap(old.covariance, fresh.covariance, between, options_.quantile)) return;
     best = index;

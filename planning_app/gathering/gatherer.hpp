@@ -41,8 +41,8 @@ public:
   // Returns the scanner's number. chain may stay empty when poses are given with the scans.
   std::size_t add_scanner(const ScannerDeviations& deviations, KinematicChain chain = {});
 
-  // One turn of the mirror; joint_values by encoder number. Returns that are not finite, not positive, beyond the range limit or not in rising
-  // angle are counted as ignored. Throws std::out_of_range for an unknown scanner or a missing encoder.
+  // One turn of the mirror; joint_values by encoder number. Returns that are not finite, not positive, beyond the range limit, beyond half a turn
+  // or not in rising angle are counted as ignored. Throws std::out_of_range for an unknown scanner or a missing encoder.
   void add_scan(std::size_t scanner, std::span<const double> joint_values, std::span<const PolarReturn> returns, double time_s);
   void add_scan(std::size_t scanner, const Eigen::Isometry3d& frame, std::span<const PolarReturn> returns, double time_s);
 
@@ -88,7 +88,7 @@ private:
   std::vector<std::uint32_t> passed_;
   DeletionVolume volume_;
   std::uint32_t epoch_ = 0;
-  double widest_m_ = 0.0;  // half-width of the widest error volume so far
+  double widest_m_ = 0.0;  // standard deviation along an axis, the largest of a point so far
   GatheringCounts counts_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace berm::app {
@@ -27,6 +29,21 @@ Eigen::Isometry3d KinematicChain::pose(std::span<const double> joint_values) con
     out = out * dh_transform(link, value);
   }
   return out;
+}
+
+KinematicChain panning_scanner(double x, double y, double z) {
+  const double bearing = std::atan2(y, x);
+  DhLink swing_link, pan_link;
+  swing_link.theta = bearing;
+  swing_link.d = z;
+  swing_link.a = std::hypot(x, y);
+  swing_link.joint = DhLink::Joint::kRevolute;
+  swing_link.encoder = 0;
+  pan_link.theta = -bearing;
+  pan_link.alpha = 0.5 * std::numbers::pi;
+  pan_link.joint = DhLink::Joint::kRevolute;
+  pan_link.encoder = 1;
+  return KinematicChain({swing_link, pan_link});
 }
 
 }  // namespace berm::app

@@ -34,4 +34,8 @@ private:
   std::vector<DhLink> links_;
 };
 
+// A scanner that pans (encoder 1) on an upper body that swings (encoder 0). The head's place in the upper body's frame, metres; from the base frame to
+// the scan plane: x along the beam forward and level, y along the beam upward.
+KinematicChain panning_scanner(double x, double y, double z);
+
 }  // namespace berm::app

@@ -13,6 +13,7 @@
 #include "config/command_line.hpp"
 #include "config/one_line.hpp"
 #include "config/standard_error.hpp"
+#include "gathering/gather_journal.hpp"
 #include "gathering/gather_picture.hpp"
 #include "gathering/gather_recording.hpp"
 #include "gathering/mount_option.hpp"
@@ -76,22 +77,35 @@ auto written(const std::string& file, std::size_t points, Write write) try {
   throw PointFileError(fmt::format("{}: memory: too little to write {} points", file, points));
 }
 
-int run(const Options& options) {
-  if (options.mounts.size() > 1 && options.mounts.size() != options.files.size())
-    throw PointFileError(fmt::format("--mount: given {} times for {} files: once for all, or each", options.mounts.size(), options.files.size()));
-  std::vector<Eigen::Isometry3d> mounts;
-  for (const std::string& text : options.mounts) mounts.push_back(mount_of(text));
-  if (mounts.empty()) mounts.push_back(Eigen::Isometry3d::Identity());
-  GatheringOptions gathering = options.gathering;
-  gathering.epoch = kEpochRuleOfRecordings;
-  PointCloudGatherer gatherer(gathering);
-  for (std::size_t i = 0; i < options.files.size(); ++i) gatherer.add_scanner(options.deviations);
+struct Played {
   double seconds = 0.0;
-  std::size_t unplanned = 0;
-  const bool show = isatty(2) != 0;
-  Inputs inputs(options.files, show);
-  auto played = nlohmann::json::array();
+  std::size_t unplanned = 0, cleared = 0;
+  nlohmann::json groups = nlohmann::json::array();  // what together, in which order
   std::string order;
+};
+
+// Twice a second at most.
+class Progress {
+public:
+  explicit Progress(bool show) : show_(show) {}
+  bool due() {
+    if (!show_ || std::chrono::steady_clock::now() - shown_ < std::chrono::milliseconds(500)) return false;
+    shown_ = std::chrono::steady_clock::now();
+    return true;
+  }
+
+private:
+  bool show_;
+  std::chrono::steady_clock::time_point shown_ = std::chrono::steady_clock::now();
+};
+
+double seconds_since(std::chrono::steady_clock::time_point begin) { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); }
+
+Played play_recordings(const Options& options, const std::vector<Eigen::Isometry3d>& mounts, bool show, PointCloudGatherer& gatherer) {
+  Played played;
+  for (std::size_t i = 0; i < options.files.size(); ++i) gatherer.add_scanner(options.deviations);
+  Inputs inputs(options.files, show);
+  Progress progress(show);
   const ClockRule rule = options.clock == "one" ? ClockRule::kOne : options.clock == "own" ? ClockRule::kOwn : ClockRule::kByTimes;
   for (const std::vector<std::size_t>& group : inputs.groups(rule)) {
     std::vector<PointCloud> recordings;
@@ -101,42 +115,73 @@ int run(const Options& options) {
     for (const std::size_t i : group) {
       recordings.push_back(inputs.take(i));
       players.emplace_back(recordings.back(), i, mounts[mounts.size() == 1 ? 0 : i]);
-      order += fmt::format("{}{}", i == group.front() ? (order.empty() ? "" : ", then ") : " with ", options.files[i]);
+      played.order += fmt::format("{}{}", i == group.front() ? (played.order.empty() ? "" : ", then ") : " with ", options.files[i]);
       names.push_back(options.files[i]);
     }
-    played.push_back(std::move(names));
-    auto shown = std::chrono::steady_clock::now();
-    const auto begin = shown;
+    played.groups.push_back(std::move(names));
+    const auto begin = std::chrono::steady_clock::now();
     play_together(players, gatherer, [&](const RecordingPlayer& player) {
-      if (!show || std::chrono::steady_clock::now() - shown < std::chrono::milliseconds(500)) return;
-      shown = std::chrono::steady_clock::now();
-      config::print_error("\r{}: {} of {} points", player.recording().file, player.played(), player.recording().points.size());
+      if (progress.due()) config::print_error("\r{}: {} of {} points", player.recording().file, player.played(), player.recording().points.size());
     });
-    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    played.seconds += seconds_since(begin);
     for (const RecordingPlayer& player : players) {
-      unplanned += player.unplanned();
+      played.unplanned += player.unplanned();
       if (show) config::print_error("\r{}: {} points gathered   \n", player.recording().file, player.played());
     }
   }
+  return played;
+}
+
+Played play_journal(const Options& options, const Eigen::Isometry3d& mount, bool show, PointCloudGatherer& gatherer) {
+  Played played;
+  const std::string& file = options.files.front();
+  played.groups.push_back(nlohmann::json::array({file}));
+  JournalScans journal(file);
+  Progress progress(show);
+  const auto begin = std::chrono::steady_clock::now();
+  played.cleared = gather_journal(journal, options.deviations, mount, gatherer, [&] {
+    if (progress.due()) config::print_error("\r{}: {} cycles, {} scans", file, journal.cycles(), gatherer.counts().scans);
+  });
+  played.seconds = seconds_since(begin);
+  if (show) config::print_error("\r{}: {} cycles, {} scans gathered   \n", file, journal.cycles(), gatherer.counts().scans);
+  if (journal.cut_off()) fmt::print("{} breaks off after {} cycles: what came before is gathered\n", config::one_line(file), journal.cycles());
+  return played;
+}
+
+int run(const Options& options) {
+  if (options.mounts.size() > 1 && options.mounts.size() != options.files.size())
+    throw PointFileError(fmt::format("--mount: given {} times for {} files: once for all, or each", options.mounts.size(), options.files.size()));
+  std::vector<Eigen::Isometry3d> mounts;
+  for (const std::string& text : options.mounts) mounts.push_back(mount_of(text));
+  if (mounts.empty()) mounts.push_back(Eigen::Isometry3d::Identity());
+  const auto journal = std::find_if(options.files.begin(), options.files.end(), JournalScans::is_journal);
+  if (journal != options.files.end() && options.files.size() > 1)
+    throw PointFileError(fmt::format("{}: a journal has both scanners and a clock of its own: it is gathered by itself, not with {} other files", *journal, options.files.size() - 1));
+  GatheringOptions gathering = options.gathering;
+  if (journal == options.files.end()) gathering.epoch = kEpochRuleOfRecordings;
+  PointCloudGatherer gatherer(gathering);
+  const bool show = isatty(2) != 0;
+  const Played played = journal != options.files.end() ? play_journal(options, mounts.front(), show, gatherer) : play_recordings(options, mounts, show, gatherer);
   const GatheringCounts counts = gatherer.counts();
-  const double rate = static_cast<double>(counts.points_in) / std::max(seconds, 1e-9);
+  const double rate = static_cast<double>(counts.points_in) / std::max(played.seconds, 1e-9);
   const std::size_t kept = gatherer.store().size();
   const std::string& last = options.picture.empty() ? options.pcd : options.picture;
   const auto points = written(last.empty() ? options.files.back() : last, kept, [&] { return gatherer.points(); });
   if (!options.json.empty()) {
     const nlohmann::json result{
-        {"files", options.files},           {"played", played},           {"scans", counts.scans},           {"points_in", counts.points_in},
+        {"files", options.files},           {"played", played.groups},           {"scans", counts.scans},           {"points_in", counts.points_in},
         {"points_kept", kept},              {"deleted", counts.deleted},  {"merged", counts.merged},         {"overflowed", counts.overflowed},
-        {"ignored", counts.ignored},        {"epochs", gatherer.epoch()}, {"scans_without_plane", unplanned}, {"points_per_second", rate},
-        {"bytes", gatherer.bytes()}};
+        {"ignored", counts.ignored},        {"epochs", gatherer.epoch()}, {"scans_without_plane", played.unplanned}, {"points_per_second", rate},
+        {"bytes", gatherer.bytes()},        {"cleared", played.cleared}};
     write_file_bytes(options.json, result.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   }
   if (!options.pcd.empty()) written(options.pcd, kept, [&] { return write_pcd(options.pcd, points), 0; });
   fmt::print("{} scans, {} points in: {} kept, {} merged, {} deleted, {} overflowed, {} ignored; {:.0f} points/s, {:.1f} MB\n", counts.scans,
              counts.points_in, kept, counts.merged, counts.deleted, counts.overflowed, counts.ignored, rate,
              static_cast<double>(gatherer.bytes()) * 1e-6);
-  if (options.files.size() > 1) fmt::print("played {}\n", config::one_line(order));
-  if (unplanned > 0) fmt::print("{} scans are no plane through the scanner: merged, and nothing deleted for them\n", unplanned);
+  if (options.files.size() > 1) fmt::print("played {}\n", config::one_line(played.order));
+  if (played.unplanned > 0) fmt::print("{} scans are no plane through the scanner: merged, and nothing deleted for them\n", played.unplanned);
+  if (played.cleared > 0) fmt::print("cleared {} times, where the kernel began its map anew\n", played.cleared);
   if (!options.picture.empty())
     fmt::print("picture: {} (grid {:g} m)\n", options.picture,
                written(options.picture, kept, [&] { return write_cloud_picture(options.picture, points); }));
@@ -150,13 +195,14 @@ int main(int argc, char** argv) {
   berm::app::Options options;
   CLI::App app{
       "Gathers recorded scans into one point cloud: merges what is measured again, deletes what was seen through. A FILE is a PCD with "
-      "scanline and time, a capture (pcap) of a VLP-16, or a JSON export of an LMS1xx session. PCDs whose times overlap are played together, by "
-      "time; other files one after another. Exit status 1: no point was kept.",
+      "scanline and time, a capture (pcap) of a VLP-16, a JSON export of an LMS1xx session, or the journal of a run (journal.mcap), by itself: "
+      "both scanners, by the recorded angles of swing and pan. PCDs whose times overlap are played together, by time; other files one after another. "
+      "Exit status 1: no point was kept.",
       "berm gather"};
   app.add_option("FILE", options.files, "recordings, each of a scanner of its own")->required();
   berm::config::output(app.add_option("--json", options.json,
                  "write files, played (what together, in which order), scans, points_in, points_kept, deleted, merged, overflowed, ignored, "
-                 "scans_without_plane, epochs, points_per_second, bytes"));
+                 "scans_without_plane, epochs, points_per_second, bytes, cleared"));
   berm::config::output(app.add_option("--pcd", options.pcd, "write the cloud"));
   berm::config::output(app.add_option("--picture", options.picture, "write a view from above (PNG)"));
   app.add_option("--mount", options.mounts,

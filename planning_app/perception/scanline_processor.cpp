@@ -18,20 +18,7 @@ bool follows(const ScanlinePart& before, const ScanlinePart& after) {
 
 }  // namespace
 
-KinematicChain scanner_chain(const ScannerMount& mount) {
-  const double bearing = std::atan2(mount.y, mount.x);
-  DhLink swing_link, pan_link;
-  swing_link.theta = bearing;
-  swing_link.d = mount.z;
-  swing_link.a = std::hypot(mount.x, mount.y);
-  swing_link.joint = DhLink::Joint::kRevolute;
-  swing_link.encoder = 0;
-  pan_link.theta = -bearing;
-  pan_link.alpha = 0.5 * std::numbers::pi;
-  pan_link.joint = DhLink::Joint::kRevolute;
-  pan_link.encoder = 1;
-  return KinematicChain({swing_link, pan_link});
-}
+KinematicChain scanner_chain(const ScannerMount& mount) { return panning_scanner(mount.x, mount.y, mount.z); }
 
 bool well_formed(const berm_scan_block& block) {
   constexpr std::int64_t latest_us = 1'000'000'000'000'000;

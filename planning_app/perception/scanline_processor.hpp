@@ -14,7 +14,7 @@
 #include "gathering/kinematic_chain.hpp"
 #include "motion/machine_model.hpp"
 #include "perception/machine_history.hpp"
-#include "perception/own_machine.hpp"
+#include "motion/own_machine.hpp"
 #include "perception/projection_check.hpp"
 
 namespace berm::app {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "record/bytes.hpp"
+#include "journal/bytes.hpp"
+#include "journal/scan_record.hpp"
 
 namespace berm::record {
 
@@ -11,7 +12,6 @@ namespace {
 using kernel::CycleInputs;
 
 constexpr std::int64_t kTimeMaxUs = std::int64_t{1} << 60;
-constexpr std::size_t up8(std::size_t bytes) { return (bytes + 7U) / 8U * 8U; }
 
 bool take_frame(ByteReader& from, berm_can_frame& to) {
   berm_journal_frame frame{};
@@ -21,33 +21,6 @@ bool take_frame(ByteReader& from, berm_can_frame& to) {
   to.length = frame.length;
   std::copy(frame.data, frame.data + sizeof frame.data, to.data);
   return true;
-}
-
-bool take_scan(ByteReader& from, berm_scan_packet& to) {
-  berm_journal_scan scan{};
-  if (!from.copy(scan) || scan.count > BERM_SCAN_PACKET_SAMPLES || scan.echoes_per_sample > BERM_SCAN_ECHOES) return false;
-  to = berm_scan_packet{};
-  to.scanner = scan.scanner;
-  to.flags = scan.flags;
-  to.sequence = scan.sequence;
-  to.scanline = scan.scanline;
-  to.time_us = scan.time_us;
-  to.sample_period_ns = scan.sample_period_ns;
-  to.pan_start_urad = scan.pan_start_urad;
-  to.pan_end_urad = scan.pan_end_urad;
-  to.first_index = scan.first_index;
-  to.samples_per_revolution = scan.samples_per_revolution;
-  to.count = scan.count;
-  to.echoes_per_sample = scan.echoes_per_sample;
-  to.window_percent = scan.window_percent;
-  const std::size_t bytes = static_cast<std::size_t>(scan.count) * scan.echoes_per_sample * 2U;
-  const std::uint8_t* padded = from.raw(up8(bytes));
-  if (padded == nullptr) return false;
-  ByteReader ranges(padded, bytes);
-  for (int i = 0; i < scan.count; ++i)
-    for (int echo = 0; echo < scan.echoes_per_sample; ++echo) to.range[i][echo] = ranges.u16();
-  std::uint8_t datagram[BERM_SCAN_PACKET_MAX_BYTES];
-  return berm_scan_encode(&to, datagram) != 0;  // every field within the range the kernel's decoder lets through
 }
 
 bool take_lidar(ByteReader& from, const kernel::Vlp16Mount& mount, CycleInputs& in) {

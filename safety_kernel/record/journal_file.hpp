@@ -5,21 +5,12 @@
 #include <string>
 
 #include "io/vlp16.hpp"
+#include "journal/journal_names.hpp"
 #include "journal/journal_record.h"
-#include "record/mcap_reader.hpp"
+#include "journal/mcap_reader.hpp"
 #include "record/mcap_writer.hpp"
 
 namespace berm::record {
-
-namespace names {
-constexpr const char* kCycleTopic = "/kernel/cycle";
-constexpr const char* kCycleEncoding = "berm_journal_cycle";
-constexpr const char* kDecisionTopic = "/kernel/decision";
-constexpr const char* kLostTopic = "/journal/lost";
-constexpr const char* kParameters = "kernel.params";
-constexpr const char* kStart = "berm_start";
-constexpr const char* kEnd = "berm_end";
-}  // namespace names
 
 class JournalFile {
  public:

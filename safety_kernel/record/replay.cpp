@@ -4,7 +4,7 @@
 
 #include "io/parameter_loader.hpp"
 #include "record/journal_file.hpp"
-#include "record/mcap_reader.hpp"
+#include "journal/mcap_reader.hpp"
 
 namespace berm::record {
 

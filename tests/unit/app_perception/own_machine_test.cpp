@@ -5,7 +5,7 @@
 
 #include "app_bench/bench_machine.hpp"
 #include "motion/arm_kinematics.hpp"
-#include "perception/own_machine.hpp"
+#include "motion/own_machine.hpp"
 
 namespace {
 

@@ -185,9 +185,17 @@ TEST(Gatherer, EveryPointIsAccountedFor) {
       if (!store.used(i)) continue;
       const GatheredPoint& p = store[i];
       const Vector3 at{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-      bool found = false;
-      store.for_each_in_box(at, at, [&](std::uint32_t index) { found = found || index == i; });
+      // From as far off as its own deviation reaches, whatever else its block holds; widest: of all that is there.
+      double widest = 0.0;
+      for (std::uint32_t k = 0; k < store.places(); ++k)
+        if (store.used(k)) widest = std::max(widest, largest_half_width(store[k].covariance, 1.0));
+      const auto sd = [](float variance) { return std::sqrt(static_cast<double>(variance)); };
+      const Vector3 rim{at[0] + 1.99 * sd(p.covariance.xx), at[1] - 1.99 * sd(p.covariance.yy), at[2] + 1.99 * sd(p.covariance.zz)};
+      bool found = false, found_from_rim = false;
+      store.for_each_near(at, {0, 0, 0}, 2.0, widest, [&](std::uint32_t index) { found = found || index == i; });
+      store.for_each_near(rim, {0, 0, 0}, 2.0, widest, [&](std::uint32_t index) { found_from_rim = found_from_rim || index == i; });
       RC_ASSERT(found);
+      RC_ASSERT(found_from_rim);
     }
   }));
 }

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "record/bytes.hpp"
-#include "record/mcap_format.hpp"
+#include "journal/bytes.hpp"
+#include "journal/mcap_format.hpp"
 
 namespace berm::record {
 

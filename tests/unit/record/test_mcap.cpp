@@ -9,7 +9,7 @@
 #include <iterator>
 #include <random>
 
-#include "record/mcap_reader.hpp"
+#include "journal/mcap_reader.hpp"
 #include "record/mcap_writer.hpp"
 
 namespace berm::record {

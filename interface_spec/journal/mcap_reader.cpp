@@ -1,4 +1,4 @@
-#include "record/mcap_reader.hpp"
+#include "journal/mcap_reader.hpp"
 
 #include <cerrno>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "perception/own_machine.hpp"
+#include "motion/own_machine.hpp"
 
 #include <algorithm>
 #include <cmath>
