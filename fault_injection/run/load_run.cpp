@@ -140,11 +140,17 @@ class LoadRun {
   }
 
   void inject() {
+    if (injected_ && !continued_ && options_.fault->kind == FaultKind::pause_app && recorder_.time_s() >= options_.fault->at_s + options_.fault->for_s) {
+      continued_ = true;
+      app_.signal(SIGCONT);
+      events_.say(fmt::format("{:7.1f} s  the app goes on", recorder_.time_s()));
+    }
     if (!options_.fault || injected_ || recorder_.time_s() < options_.fault->at_s) return;
     injected_ = true;
     switch (options_.fault->kind) {
       case FaultKind::kill_app: app_.signal(SIGKILL); break;
-      case FaultKind::stop_app: app_.signal(SIGSTOP); break;
+      case FaultKind::stop_app:
+      case FaultKind::pause_app: app_.signal(SIGSTOP); break;
       case FaultKind::kill_kernel: kernel_.signal(SIGKILL); break;
       case FaultKind::kill_journal: processes_.journal.signal(SIGKILL); break;
     }
@@ -240,7 +246,7 @@ class LoadRun {
   RunResult result_;
   MemoryWatch memory_;
   double next_progress_s_ = 0.0;
-  bool injected_ = false, init_told_ = false;
+  bool injected_ = false, continued_ = false, init_told_ = false;
   double init_since_s_ = -1.0;
   bool journal_cut_off_ = false;
 };

@@ -10,19 +10,32 @@ namespace berm::run {
 
 namespace {
 
+std::optional<double> time_of(const std::string& text) {
+  char* end = nullptr;
+  const double seconds = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(seconds) || seconds < 0.0) return std::nullopt;
+  return seconds;
+}
+
 ProcessFault parse_fault(const std::string& text) {
   const auto at = text.find('@');
   const std::string kind = text.substr(0, at);
   ProcessFault fault{};
   if (kind == "kill-app") fault.kind = FaultKind::kill_app;
   else if (kind == "stop-app") fault.kind = FaultKind::stop_app;
+  else if (kind == "pause-app") fault.kind = FaultKind::pause_app;
   else if (kind == "kill-kernel") fault.kind = FaultKind::kill_kernel;
   else if (kind == "kill-journal") fault.kind = FaultKind::kill_journal;
-  else throw CLI::ValidationError("--fault", "unknown fault '" + kind + "': kill-app, stop-app, kill-kernel or kill-journal, then @SECONDS");
-  char* end = nullptr;
+  else throw CLI::ValidationError("--fault", "unknown fault '" + kind + "': kill-app, stop-app, kill-kernel or kill-journal, then @SECONDS, or pause-app, then @SECONDS+SECONDS");
+  const bool pauses = fault.kind == FaultKind::pause_app;
   const std::string seconds = at == std::string::npos ? "" : text.substr(at + 1);
-  fault.at_s = std::strtod(seconds.c_str(), &end);
-  if (seconds.empty() || *end != '\0' || !std::isfinite(fault.at_s) || fault.at_s < 0.0) throw CLI::ValidationError("--fault", "'" + text + "' wants a time: e.g. kill-app@12.5");
+  const auto plus = pauses ? seconds.find('+') : std::string::npos;
+  const auto at_s = time_of(seconds.substr(0, plus));
+  const auto for_s = pauses && plus != std::string::npos ? time_of(seconds.substr(plus + 1)) : std::nullopt;
+  if (!at_s || (pauses && !for_s))
+    throw CLI::ValidationError("--fault", "'" + text + (pauses ? "' wants a time and how long: e.g. pause-app@12.5+4" : "' wants a time: e.g. kill-app@12.5"));
+  fault.at_s = *at_s;
+  fault.for_s = for_s.value_or(0.0);
   return fault;
 }
 
@@ -42,7 +55,7 @@ std::optional<int> read_options(int argc, char** argv, RunOptions& options) {
   app.add_flag("--realtime", options.realtime, "run on the wall clock instead of as fast as the computer allows");
   berm::config::output(app.add_option("--json", options.json, "write the result as one flat JSON object"));
   app.add_option("--out", options.out, "folder for trace.csv, truth.json, journal.mcap, app.jsonl, site.svg and result.json; those of an earlier run there are removed first");
-  app.add_option("--fault", fault, "a process fault in the run: kill-app@S, stop-app@S, kill-kernel@S or kill-journal@S, S in simulated seconds; then status 0 means that the machine stood still in time, untouched (kill-journal: that nothing came of it)");
+  app.add_option("--fault", fault, "a process fault in the run: kill-app@S, stop-app@S, kill-kernel@S or kill-journal@S, S in simulated seconds; then status 0 means that the machine stood still in time, untouched (kill-journal: that nothing came of it). pause-app@S+T: an app that does nothing for T seconds and then goes on; status as without a fault");
   app.add_flag("--quiet", options.quiet, "no progress, only the summary");
   if (const auto status = config::parse_options(app, argc, argv)) return status;
   options.report_when_interrupted = true;

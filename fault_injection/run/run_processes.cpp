@@ -12,6 +12,7 @@ namespace {
 constexpr int kTickDescriptor = 11;  // numbers in the children
 constexpr int kKernelDescriptor = 12;
 constexpr int kPaceDescriptor = 14;
+constexpr double kAlone_s = 2.0;  // at standstill, as the plant's own
 
 }  // namespace
 
@@ -64,6 +65,8 @@ void RunProcesses::start_plant() {
   child.arguments.insert(child.arguments.end(), lidar_options_.begin(), lidar_options_.end());
   child.descriptors = {{ticks_->first(), kTickDescriptor}, {lifeline_->first(), kKernelDescriptor}};
   child.arguments.insert(child.arguments.end(), {"--silence", std::to_string(options_.silence_s)});
+  // An app that will go on is waited for.
+  if (options_.fault && options_.fault->kind == FaultKind::pause_app) child.arguments.insert(child.arguments.end(), {"--alone", std::to_string(kAlone_s + options_.fault->for_s)});
   if (options_.trace_every > 1) child.arguments.insert(child.arguments.end(), {"--trace-every", std::to_string(options_.trace_every)});
   if (!options_.realtime && options_.journal) {
     child.arguments.insert(child.arguments.end(), {"--journal-fd", std::to_string(kPaceDescriptor)});

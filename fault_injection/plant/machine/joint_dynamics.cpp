@@ -42,8 +42,19 @@ void JointDynamics::break_joint(const MachineFault& fault) {
   switch (fault.kind) {
     case MachineFaultKind::weak_brake: brake_share_[fault.joint] = fault.factor; break;
     case MachineFaultKind::stuck_valve: valve_sticks_[fault.joint] = true; break;
-    case MachineFaultKind::stuck_angle: break;  // the joint is sound
+    case MachineFaultKind::stuck_angle:
+    case MachineFaultKind::own_error: break;  // the joint is sound
     case MachineFaultKind::runaway: driven_[fault.joint] = fault.factor * config_.joint[fault.joint].velocity_max; break;
+  }
+}
+
+void JointDynamics::mend_joint(const MachineFault& fault) {
+  switch (fault.kind) {
+    case MachineFaultKind::weak_brake: brake_share_[fault.joint] = 1.0; break;
+    case MachineFaultKind::stuck_valve: valve_sticks_[fault.joint] = false; [[fallthrough]];
+    case MachineFaultKind::runaway: driven_[fault.joint].reset(); break;
+    case MachineFaultKind::stuck_angle:
+    case MachineFaultKind::own_error: break;
   }
 }
 

@@ -32,8 +32,9 @@ class JointDynamics {
   // From t to t + dt, obeying a command that arrived by t.
   void step(double dt, Drive drive, const std::array<double, 4>& command, const DigForces& soil, double payload_kg);
   const JointState& state() const { return state_; }
-  // Faults whose time has come act from the next step on, for good.
+  // Faults whose time has come act from the next step on, until they are mended.
   void break_joint(const MachineFault& fault);
+  void mend_joint(const MachineFault& fault);
   // Joint's motion no longer follows what is commanded: it runs away, or its valve is stuck.
   bool out_of_control(std::size_t joint) const { return driven_[joint].has_value(); }
 

@@ -50,6 +50,7 @@ void StateFrames::every_50_ms(std::vector<berm_can_frame>& out, const MachineSna
   berm_machine_state machine{};
   machine.pilot_unlocked = now.pilot_unlocked;
   machine.lock_command = !now.pilot_unlocked;
+  machine.system_error = own_error_;
   machine.oil_temperature_c = 50;
   machine.engine_on = true;
   machine.alive_counter = alive_;

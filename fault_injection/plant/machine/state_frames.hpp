@@ -34,8 +34,10 @@ class StateFrames {
   StateFrames(const PlantProfile& profile, std::uint64_t seed);
   // Frames of this cycle (10 ms each, from 1), without the simulation clock.
   std::vector<berm_can_frame> frames(std::uint64_t cycle, const MachineSnapshot& now);
-  // From now on this joint's angle (0 swing, 1 boom, 2 stick, 3 bucket) is said to be what it was.
-  void stick_angle(std::size_t joint) { angle_sticks_[joint] = true; }
+  // From now on this joint's angle (0 swing, 1 boom, 2 stick, 3 bucket) is said to be what it was, or what it is again.
+  void stick_angle(std::size_t joint, bool sticks) { angle_sticks_[joint] = sticks; }
+  // From now on the machine says that it has an error of its own, or none.
+  void report_error(bool error) { own_error_ = error; }
 
  private:
   void guarded(std::vector<berm_can_frame>& out, GuardSender& guard, const berm_can_frame& frame);
@@ -49,6 +51,7 @@ class StateFrames {
   GuardSender angle_guard_, velocity_guard_, machine_guard_, estop_guard_, operator_guard_, spotter_guard_;
   std::uint8_t alive_ = 0;
   std::array<bool, 4> angle_sticks_{};
+  bool own_error_ = false;
   std::array<std::int32_t, 4> last_angle_urad_{};
 };
 

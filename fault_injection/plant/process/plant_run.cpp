@@ -26,7 +26,6 @@ constexpr double kAfterFinish = 1.0;  // s
 constexpr double kLooksBeforeRun_s = 0.2;  // four frames of the panel
 constexpr double kBesideReach = 2.0;  // m beyond the implements: nobody may be nearer when they are moved by hand
 constexpr const char* kJointNames[] = {"swing", "boom", "stick", "bucket"};
-constexpr double kAfterLoss = 2.0;    // s at standstill without a peer
 
 const std::string& made_folder(const std::string& path) {
   std::error_code error;
@@ -75,10 +74,14 @@ PlantRun::PlantRun(const Scenario& scenario, const PlantProfile& profile, const 
 
 void PlantRun::break_machine() {
   constexpr double kRounding = 1e-6;  // times are multiples of the cycle in floating point
+  const auto comes_now = [this](double at_s) { return now_ + kRounding >= at_s && now_ + kRounding < at_s + kCycle; };
   for (const MachineFault& fault : scenario_.machine_fault) {
-    if (now_ + kRounding < fault.at_s || now_ + kRounding >= fault.at_s + kCycle) continue;
-    dynamics_.break_joint(fault);
-    if (fault.kind == MachineFaultKind::stuck_angle) frames_.stick_angle(fault.joint);
+    const bool breaks = comes_now(fault.at_s), mended = fault.for_s && comes_now(fault.at_s + *fault.for_s);
+    if (!breaks && !mended) continue;
+    if (breaks) dynamics_.break_joint(fault);
+    else dynamics_.mend_joint(fault);
+    if (fault.kind == MachineFaultKind::stuck_angle) frames_.stick_angle(fault.joint, breaks);
+    if (fault.kind == MachineFaultKind::own_error) frames_.report_error(breaks);
   }
 }
 
@@ -313,7 +316,7 @@ std::string PlantRun::end_reason(double t) {
   const bool alone = finished_at_ < 0.0 && (lost(peers_.kernel()) || lost(peers_.app())) && standing_cycles_ >= kStandstillCycles;
   if (!alone) alone_since_ = -1.0;
   if (alone && alone_since_ < 0.0) alone_since_ = t;
-  if (alone && t - alone_since_ + kRounding >= kAfterLoss) {
+  if (alone && t - alone_since_ + kRounding >= options_.alone_s) {
     const bool kernel = lost(peers_.kernel());
     return fmt::format("{} {}", kernel ? "kernel" : "app", state_name(kernel ? peers_.kernel() : peers_.app()));
   }

@@ -37,6 +37,7 @@ struct RunOptions {
   std::string out;          // folder, made when missing
   bool realtime = false;
   int trace_every = 1;      // cycles
+  double alone_s = 2.0;     // at standstill without kernel or app, after which the run ends
   Peers::Descriptors peers;
   int stop_fd = -1;         // readable: end the run
 };

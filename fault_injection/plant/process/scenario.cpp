@@ -32,10 +32,13 @@ PanelEvent read_panel(StrictTable t) {
 
 MachineFault read_machine_fault(StrictTable t) {
   MachineFault fault{};
-  const std::string kind = t.choice("kind", {"weak_brake", "stuck_valve", "runaway", "stuck_angle"});
-  const std::string joint = t.choice("joint", {"swing", "boom", "stick", "bucket"});
-  fault.joint = joint == "swing" ? 0 : joint == "boom" ? 1 : joint == "stick" ? 2 : 3;
+  const std::string kind = t.choice("kind", {"weak_brake", "stuck_valve", "runaway", "stuck_angle", "own_error"});
+  if (kind != "own_error") {
+    const std::string joint = t.choice("joint", {"swing", "boom", "stick", "bucket"});
+    fault.joint = joint == "swing" ? 0 : joint == "boom" ? 1 : joint == "stick" ? 2 : 3;
+  }
   fault.at_s = t.number("at_s", 0.0, 36000.0);
+  if (t.has("for_s")) fault.for_s = t.number("for_s", 0.05, 36000.0);
   if (kind == "weak_brake") {
     fault.kind = MachineFaultKind::weak_brake;
     fault.factor = t.number("factor", 0.05, 1.0);
@@ -43,7 +46,7 @@ MachineFault read_machine_fault(StrictTable t) {
     fault.kind = MachineFaultKind::runaway;
     fault.factor = t.number("factor", -1.0, 1.0);
   } else {
-    fault.kind = kind == "stuck_angle" ? MachineFaultKind::stuck_angle : MachineFaultKind::stuck_valve;
+    fault.kind = kind == "stuck_angle" ? MachineFaultKind::stuck_angle : kind == "own_error" ? MachineFaultKind::own_error : MachineFaultKind::stuck_valve;
   }
   t.finish();
   return fault;

@@ -197,6 +197,8 @@ def load_numbers():
     one_clear_line(run("berm_load", "--fault", "kill-all@3"), "kill-all")
     for never in ("kill-app", "kill-app@inf", "kill-app@nan", "kill-app@-1", "kill-app@1e400", "kill-app@5x"):
         one_clear_line(run("berm_load", "--fault", never, timeout=60), f"'{never}' wants a time")
+    for never in ("pause-app", "pause-app@5", "pause-app@5+", "pause-app@+5", "pause-app@5+x", "pause-app@5+-1"):
+        one_clear_line(run("berm_load", "--fault", never, timeout=60), f"'{never}' wants a time and how long")
 
 
 def scripts():

@@ -191,5 +191,38 @@ TEST(MachineFault, ARunawayMovesUntoldUntilPowerIsRemoved) {
   EXPECT_EQ(boom.speed(), 0.0);
 }
 
+TEST(MachineFault, AMendedJointObeysAndBrakesAsBefore) {
+  double way[2];
+  for (const bool was_broken : {false, true}) {
+    BrokenBoom boom;
+    for (const MachineFaultKind kind : {MachineFaultKind::weak_brake, MachineFaultKind::stuck_valve, MachineFaultKind::runaway}) {
+      if (!was_broken) continue;
+      const MachineFault fault{kind, 1, 0.0, 0.5};
+      boom.d.break_joint(fault);
+      boom.d.mend_joint(fault);
+    }
+    boom.run(Drive::obey, 0.3, 1.5);
+    EXPECT_FALSE(boom.d.out_of_control(1));
+    const double from = boom.angle();
+    boom.run(Drive::obey, 0.0, 2.0);
+    EXPECT_EQ(boom.speed(), 0.0);
+    way[was_broken ? 1 : 0] = boom.angle() - from;
+  }
+  EXPECT_EQ(way[0], way[1]);
+}
+
+TEST(MachineFault, AStuckValveThatIsMendedLetsGo) {
+  BrokenBoom boom;
+  const MachineFault fault{MachineFaultKind::stuck_valve, 1, 0.0, 0.0};
+  boom.d.break_joint(fault);
+  boom.run(Drive::obey, 0.3, 1.0);
+  ASSERT_TRUE(boom.d.out_of_control(1));
+  boom.d.mend_joint(fault);
+  boom.run(Drive::obey, 0.0, 1.0);
+  EXPECT_EQ(boom.speed(), 0.0);
+  boom.run(Drive::obey, 0.3, 1.0);
+  EXPECT_FALSE(boom.d.out_of_control(1)) << "it does not stick again";
+}
+
 }  // namespace
 }  // namespace berm::plant::testing

@@ -125,5 +125,34 @@ TEST(StateFrames, CarryWhatTheySay) {
   }
 }
 
+TEST(StateFrames, AnAngleSticksAndAnErrorIsReportedUntilTheyAreMended) {
+  MachineSnapshot now = snapshot();
+  StateFrames frames(profile(), 3);
+  std::uint64_t cycle = 1;
+  const auto says = [&] {
+    std::pair<std::int32_t, bool> said{};
+    for (const berm_can_frame& f : frames.frames(cycle, now)) {
+      berm_front_angle angle;
+      berm_machine_state machine;
+      if (berm_decode_front_angle(&f, &angle)) said.first = angle.angle_urad[1];
+      if (berm_decode_machine_state(&f, &machine)) said.second = machine.system_error;
+    }
+    cycle += 5;
+    now.joints.angle[1] += 0.1;
+    return said;
+  };
+  const auto before = says();
+  EXPECT_FALSE(before.second);
+  frames.stick_angle(1, true);
+  frames.report_error(true);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(says(), std::pair(before.first, true));
+  frames.stick_angle(1, false);
+  frames.report_error(false);
+  const double is = now.joints.angle[1];
+  const auto after = says();
+  EXPECT_NEAR(after.first * 1e-6, is, MachineFile{}.angle_error[1]);
+  EXPECT_FALSE(after.second);
+}
+
 }  // namespace
 }  // namespace berm::plant::testing

@@ -230,8 +230,11 @@ TEST(Scenario, MachineFaultsAreReadAndChecked) {
   EXPECT_TRUE(loaded(good).machine_fault.empty());
   const Scenario s = loaded(good + table + "kind = \"weak_brake\"\njoint = \"swing\"\nat_s = 2.5\nfactor = 0.5\n" + table +
                             "kind = \"stuck_valve\"\njoint = \"boom\"\nat_s = 3\n" + table + "kind = \"runaway\"\njoint = \"bucket\"\nat_s = 4\nfactor = -0.25\n" + table +
-                            "kind = \"stuck_angle\"\njoint = \"stick\"\nat_s = 5\n");
-  ASSERT_EQ(s.machine_fault.size(), 4u);
+                            "kind = \"stuck_angle\"\njoint = \"stick\"\nat_s = 5\nfor_s = 2.5\n" + table + "kind = \"own_error\"\nat_s = 6\n");
+  ASSERT_EQ(s.machine_fault.size(), 5u);
+  EXPECT_EQ(s.machine_fault[4].kind, MachineFaultKind::own_error);
+  EXPECT_FALSE(s.machine_fault[4].for_s.has_value()) << "for good";
+  EXPECT_EQ(s.machine_fault[3].for_s, 2.5);
   EXPECT_EQ(s.machine_fault[3].kind, MachineFaultKind::stuck_angle);
   EXPECT_EQ(s.machine_fault[3].joint, 2u);
   EXPECT_EQ(s.machine_fault[0].kind, MachineFaultKind::weak_brake);
@@ -243,11 +246,13 @@ TEST(Scenario, MachineFaultsAreReadAndChecked) {
   EXPECT_EQ(s.machine_fault[2].kind, MachineFaultKind::runaway);
   EXPECT_EQ(s.machine_fault[2].joint, 3u);
   EXPECT_EQ(s.machine_fault[2].factor, -0.25);
-  EXPECT_EQ(refusal(good + table + "kind = \"rust\"\njoint = \"boom\"\nat_s = 1\n"), "machine_fault[0].kind: 'rust' is not one of weak_brake, stuck_valve, runaway, stuck_angle");
+  EXPECT_EQ(refusal(good + table + "kind = \"rust\"\njoint = \"boom\"\nat_s = 1\n"), "machine_fault[0].kind: 'rust' is not one of weak_brake, stuck_valve, runaway, stuck_angle, own_error");
   EXPECT_EQ(refusal(good + table + "kind = \"stuck_valve\"\njoint = \"track\"\nat_s = 1\n"), "machine_fault[0].joint: 'track' is not one of swing, boom, stick, bucket");
   EXPECT_EQ(refusal(good + table + "kind = \"weak_brake\"\njoint = \"boom\"\nat_s = 1\nfactor = 0\n"), "machine_fault[0].factor: 0 is outside 0.05 .. 1");
   EXPECT_EQ(refusal(good + table + "kind = \"runaway\"\njoint = \"boom\"\nat_s = 1\n"), "machine_fault[0].factor: is missing");
   EXPECT_EQ(refusal(good + table + "kind = \"stuck_valve\"\njoint = \"boom\"\nat_s = 1\nfactor = 0.5\n"), "machine_fault[0].factor: is not a known key");
+  EXPECT_EQ(refusal(good + table + "kind = \"stuck_valve\"\njoint = \"boom\"\nat_s = 1\nfor_s = 0\n"), "machine_fault[0].for_s: 0 is outside 0.05 .. 36000");
+  EXPECT_EQ(refusal(good + table + "kind = \"own_error\"\njoint = \"boom\"\nat_s = 1\n"), "machine_fault[0].joint: is not a known key");
 }
 
 TEST(Scenario, TellsWhenSomethingIsWrong) {
@@ -266,6 +271,7 @@ TEST(Scenario, TellsWhenSomethingIsWrong) {
   EXPECT_EQ(both[0].to_s.value(), 7.0);
   EXPECT_EQ(both[1].what, "machine");
   EXPECT_FALSE(both[1].to_s.has_value());
+  EXPECT_EQ(disturbances(loaded(text_of("bench.toml") + fault + "for_s = 4\n"))[0].to_s, 7.0) << "until it is repaired";
 }
 
 TEST(Scenario, MachineIsAProfilesNameOrAPathBesideTheScenario) {

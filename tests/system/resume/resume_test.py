@@ -1,0 +1,109 @@
+"""After each kind of stop that latches: what stopped the machine ends, the operator is told what to do and resets, and the app goes on and fills its truck.
+
+Those of a base that moved are in tests/system/base, of a blocked window in tests/system/sight, of somebody behind the machine and of a lidar in tests/system/tail.
+
+verifies: SK-ST-22, SK-MS-7"""
+import csv
+import json
+import pathlib
+import shutil
+import tempfile
+
+from berm_command import ROOT, load, main, run
+
+JOINTS = ("swing", "boom", "stick", "bucket")
+STILL_RAD_S = 0.009
+LATCHED = ("4", "5")  # BERM_STATE_STOPPED, BERM_STATE_FAULT
+# In the first swing to the truck, with a full bucket; what is wrong is over when the operator switches run off, resets, and switches it on.
+WRONG_S, MENDED_AFTER_S, OFF_S, RESET_S, ON_S = 24.3, 10.0, 50.0, 51.0, 53.0
+# Of so small a truck: 3 % may be left because less than 6 % of a bucket is not worth a pass, and what was weighed is wrong by up to 1 %.
+FULL = (0.96, 1.01)
+
+
+def table(name, **keys):
+    return f"\n[[{name}]]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items())
+
+
+def broken(kind, **keys):
+    return table("machine_fault", kind=kind, at_s=WRONG_S, for_s=MENDED_AFTER_S, **keys)
+
+
+def key(action, at_s, for_s):
+    return table("panel", action=action, at_s=at_s, for_s=for_s)
+
+
+def scenario(folder, tables):
+    text = (ROOT / "fault_injection/scenarios/short.toml").read_text()
+    assert text.count("max_time_s = 1800.0") == 1
+    path = folder / "resume.toml"
+    path.write_text(text.replace("max_time_s = 1800.0", "max_time_s = 200.0") + tables + key("pause", OFF_S, ON_S - OFF_S) + key("reset", RESET_S, 0.5))
+    return path
+
+
+def fills_its_truck_after(reason, code, advice, tables="", fault=(), counted=None):
+    """counted: the reason under which the kernel's first stop is counted, when one of a higher rank followed it."""
+    who = reason
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
+    _, result, out, text = load("--scenario", scenario(folder, tables), "--seed", 1, *fault)
+    assert result is not None, text[-500:]
+    assert result["contacts"] == 0, f"{who}: {result['contacts']} contacts"
+    assert result["kernel_stops"].get(counted or reason, 0) == 1, f"{who}: kernel stops {result['kernel_stops']}"
+    with open(out / "trace.csv", newline="") as file:
+        rows = [(float(row["time_s"]), row["stop_state"], int(row["stop_reason"]), max(abs(float(row[f"{joint}_rad_s"])) for joint in JOINTS)) for row in csv.DictReader(file)]
+    before = [(state, why) for t, state, why, _ in rows if OFF_S - 1.0 < t < RESET_S]
+    assert set(before) <= {(state, code) for state in LATCHED}, f"{who}: before the reset {sorted(set(before))}"
+    assert max(speed for t, *_, speed in rows if WRONG_S - 5.0 < t < WRONG_S) > 0.1, f"{who}: it stood before it was stopped"
+    moves = [t for t, *_, speed in rows if WRONG_S + 6.0 < t < ON_S and speed > STILL_RAD_S]
+    assert not moves, f"{who}: moves at {moves[:3]} s, before run was switched on"
+    again = next((t for t, *_, speed in rows if t > ON_S and speed > 0.1), None)
+    assert again is not None and again < ON_S + 15.0, f"{who}: moves again at {again}"
+    events = [json.loads(line) for line in (out / "app.jsonl").read_text().splitlines()]
+    told = [e for e in events if e["event"] == "operator_needed" and e["reason"] == reason.replace("_", " ")]
+    assert len(told) == 1 and WRONG_S < told[0]["time_s"] < OFF_S, f"{who}: the operator was told {told}"
+    assert advice in told[0]["advice"] and "press reset" in told[0]["advice"], f"{who}: {told[0]['advice']}"
+    share = result["payload_kg"][0] / result["target_kg"]
+    assert FULL[0] <= share <= FULL[1] and "truck 1 is full" in text, f"{who}: {100 * share:.1f} % of the target in the truck"
+    assert result["end_reason"] == "finished" and result["spill_fraction"] < 0.015, result
+    replayed = run("berm_replay", out / "journal.mcap")
+    assert replayed.returncode == 0, replayed.stdout[-500:]
+    print(f"{who}: moves again at {again:.1f} s, {100 * share:.1f} % of the target at {rows[-1][0]:.0f} s")
+    shutil.rmtree(out)
+    shutil.rmtree(folder)
+
+
+def an_angle_lies():
+    fills_its_truck_after("state_frame", 7, "look at the bus and its plugs", broken("stuck_angle", joint="swing"))
+
+
+def a_scanner_is_silent():
+    fills_its_truck_after("scanner_silent", 8, "power and cable", table("scanner_fault", scanner=1, kind="silent", at_s=WRONG_S, for_s=MENDED_AFTER_S))
+
+
+def the_stop_key():
+    fills_its_truck_after("operator", 9, "release the stop key", key("stop", WRONG_S, 1.0))
+
+
+def the_emergency_stop():
+    fills_its_truck_after("emergency", 10, "when nobody is in danger, release it", key("emergency", WRONG_S, 1.0))
+
+
+def a_brake_is_weak():
+    """Seen when the operator stops a fast swing, so that it is his stop that is counted."""
+    fills_its_truck_after("braking", 12, "have its valves, its oil and the load in the bucket checked", broken("weak_brake", joint="swing", factor=0.5) + key("stop", WRONG_S + 0.3, 1.0),
+                          counted="operator")
+
+
+def the_machine_reports_an_error():
+    fills_its_truck_after("machine_fault", 13, "read its display", broken("own_error"))
+
+
+def a_joint_moves_untold():
+    fills_its_truck_after("uncommanded", 17, "keep everybody away", broken("runaway", joint="stick", factor=0.5))
+
+
+def the_app_is_silent():
+    """It does nothing for ten seconds."""
+    fills_its_truck_after("app_silent", 6, "look what kept the app's computer busy", fault=("--fault", f"pause-app@{WRONG_S}+{MENDED_AFTER_S}"), counted="request_hold")
+
+
+main([an_angle_lies, a_scanner_is_silent, the_stop_key, the_emergency_stop, a_brake_is_weak, the_machine_reports_an_error, a_joint_moves_untold, the_app_is_silent])
