@@ -37,6 +37,7 @@ public:
   Joints taken_up(const Joints& angle, const Joints& velocity) const;
 
   // Of each joint, as JointController's.
+  const JointModel& model(std::size_t joint) const { return controller_[joint].model(); }
   Joints shares() const;
   bool cut(std::size_t joint) const { return controller_[joint].cut(); }
 

@@ -51,6 +51,8 @@ public:
   // What it asked for last was more than is permitted now, which is more than nothing.
   bool cut() const { return cut_; }
   double lag() const { return model_.response().up.lag; }  // s
+  // With the commands under way; where the joint is it does not know.
+  const JointModel& model() const { return model_; }
   JointModel::State predict(double measured_angle, double measured_velocity) const { return model_.predict(measured_angle, measured_velocity); }
 
 private:

@@ -1,8 +1,9 @@
 #include "planning/pass_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "planning/pass_simulation.hpp"
 
 namespace berm::app {
 
@@ -10,10 +11,8 @@ namespace {
 
 constexpr double hover_lowest = 0.20, hover_step = 0.35;  // m over the bench's level, of the search
 constexpr double lowers_after = 0.8;                       // at most, of where the arm reaches out over the dig
-constexpr double arrived = radians(1.0);
 // s before the swing stands that the bucket begins to open: of one that is level nothing slides in the first half second; one that cannot be held level pours at once.
 constexpr double soonest_lead = 1.0, soonest_lead_tilted = 0.5, latest_lead = 0.0, lead_step = 0.05;
-constexpr double empties_before = radians(40.0);         // of the open bucket, when what is left no longer holds up the swing
 
 }  // namespace
 
@@ -151,66 +150,30 @@ void PassSearch::lower_sooner() {
 }
 
 PassSearch::Outcome PassSearch::simulate(const PassThresholds& thresholds) const {
-  constexpr int script_every = 2;   // cycles: 50 Hz
-  constexpr int check_every = 5;
   constexpr double most_seconds = 30.0;
-  constexpr double emptying = 0.5;  // s with the bucket open
   constexpr double most_beyond_dig = radians(60.0);  // a stop may carry the swing past the dig only over ground that the scanners sweep
   const double side = task_.truck_bearing >= task_.next_bearing ? 1.0 : -1.0;
-  ArmController arm(machine_);
-  std::array<JointModel, joints> model{JointModel(response_of(machine_, swing), machine_.cycle), JointModel(response_of(machine_, boom), machine_.cycle),
-                                       JointModel(response_of(machine_, stick), machine_.cycle), JointModel(response_of(machine_, bucket), machine_.cycle)};
-  for (std::size_t j = 0; j < joints; ++j) model[j].reset(task_.lifted_from[j], 0.0);
   Script script = pass_script(*scripts_, machine_, task_, poses_, thresholds);
   script.start();
+  PassSimulation motion(machine_);
+  motion.begin(script, ArmController(machine_), task_.lifted_from, {}, {machine_.bucket_payload_kg, task_.brake_empty, poses_.dump[bucket]});
   const bool only_out = stage_ <= Stage::over_bed;  // nothing is asked of the way back yet
   Outcome outcome;
-  double open_s = 0.0;
-  const int most = static_cast<int>(most_seconds / machine_.cycle);
-  for (int k = 0; k < most; ++k) {
-    Joints angle{}, velocity{};
-    for (std::size_t j = 0; j < joints; ++j) {
-      angle[j] = model[j].angle();
-      velocity[j] = model[j].velocity();
-    }
-    const bool opens = script.of(bucket).reached(RuleMark::opens), open = opens && angle[bucket] > poses_.dump[bucket] - radians(8.0);
-    open_s = open ? open_s + machine_.cycle : open_s;
-    const std::uint32_t pours = opens && angle[bucket] > poses_.dump[bucket] - empties_before ? event_empties : event_none;
-    if (k % script_every == 0) script.evaluate(angle, event_weighed | pours | (open_s >= emptying ? event_emptied : event_none));
-    const bool returning = script.of(swing).reached(RuleMark::returns);
-    arm.brake_swing(returning ? task_.brake_empty : 0.0);
-    const double carried_kg = returning ? 0.0 : machine_.bucket_payload_kg;
-    arm.carries(carried_kg);
-    if (k % script_every == 0)
-      for (std::size_t j = 0; j < joints; ++j) model[j].respond(responses_of(machine_, j, reach_of(machine_, angle), carried_kg));
-    if (k % check_every == 0) {
-      const ReachIntervals box = preview(machine_, angle, velocity);
+  while (motion.seconds() < most_seconds) {
+    motion.evaluate();
+    if (motion.to_be_checked()) {
+      const bool returning = motion.returns(), extends = motion.extends();
+      const ReachIntervals box = motion.box();
       const double beyond = side > 0.0 ? task_.next_bearing - box.low[swing] : box.high[swing] - task_.next_bearing;
-      const bool extends = script.of(stick).reached(RuleMark::extends);
-      // What no threshold helps against. Near its range's end a joint is slowed by itself, whenever it comes there: a bucket that opens far for what sticks in it
-      // comes there in every pass. Beside the truck stands its cab: how fast the swing goes towards it with folded implements is the kernel's to
-      // say, which slows it smoothly. What the arm meets of its own body it meets however late the swing begins: the guard slows the arm.
-      auto blocking = skyline_.blocking(box, Skyline::Ranges::left_to_guard);
-      if (blocking && !extends && blocking->what != Skyline::Blocking::What::ground) blocking.reset();
-      if (blocking || (returning && beyond > most_beyond_dig)) {
+      if (motion.blocking(skyline_, box) || (returning && beyond > most_beyond_dig)) {
         (returning ? outcome.clear_back : extends ? outcome.clear_over_bed : outcome.clear_out) = false;
         if (!returning && only_out) return outcome;
       }
       if (only_out && (returning || (extends && stage_ != Stage::over_bed))) return outcome;
     }
-    const Joints goals = script.goals();
-    const Joints command = arm.toward(goals, script.paces(), angle, velocity);
-    arm.sent(command);
-    bool standing = script.at_last();
-    for (std::size_t j = 0; j < joints; ++j) {
-      model[j].advance(command[j]);
-      standing = standing && std::fabs(angle[j] - goals[j]) < arrived && std::fabs(velocity[j]) < radians(1.0);
-    }
-    outcome.seconds = (k + 1) * machine_.cycle;
-    if (standing) {
-      outcome.finished = true;
-      break;
-    }
+    outcome.finished = !motion.advance();
+    outcome.seconds = motion.seconds();
+    if (outcome.finished) break;
   }
   return outcome;
 }
