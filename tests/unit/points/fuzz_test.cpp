@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <random>
+#include <string_view>
+#include <vector>
 
 #include "points/lms111.hpp"
 #include "points/pcap.hpp"
@@ -23,8 +25,9 @@ struct Tally {
 
 template <typename Parse>
 void take(Parse parse, const std::string& bytes, Tally& tally) {
+  const std::vector<char> block(bytes.begin(), bytes.end());  // a read beyond it is one beyond its memory
   try {
-    const PointCloud cloud = parse(bytes, "mutant");
+    const PointCloud cloud = parse(std::string_view(block.data(), block.size()), "mutant");
     ++tally.accepted;
     std::uint32_t scanline = 0;
     for (const ScanPoint& p : cloud.points) {
