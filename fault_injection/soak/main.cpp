@@ -24,15 +24,19 @@ constexpr int kSilence_s = 120;               // a computer that is busy otherwi
 constexpr int kTraceEvery = 10;  // cycles: 288 000 rows in eight hours
 
 int run(int argc, char** argv) {
-  double hours = 8.0;
+  double hours = 8.0, memory_growth_most = berm::soak::kMemoryGrowthMost;
   std::string json, out;
   std::uint64_t seed = 1;
   bool journal = false, picture = false;
   CLI::App app{"A whole shift in lockstep: trucks, people, dust and soil as the seed draws them, and an operator who moves the machine back along the bench\n"
-               "and resets it after stops. Ends with a report. Exit status 0: the shift came to its end with no contact, and never a quarter of an hour without a pass.\n"
+               "and resets it after stops. Ends with a report. Exit status 0: the shift came to its end with no contact, never a quarter of an hour without a pass,\n"
+               "and of an hour or more: memory that does not grow faster than --memory-growth.\n"
                "SIGINT or SIGTERM ends it with the report of what ran until then.",
                "berm soak"};
   app.add_option("--hours", hours, "of simulated time")->capture_default_str()->check(CLI::Range(0.01, 10.0));
+  app.add_option("--memory-growth", memory_growth_most, "KiB an hour by which the resident memory of kernel and app together may grow; judged of a shift of an hour or more")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 1e6));
   app.add_option("--seed", seed, "seed of every random draw")->capture_default_str();
   berm::config::output(app.add_option("--json", json, "write the report as one flat JSON object"));
   app.add_option("--out", out, "folder for scenario.toml (what was drawn), trace.csv (a row each 0.1 s), truth.json, app.jsonl and result.json; those of an earlier run there are removed first");
@@ -73,7 +77,7 @@ int run(int argc, char** argv) {
   fmt::print("seed {}, {:.2f} h; run again: {}\n", seed, hours,
              kept ? fmt::format("./berm load --scenario {} --seed {} --trucks {}", scenario, seed, options.trucks) : fmt::format("./berm soak --hours {} --seed {}", hours, seed));
   std::fflush(stdout);
-  const auto report = berm::soak::shift_json(berm::run::load_trucks(options), hours, drawn);
+  const auto report = berm::soak::shift_json(berm::run::load_trucks(options), hours, drawn, memory_growth_most);
   fmt::print("{}", berm::soak::shift_text(report));
   if (!json.empty()) berm::config::write_whole_file(json, berm::config::json_text(report, 2));
   const auto reasons = berm::soak::shortcomings(report);

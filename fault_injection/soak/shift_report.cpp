@@ -12,6 +12,7 @@ namespace {
 
 using nlohmann::json;
 
+constexpr double kMemoryJudged_h = 1.0;  // before, the slope is that of the buffers which a truck needs and gives back
 constexpr double kStuck_s = 900.0;  // without a pass: a truck takes five minutes, the longest wait for one four
 
 json maybe(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
@@ -27,6 +28,15 @@ json longest_standstill(const run::RunResult& r, double seconds) {
     if (event.value("event", "") == "pass") until(event.value("time_s", 0.0));
   until(seconds);
   return {{"seconds", longest}, {"from_s", from}};
+}
+
+bool memory_is_judged(const json& report) { return report["memory_growth_kib_per_hour"].is_number() && report["hours"].get<double>() >= 0.999 * kMemoryJudged_h; }
+
+std::string memory_text(const json& report) {
+  const json& growth = report["memory_growth_kib_per_hour"];
+  if (!growth.is_number()) return "too short to judge whether kernel and app grow";
+  const std::string slope = fmt::format("kernel and app grow by {:.1f} KiB an hour", growth.get<double>());
+  return slope + (memory_is_judged(report) ? fmt::format(" (at most {:g})", report["memory_growth_most_kib_per_hour"].get<double>()) : "; too short to judge: under an hour");
 }
 
 // As the scenario has them.
@@ -54,7 +64,7 @@ std::string last_word(const run::RunResult& r) {
 
 }  // namespace
 
-json shift_json(const run::RunResult& r, double hours, const DrawnShift& drawn) {
+json shift_json(const run::RunResult& r, double hours, const DrawnShift& drawn, double memory_growth_most) {
   json out = run::flat_json(r);
   out["soil"] = soil_changes(drawn);
   const double seconds = out["simulated_seconds"].get<double>();
@@ -73,6 +83,7 @@ json shift_json(const run::RunResult& r, double hours, const DrawnShift& drawn) 
   for (const auto& [reason, count] : r.measures.own_motion_stops) needless += count;
   out["needless_stops"] = needless;
   out["memory_growth_kib_per_hour"] = maybe(r.memory.kib_per_hour);
+  out["memory_growth_most_kib_per_hour"] = memory_growth_most;
   out["memory_growth_kernel_kib_per_hour"] = maybe(r.memory.kernel_kib_per_hour);
   out["memory_growth_app_kib_per_hour"] = maybe(r.memory.app_kib_per_hour);
   out["realtime_factor"] = r.wall_seconds > 0 ? seconds / r.wall_seconds : 0.0;
@@ -105,7 +116,7 @@ std::string shift_text(const json& j) {
   row("spill", fmt::format("{:.2f} % of what was dug", 100 * j["spill_fraction"].get<double>()));
   row("soil", soil_text(j["soil"], j["simulated_seconds"].get<double>()));
   row("worst load", fmt::format("centre {} m off, height standard deviation {} m", number("load_centre_offset_m_worst", 2), number("load_height_stddev_m_worst", 2)));
-  row("memory", fmt::format("kernel and app grow by {} KiB an hour", number("memory_growth_kib_per_hour", 1)));
+  row("memory", memory_text(j));
   row("longest without pass", fmt::format("{} s from {} s{}", number("longest_without_pass_s", 0), number("longest_without_pass_from_s", 0), j["stuck"].get<bool>() ? ": STUCK; " + j["last_operator_message"].get<std::string>() : ""));
   return text;
 }
@@ -114,6 +125,8 @@ std::vector<std::string> shortcomings(const json& j) {
   std::vector<std::string> reasons;
   if (j["contacts"].get<int>() > 0) reasons.push_back(fmt::format("{} contact(s)", j["contacts"].dump()));
   if (j["hours"].get<double>() < 0.999 * j["hours_asked"].get<double>()) reasons.push_back(fmt::format("the shift ended early: {}", j["end_reason"].get<std::string>()));
+  if (memory_is_judged(j) && j["memory_growth_kib_per_hour"].get<double>() > j["memory_growth_most_kib_per_hour"].get<double>())
+    reasons.push_back(fmt::format("kernel and app grow by {:.1f} KiB an hour", j["memory_growth_kib_per_hour"].get<double>()));
   if (j["stuck"].get<bool>()) reasons.push_back(fmt::format("no pass for {:.0f} s", j["longest_without_pass_s"].get<double>()));
   return reasons;
 }

@@ -98,13 +98,33 @@ TEST(ShiftReport, SpillAndTheWorstLoadAreOfTheTrucksThatLeft) {
 
 TEST(ShiftReport, MemoryGrowsOrIsNotKnown) {
   const json report = report_of(half_an_hour());
-  EXPECT_EQ(row(report, "memory"), "kernel and app grow by 12.3 KiB an hour");
+  EXPECT_EQ(row(report, "memory"), "kernel and app grow by 12.3 KiB an hour; too short to judge: under an hour");
   EXPECT_EQ(report["memory_growth_kernel_kib_per_hour"], 5.0);
   EXPECT_EQ(report["memory_growth_app_kib_per_hour"], 7.34);
   run::RunResult brief = half_an_hour();
   brief.memory = {};
-  EXPECT_EQ(row(report_of(brief), "memory"), "kernel and app grow by none KiB an hour");
+  EXPECT_EQ(row(report_of(brief), "memory"), "too short to judge whether kernel and app grow");
   EXPECT_TRUE(report_of(brief)["memory_growth_kib_per_hour"].is_null());
+}
+
+// A shift of two hours with a pass every ten minutes.
+TEST(ShiftReport, MemoryThatGrowsTooFastIsAShortcomingOfAnHourOrMore) {
+  run::RunResult r = half_an_hour();
+  r.truth["simulated_seconds"] = 7200.0;
+  r.app_events.clear();
+  for (int i = 1; i <= 12; ++i) r.app_events.push_back({{"event", "pass"}, {"time_s", 600.0 * i}, {"seconds", 15.0}});
+  r.memory = {500.0, 100.0, 400.0};
+  EXPECT_EQ(row(shift_json(r, 2.0, {}), "memory"), "kernel and app grow by 500.0 KiB an hour (at most 500)");
+  EXPECT_THAT(shortcomings(shift_json(r, 2.0, {})), IsEmpty());
+  r.memory = {500.5, 100.0, 400.5};
+  EXPECT_THAT(shortcomings(shift_json(r, 2.0, {})), ElementsAre("kernel and app grow by 500.5 KiB an hour"));
+  EXPECT_THAT(shortcomings(shift_json(r, 2.0, {}, 501.0)), IsEmpty()) << "--memory-growth";
+  EXPECT_THAT(shortcomings(shift_json(r, 2.0, {}, 20.0)), ElementsAre("kernel and app grow by 500.5 KiB an hour"));
+  r.truth["simulated_seconds"] = 3500.0;
+  EXPECT_THAT(shortcomings(shift_json(r, 3500.0 / 3600, {})), IsEmpty()) << "too short to judge";
+  r.memory = {};
+  r.truth["simulated_seconds"] = 7200.0;
+  EXPECT_THAT(shortcomings(shift_json(r, 2.0, {})), IsEmpty());
 }
 
 TEST(ShiftReport, ContactsAreCountedAndAShortcoming) {
