@@ -95,6 +95,10 @@ Trial judge(const Scene& scene, const app::RecognisedTruck& answer) {
   t.evidence = answer.evidence;
   t.cab = answer.cab;
   t.pose = answer.pose;
+  t.planes = answer.planes;
+  t.canopy = k.canopy;
+  t.true_height = k.wall_height;
+  t.told_class = answer.truck_class;
   if (!t.truck) return t;
   const app::BedPose true_pose = pose_of(k);
   app::FanSweep sweep = app::thinned(app::make_fans(scene.cloud, viewpoint_of(scene)));

@@ -6,6 +6,7 @@
 
 #include "recognition/bed_fit.hpp"
 #include "recognition/bed_search.hpp"
+#include "recognition/level_planes.hpp"
 #include "recognition/truck_ranges.hpp"
 
 namespace berm::app {
@@ -13,6 +14,7 @@ namespace berm::app {
 struct VerifiedBed {
   BedInterpretation interpretation;
   FittedBed fit;
+  LevelPlanes planes;   // its floor and canopy
   std::string refusal;  // empty: it is a bed
   bool polished = false;
   double agreed = 0.0;      // evidence of the bed as its walls were moved when it was polished: a fit may lose some of it

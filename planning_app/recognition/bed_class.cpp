@@ -49,11 +49,11 @@ std::string refusal_of_height(const BedHeight& height, const TruckRangeSet& clas
                      height.half_pipe > 0.5 ? " and a half pipe's" : "", allowed);
 }
 
-const TruckRanges& class_told(const FittedBed& fit, const BedHeight& height, const TruckRangeSet& classes) {
+const TruckRanges& class_told(const FittedBed& fit, const BedHeight& height, const TruckRangeSet& classes, bool canopy) {
   const BedPose& p = fit.pose;
   const auto outside = [&](const TruckRanges& c) {
     if (c.half_round != (height.half_pipe > 0.5)) return std::numeric_limits<double>::max();
-    return std::hypot(outside_by(p.length, c.inside_length), std::hypot(outside_by(p.width, c.inside_width), outside_by(p.thickness, c.wall_thickness), outside_by(height.height, c.wall_height)));
+    return (canopy && !c.canopy ? 1.0 : 0.0) + std::hypot(outside_by(p.length, c.inside_length), std::hypot(outside_by(p.width, c.inside_width), outside_by(p.thickness, c.wall_thickness), outside_by(height.height, c.wall_height)));
   };
   return *std::min_element(classes.classes.begin(), classes.classes.end(), [&](const TruckRanges& a, const TruckRanges& b) { return outside(a) < outside(b); });
 }

@@ -23,7 +23,7 @@ TruckRangeSet standing_on(const std::vector<double>& beside, const TruckRangeSet
 std::string refusal_of_height(const BedHeight& height, const TruckRangeSet& classes);
 
 // Of the classes of the told shape that whose ranges the sizes leave least, the first in the file among equals: what no ray tells apart has the name of the
-// first. classes: one at least.
-const TruckRanges& class_told(const FittedBed& fit, const BedHeight& height, const TruckRangeSet& classes);
+// first. canopy: one is seen, so that a class with a canopy is before all others of the shape. classes: one at least.
+const TruckRanges& class_told(const FittedBed& fit, const BedHeight& height, const TruckRangeSet& classes, bool canopy = false);
 
 }  // namespace berm::app

@@ -29,6 +29,13 @@ std::vector<double> depths_beside(const FanSweep& sweep, const BedPose& pose, st
   return out;
 }
 
+std::optional<double> ground_below(std::vector<double> depths) {
+  if (depths.size() < kReturnsLeast) return std::nullopt;
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  return *middle;
+}
+
 double share_of_ground(const std::vector<double>& depths, const SizeRange& top_over_ground, std::size_t stride) {
   if (depths.size() * stride < kReturnsLeast) return 1.0;
   const auto ground = std::count_if(depths.begin(), depths.end(), [&](double below) { return below > top_over_ground[0] - kGroundSlack && below < top_over_ground[1] + 2 * kGroundSlack; });

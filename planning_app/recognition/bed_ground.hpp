@@ -1,6 +1,7 @@
 // The ground beside a bed: a truck's walls have their tops so far over it, and a pit's or a wall's foot does not.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "recognition/bed_model.hpp"
@@ -8,6 +9,9 @@
 #include "recognition/truck_ranges.hpp"
 
 namespace berm::app {
+
+// The median of depths beside a bed; nothing of few.
+std::optional<double> ground_below(std::vector<double> depths);
 
 constexpr double kGroundLeast = 0.02;  // share of the returns beside a bed
 

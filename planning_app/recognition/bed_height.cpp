@@ -251,7 +251,7 @@ class Likely {
 
 }  // namespace
 
-BedHeight bed_height(const FittedBed& fit, const std::vector<Ray>& rays, const TruckRangeSet& classes) {
+BedHeight bed_height(const FittedBed& fit, const std::vector<Ray>& rays, const TruckRangeSet& classes, double flatness) {
   const BedPose& pose = fit.pose;
   const OffWeights weights(pose.thickness);
   const std::vector<PlacedRay> near = placed(pose, rays);
@@ -266,14 +266,14 @@ BedHeight bed_height(const FittedBed& fit, const std::vector<Ray>& rays, const T
   const double flush = ends.all[OffWeights::kWall] + faces.all[OffWeights::kWall] + std::log(kFlushOften);
   const ClassHeights box = class_heights(classes, false, pose.width), half = class_heights(classes, true, pose.width);
   const ReturnsWithin returns = returns_within(pose, near);
-  const Weights inside = weigh_box_inside(returns);
+  const Weights inside = weigh_box_inside(returns, flatness);
   Weights boxes{}, pipes{}, other_pipes{};
   for (std::size_t i = 0; i < kDepths; ++i) boxes[i] = inside[i] + edges[i] + add_logs(end_feet[i] + side_feet[i] + std::log(1.0 - kFlushOften), flush);
   const double likeliest_box = likeliest(boxes, either(either(box.within, box.in_slack), box.beyond));
   pipes.fill(kImpossible);
   other_pipes.fill(kImpossible);
   if (half.any()) {
-    const Weights round = weigh_pipe_inside(returns);
+    const Weights round = weigh_pipe_inside(returns, flatness);
     if (!edge.empty()) edges = blurred(weigh_edges(DepthSums(edge, weights, pose.width / 2)), at_edge);
     Weights but_sides{};
     for (std::size_t i = 0; i < kDepths; ++i) but_sides[i] = round[i] + edges[i] + end_feet[i];

@@ -19,7 +19,8 @@ constexpr double kHardlyNone = 0.1, kLikelyNone = 0.9;
 // fit: a bed; rays: those near it, down to 2.5 m below its tops; classes: those that take in its other sizes. Every height is weighed, those that no class allows as rare ones, by where
 // rays begin to pass below the outer faces that the sensor sees; by how a half pipe's side draws in; and by what lies deepest within and on inner faces, for nothing lies deeper
 // than the floor, and a bed without load shows it. A load may lie as flat as a floor, and what carries the bed be flush with its walls, so that none of
-// these must be there: then the classes are all that is known. A half pipe is thought of only where a class is one.
-BedHeight bed_height(const FittedBed& fit, const std::vector<Ray>& rays, const TruckRangeSet& classes);
+// these must be there: then the classes are all that is known. A half pipe is thought of only where a class is one. flatness: of the level plane that is matched as the floor, how much
+// likelier that is steel than soil, a logarithm (level_planes); 0 where none is: so much rarer is a load that lies as flat.
+BedHeight bed_height(const FittedBed& fit, const std::vector<Ray>& rays, const TruckRangeSet& classes, double flatness = 0.0);
 
 }  // namespace berm::app

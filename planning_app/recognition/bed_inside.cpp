@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kFromWalls = 0.12;  // m: what lies within nearer to the walls tells nothing
 constexpr double kFloorSpread = 0.022, kPipeSpread = 0.035;                 // m
+constexpr double kFlatnessMost = 10.0;  // not all soil is as rough
 constexpr double kFlatLoad = 0.5, kRoundLoad = 1e-4;  // how often a load looks like a floor, and like a half pipe's
 struct Shown { double share, often; };
 constexpr double kPipeFloor = 0.85;                                         // of its radius: farther aside it is too steep
@@ -28,6 +29,9 @@ DepthWeights weigh_inner_faces(const std::vector<double>& faces) {
   for (std::size_t i = kDepths - 1; i-- > 0;) out[i] += out[i + 1];
   return out;
 }
+
+// How often a load is as flat as what is seen.
+double flat_load(double flatness) { return kFlatLoad * std::exp(-std::clamp(flatness, 0.0, kFlatnessMost)); }
 
 // As how many returns these count.
 double counted(const std::vector<double>& floors) { return std::min(kIndependent * static_cast<double>(floors.size()), kMostInside); }
@@ -120,20 +124,20 @@ ReturnsWithin returns_within(const BedPose& pose, const std::vector<PlacedRay>& 
   return out;
 }
 
-DepthWeights weigh_box_inside(const ReturnsWithin& returns) {
-  DepthWeights out = weigh_inside(returns.floors, kFloorSpread, kFlatLoad).any;
+DepthWeights weigh_box_inside(const ReturnsWithin& returns, double flatness) {
+  DepthWeights out = weigh_inside(returns.floors, kFloorSpread, flat_load(flatness)).any;
   const DepthWeights faces = weigh_inner_faces(returns.faces);
   for (std::size_t i = 0; i < kDepths; ++i) out[i] += faces[i];
   return out;
 }
 
-DepthWeights weigh_pipe_inside(const ReturnsWithin& returns) {
+DepthWeights weigh_pipe_inside(const ReturnsWithin& returns, double flatness) {
   const Inside round = weigh_inside(returns.pipes, kPipeSpread, kRoundLoad);
   // What lies too far aside to tell a half pipe's floor is soil to it, as the rest is to a box.
   const double aside = std::log(kSoil) * (counted(returns.floors) - counted(returns.pipes));
   DepthWeights out = round.any;
   if (!returns.pipes.empty()) {
-    const DepthWeights flat = weigh_inside(returns.beside, kFloorSpread, kFlatLoad).flat;
+    const DepthWeights flat = weigh_inside(returns.beside, kFloorSpread, flat_load(flatness)).flat;
     for (std::size_t i = 0; i < kDepths; ++i) out[i] = add_logs(out[i], flat[i]);
   }
   for (double& w : out) w += aside;

@@ -20,7 +20,8 @@ struct ReturnsWithin {
 ReturnsWithin returns_within(const BedPose& pose, const std::vector<PlacedRay>& rays);
 
 // Nothing lies deeper than the floor, a bed without load shows it, and a load may lie as flat as a box's; far walls go down to it.
-DepthWeights weigh_box_inside(const ReturnsWithin& returns);
-DepthWeights weigh_pipe_inside(const ReturnsWithin& returns);
+// flatness: of what is level within, as for bed_height.
+DepthWeights weigh_box_inside(const ReturnsWithin& returns, double flatness);
+DepthWeights weigh_pipe_inside(const ReturnsWithin& returns, double flatness);
 
 }  // namespace berm::app

@@ -139,7 +139,7 @@ bool alike(const BedPose& a, const BedPose& b) {
 
 double BedInterpretation::whole() const { return with_cab(evidence.score, cab); }
 
-void weigh_whole(const FanSweep& sweep, BedInterpretation& i, bool to_front) {
+void weigh_whole(const FanSweep& sweep, BedInterpretation& i, bool to_front, int canopy_end) {
   const BedPose& p = i.pose;
   i.rays = rays_near(sweep, p);
   i.evidence = weigh(p, i.rays);
@@ -148,7 +148,7 @@ void weigh_whole(const FanSweep& sweep, BedInterpretation& i, bool to_front) {
   profile.finish();
   const double at_front = p.face(0, 1, true), at_rear = -p.face(0, -1, true);
   const double front = profile.beyond(at_front, 1, 1.0, CabProfile::Returns::all), rear = profile.beyond(at_rear, -1, 1.0, CabProfile::Returns::all);
-  i.cab_end = p.open_end != 0 ? -p.open_end : front >= rear ? 1 : -1;
+  i.cab_end = p.open_end != 0 ? -p.open_end : canopy_end != 0 ? canopy_end : front >= rear ? 1 : -1;
   i.cab_seen = i.cab_end > 0 ? front : rear;
   i.cab = i.cab_end > 0 ? profile.beyond(at_front, 1, 1.0) : profile.beyond(at_rear, -1, 1.0);
   if (to_front) i.cab_to_front = profile.to_front(i.cab_end > 0 ? at_front : at_rear, i.cab_end, 1.0);

@@ -40,8 +40,8 @@ void move_walls(const FanSweep& sweep, BedInterpretation& interpretation, const 
 bool alike(const BedPose& a, const BedPose& b);
 
 // The evidence for the pose as it is: of the bed, and of a cab beyond the end where there is more of it, or opposite an open end.
-// to_front: of a cab of any length as well, which takes more rays.
-void weigh_whole(const FanSweep& sweep, BedInterpretation& interpretation, bool to_front = false);
+// to_front: of a cab of any length as well, which takes more rays. canopy_end: beyond which its canopy is, where one is matched, and so its cab; 0: none.
+void weigh_whole(const FanSweep& sweep, BedInterpretation& interpretation, bool to_front = false, int canopy_end = 0);
 
 // Returns that lie where the sides would go on beyond the ends: in the plane of the far side's inner face beyond either end, of the near side's outer face
 // beyond the end without a cab. A truck has none there, a container that is taken for a shorter bed has.

@@ -34,7 +34,7 @@ nlohmann::ordered_json json_of(const RecognisedTruck& truck) {
   nlohmann::ordered_json json;
   json["found"] = truck.found;
   json["reason"] = truck.reason;
-  for (const char* key : {"class", "corners_m", "yaw_deg", "length_m", "width_m", "height_m", "height_sd_m", "open_rear", "covariance", "pose_covariance"})
+  for (const char* key : {"class", "corners_m", "yaw_deg", "length_m", "width_m", "height_m", "height_sd_m", "open_rear", "floor_m", "canopy_m", "covariance", "pose_covariance"})
     json[key] = nullptr;
   if (truck.found) {
     json["class"] = truck.truck_class;
@@ -46,6 +46,8 @@ nlohmann::ordered_json json_of(const RecognisedTruck& truck) {
     json["height_m"] = truck.height;
     json["height_sd_m"] = truck.height_deviation;
     json["open_rear"] = truck.open_rear;
+    if (truck.planes.floor) json["floor_m"] = truck.planes.floor->depth;
+    if (truck.planes.canopy) json["canopy_m"] = truck.planes.canopy->length;
     json["covariance"] = rows_of(truck.covariance);
     json["pose_covariance"] = rows_of(truck.pose_covariance);
   }

@@ -18,6 +18,11 @@ TruckRanges read_class(config::StrictTable& table) {
   c.wall_thickness = table.interval("wall_thickness", 0.03, 0.3, 0.0);
   c.top_over_ground = table.interval("top_over_ground", 1.0, 5.0, 0.0);
   c.open_rear = table.flag("open_rear");
+  c.canopy = table.has("canopy_length") || table.has("canopy_rise");
+  if (c.canopy) {
+    c.canopy_length = table.interval("canopy_length", 0.3, 3.0, 0.0);
+    c.canopy_rise = table.interval("canopy_rise", 0.0, 1.0, 0.0);
+  }
   table.finish();
   return c;
 }
@@ -27,6 +32,13 @@ TruckRanges read_class(config::StrictTable& table) {
 SizeRange TruckRangeSet::hull(SizeRange TruckRanges::*size) const {
   SizeRange out = classes.front().*size;
   for (const TruckRanges& c : classes) out = {std::min(out[0], (c.*size)[0]), std::max(out[1], (c.*size)[1])};
+  return out;
+}
+
+std::optional<SizeRange> TruckRangeSet::canopy_hull(SizeRange TruckRanges::*size) const {
+  std::optional<SizeRange> out;
+  for (const TruckRanges& c : classes)
+    if (c.canopy) out = {out ? std::min((*out)[0], (c.*size)[0]) : (c.*size)[0], out ? std::max((*out)[1], (c.*size)[1]) : (c.*size)[1]};
   return out;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct TruckRanges {
   SizeRange top_over_ground{};  // of the walls' tops over the ground that the truck stands on
   bool half_round = false;      // the bed is a half pipe below straight sides
   bool open_rear = false;       // the tailgate may be missing or hang down
+  bool canopy = false;          // a sheet from the front wall's top over the cab
+  SizeRange canopy_length{}, canopy_rise{};  // where it has one: over the cab, and how much its front is higher than the walls
 };
 
 // What a bed's width and the thickness of its walls may be, over all classes.
@@ -35,6 +38,8 @@ struct TruckRangeSet {
 
   // From the least low end to the greatest high end of all classes.
   [[nodiscard]] SizeRange hull(SizeRange TruckRanges::*size) const;
+  // The same of those that have a canopy; nothing where none has.
+  [[nodiscard]] std::optional<SizeRange> canopy_hull(SizeRange TruckRanges::*size) const;
   [[nodiscard]] BedSizes bed_sizes() const { return {hull(&TruckRanges::inside_width), hull(&TruckRanges::wall_thickness)}; }
   // Those that take in every size and the kind of rear, within slack, in the file's order.
   [[nodiscard]] TruckRangeSet taking_in(const SeenBed& bed) const;

@@ -25,6 +25,7 @@ constexpr double kPeakOfFound = 0.88, kPeakOfRefused = 0.7;  // of the evidence 
 constexpr double kEndsNearly = 0.85;   // of the evidence of what would be chosen, to be polished beside it
 constexpr int kEndRounds = 3;           // of looking for other ends of what would be chosen
 constexpr double kEndsWorth = 40.0, kEndsOfRefused = 80.0;  // evidence of a bed, to be looked at so; of one that was refused
+constexpr double kPlanesWorth = 60.0;    // evidence of a bed, to look for the canopy that tells its front
 constexpr int kPasses = 2;              // where all that a pass found was refused, one looks at the rest
 constexpr double kPi = 3.14159265358979323846;
 
@@ -49,31 +50,40 @@ Polished polished(const FittedBed& first, const std::vector<Ray>& rays, const Be
   return {better ? second : first, score_of(moved, packed)};
 }
 
-void judge(const FanSweep& sweep, VerifiedBed& v, const TruckRangeSet& ranges) {
+// A sweep with what is level in it.
+struct Seen {
+  const FanSweep& sweep;
+  LevelRegionsOfBeds level;
+};
+
+// The tree's last levels where they may decide something of the bed, and what must be true of all that is matched.
+void judge(Seen& seen, VerifiedBed& v, const TruckRangeSet& ranges) {
   v.interpretation.pose = v.fit.pose;
-  weigh_whole(sweep, v.interpretation, true);
-  v.refusal = refusal(sweep, v.interpretation, v.fit, ranges, v.of_refused);
+  const bool either_front = v.fit.pose.open_end == 0 && v.interpretation.evidence.score >= kPlanesWorth;
+  v.planes = either_front ? match_level_planes(v.fit.pose, seen.level.about(v.fit.pose.middle), ranges) : LevelPlanes{};
+  weigh_whole(seen.sweep, v.interpretation, true, v.planes.canopy ? v.planes.canopy->end : 0);
+  v.refusal = refusal(seen.sweep, v.interpretation, v.fit, ranges, v.of_refused);
 }
 
-VerifiedBed verify(const FanSweep& sweep, BedInterpretation interpretation, const TruckRangeSet& ranges, bool of_refused = false) {
+VerifiedBed verify(Seen& seen, BedInterpretation interpretation, const TruckRangeSet& ranges, bool of_refused = false) {
   VerifiedBed v;
   v.of_refused = of_refused;
   v.interpretation = std::move(interpretation);
   v.fit = fit_pose(v.interpretation.pose, v.interpretation.rays, PackedRays(v.interpretation.rays), kLastRounds, ranges.bed_sizes());
-  judge(sweep, v, ranges);
+  judge(seen, v, ranges);
   return v;
 }
 
-void polish(const FanSweep& sweep, VerifiedBed& v, const TruckRangeSet& ranges) {
+void polish(Seen& seen, VerifiedBed& v, const TruckRangeSet& ranges) {
   auto [fit, agreed] = polished(v.fit, v.interpretation.rays, ranges.bed_sizes());
   v.fit = std::move(fit);
   v.agreed = agreed;
   v.polished = true;
-  judge(sweep, v, ranges);
+  judge(seen, v, ranges);
 }
 
 // Polishes what would be chosen, until that is a bed that is polished; where none is a bed, all, for a hollow may be why.
-void polish_chosen(const FanSweep& sweep, std::vector<VerifiedBed>& all, const TruckRangeSet& ranges) {
+void polish_chosen(Seen& seen, std::vector<VerifiedBed>& all, const TruckRangeSet& ranges) {
   const auto less = [](const VerifiedBed& a, const VerifiedBed& b) {
     if (a.polished != b.polished) return a.polished;
     return a.interpretation.whole() < b.interpretation.whole();
@@ -83,12 +93,12 @@ void polish_chosen(const FanSweep& sweep, std::vector<VerifiedBed>& all, const T
     if (chosen.polished && chosen.refusal.empty()) return;
     VerifiedBed& next = chosen.polished ? *std::max_element(all.begin(), all.end(), less) : all[static_cast<std::size_t>(&chosen - all.data())];
     if (next.polished) return;
-    polish(sweep, next, ranges);
+    polish(seen, next, ranges);
   }
 }
 
 // Where what would be chosen may have an end elsewhere, the bed with that end as well, until what would be chosen was looked at so.
-void move_ends_of_chosen(const FanSweep& sweep, std::vector<VerifiedBed>& all, const TruckRangeSet& ranges) {
+void move_ends_of_chosen(Seen& seen, std::vector<VerifiedBed>& all, const TruckRangeSet& ranges) {
   SizeRange lengths = ranges.hull(&TruckRanges::inside_length);
   lengths[0] -= ranges.slack, lengths[1] += ranges.slack;
   for (int round = 0; round < kEndRounds; ++round) {
@@ -97,19 +107,19 @@ void move_ends_of_chosen(const FanSweep& sweep, std::vector<VerifiedBed>& all, c
     chosen.ends_moved = true;
     const bool refused = !chosen.refusal.empty();
     const BedPose from = chosen.fit.pose;
-    std::vector<BedPose> others = other_ends(sweep, chosen.fit.pose, lengths, refused ? kPeakOfRefused : kPeakOfFound);
+    std::vector<BedPose> others = other_ends(seen.sweep, chosen.fit.pose, lengths, refused ? kPeakOfRefused : kPeakOfFound);
     std::erase_if(others, [&](const BedPose& p) { return is_bed_with_cab(p, chosen.interpretation); });
     for (const BedPose& p : others) {
       BedInterpretation i;
       i.pose = p;
-      i.rays = rays_near(sweep, p);
-      VerifiedBed v = verify(sweep, std::move(i), ranges, refused);
+      i.rays = rays_near(seen.sweep, p);
+      VerifiedBed v = verify(seen, std::move(i), ranges, refused);
       v.ends_moved = true;
       if (comes_back(v.fit.pose, from)) continue;
-      if (decides(v) > kEndsNearly * decides(choose(all, ranges))) polish(sweep, v, ranges);
+      if (decides(v) > kEndsNearly * decides(choose(all, ranges))) polish(seen, v, ranges);
       all.push_back(std::move(v));
     }
-    polish_chosen(sweep, all, ranges);
+    polish_chosen(seen, all, ranges);
   }
 }
 
@@ -130,6 +140,7 @@ RecognisedTruck recognise(ArrivingSweep& scanlines, const TruckRangeSet& ranges)
   out.reason = "the sweep shows no upright wall";
   if (regions.empty()) return out;
   const std::vector<BedEnds> rough = rough_beds(sweep, regions, ranges);
+  Seen seen{sweep, LevelRegionsOfBeds(sweep)};
   std::vector<VerifiedBed> verified;
   std::vector<BedPose> refused;
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -141,11 +152,11 @@ RecognisedTruck recognise(ArrivingSweep& scanlines, const TruckRangeSet& ranges)
       move_walls(sweep, i, ranges);
       refused.push_back(i.pose);
       if (std::any_of(verified.begin() + static_cast<std::ptrdiff_t>(before), verified.end(), [&](const VerifiedBed& v) { return same_and_better(v.interpretation, i); })) continue;
-      verified.push_back(verify(sweep, std::move(i), ranges));
+      verified.push_back(verify(seen, std::move(i), ranges));
       refused.push_back(verified.back().fit.pose);
     }
-    polish_chosen(sweep, verified, ranges);
-    move_ends_of_chosen(sweep, verified, ranges);
+    polish_chosen(seen, verified, ranges);
+    move_ends_of_chosen(seen, verified, ranges);
     if (choose(verified, ranges).refusal.empty()) break;
   }
   out.reason = "no upright wall can be one of a bed";
@@ -161,16 +172,18 @@ RecognisedTruck recognise(ArrivingSweep& scanlines, const TruckRangeSet& ranges)
   out.evidence = best.evidence;
   out.cab = best.cab_seen;
   out.pose = fit.pose;
+  const std::vector<double> beside = depths_beside(sweep, fit.pose);
+  out.planes = match_level_planes(fit.pose, seen.level.about(fit.pose.middle), ranges, ground_below(beside));
   out.reason = chosen.refusal;
   if (!out.reason.empty()) return out;
 
-  const TruckRangeSet of_sizes = classes_of(fit, ranges), on_ground = standing_on(depths_beside(sweep, fit.pose), of_sizes);
+  const TruckRangeSet of_sizes = classes_of(fit, ranges), on_ground = standing_on(beside, of_sizes);
   const TruckRangeSet& classes = on_ground.classes.empty() ? of_sizes : on_ground;
-  const BedHeight height = bed_height(fit, rays_near(whole, fit.pose, kBelowTops), classes);
+  const BedHeight height = bed_height(fit, rays_near(whole, fit.pose, kBelowTops), classes, out.planes.floor ? out.planes.floor->flatness : 0.0);
   out.reason = refusal_of_height(height, classes);
   if (!out.reason.empty()) return out;
 
-  out.truck_class = class_told(fit, height, classes).name;
+  out.truck_class = class_told(fit, height, classes, out.planes.canopy.has_value()).name;
   if (best.cab_end < 0) {
     turn_round(fit.pose);
     const Eigen::Matrix<double, 8, 1> sign{1, 1, 1, 1, -1, -1, 1, 1};

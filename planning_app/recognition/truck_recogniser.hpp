@@ -11,6 +11,7 @@
 #include "recognition/arriving_sweep.hpp"
 #include "recognition/bed_fit.hpp"
 #include "recognition/bed_search.hpp"
+#include "recognition/level_planes.hpp"
 #include "recognition/truck_ranges.hpp"
 
 namespace berm::app {
@@ -32,6 +33,7 @@ struct RecognisedTruck {
   BedPose pose;
   BedEvidence evidence;
   double cab = 0.0;                             // evidence of its cab
+  LevelPlanes planes;                           // floor and canopy, where they are seen
   double milliseconds = 0.0;                    // of CPU, in one thread
 };
 

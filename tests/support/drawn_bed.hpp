@@ -17,6 +17,7 @@ struct DrawnBed {
   double thickness = 0.1, ground = -1.2;
   bool carrier = false;                                      // below the bed, flush with its walls' outer faces, down to the ground
   bool lid = false, cab = true, rear_wall = true;            // the cab stands 0.3 m beyond the end at +x of the bed
+  double canopy = 0.0, canopy_rise = 0.2;                    // length of a sheet from the top of the wall at +x, and how much its front is higher; the cab is lower than it
   double load = -1e9;                                        // height of a level load, where that is over the floor
   double swing_rate = 0.0;                                   // rad/s, of the sensor about z
 };
@@ -60,8 +61,13 @@ inline std::vector<ScanPoint> sweep_of(const DrawnBed& bed) {
     box(rear, x + t, -y - t, -y, bed.floor, bed.top);
     box(x, x + t, -y - t, y + t, bed.floor, bed.top);
     if (bed.rear_wall) box(-x - t, -x, -y - t, y + t, bed.floor, bed.top);
-    if (bed.cab) box(x + t + 0.3, x + t + 2.1, -1.2, 1.2, bed.ground + 0.8, bed.top + 0.3);
+    if (bed.cab) box(x + t + 0.3, x + t + 2.1, -1.2, 1.2, bed.ground + 0.8, bed.top + (bed.canopy > 0.0 ? -0.1 : 0.3));
     box(-x, x, -y, y, bed.floor - 0.1, bed.floor);
+    if (bed.canopy > 0.0) {
+      const double rise = bed.canopy_rise / bed.canopy, begin = x + t, way = (bed.top + rise * (a[0] - begin) - a[2]) / (w[2] - rise * w[0]);
+      const double u = a[0] + way * w[0], v = a[1] + way * w[1];
+      if (way > 0.0 && u > begin && u < begin + bed.canopy && std::abs(v) < y + t) range = std::min(range, way);
+    }
     if (bed.carrier) box(-x - t, x + t, -y - t, y + t, bed.ground, bed.floor - 0.1);
     if (bed.lid) box(-x, x, -y, y, bed.top - 0.02, bed.top);
     box(-60.0, 60.0, -60.0, 60.0, bed.ground - 1.0, bed.ground);

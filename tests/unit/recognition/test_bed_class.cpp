@@ -28,13 +28,23 @@ TEST(BedClass, IsTheOneThatFitsBest) {
   EXPECT_EQ(told(bed_of_sizes(4.38, 2.4, 0.1), as_high(1.85)), "crawler") << "as high as no box";
 }
 
-// Nothing of a canopy is asked for: of two boxes that both fit the first is named, in the file's order.
+// No canopy is seen, which tells nothing, for an occluder may hide it: of two boxes that both fit the first is named, in the file's order.
 TEST(BedClass, WhatNoRayTellsApartIsTheFirstInTheFile) {
   TruckRangeSet turned = read_truck_ranges(BERM_TRUCK_RANGES);
   std::swap(turned.classes[0], turned.classes[2]);
   const FittedBed fit = bed_of_sizes(5.0, 2.4, 0.1);
   EXPECT_EQ(class_told(fit, as_high(1.4), classes_of(fit, turned)).name, "canopy");
   EXPECT_EQ(class_told(fit, as_high(1.05), classes_of(fit, turned)).name, "box") << "too low for a canopy's";
+}
+
+TEST(BedClass, WithACanopyIsOneThatHasIt) {
+  const TruckRangeSet all = read_truck_ranges(BERM_TRUCK_RANGES);
+  const FittedBed fit = bed_of_sizes(5.0, 2.4, 0.1), longer = bed_of_sizes(5.65, 2.4, 0.1);
+  EXPECT_EQ(class_told(fit, as_high(1.4), classes_of(fit, all), true).name, "canopy");
+  EXPECT_EQ(class_told(longer, as_high(1.4), classes_of(longer, all), true).name, "canopy") << "longer by 0.05 m, within the slack";
+  EXPECT_EQ(class_told(fit, as_high(1.4, true), classes_of(fit, all), true).name, "half_round") << "the shape goes before it";
+  const FittedBed longest = bed_of_sizes(5.9, 2.4, 0.1);
+  EXPECT_EQ(class_told(longest, as_high(1.4), classes_of(longest, all), true).name, "box") << "too long for the one with a canopy";
 }
 
 TEST(BedClass, StandsAsHighOverTheGroundAsTheClass) {

@@ -6,6 +6,7 @@
 
 #include "drawn_bed.hpp"
 #include "recognition/bed_height.hpp"
+#include "recognition/bed_inside.hpp"
 #include "recognition/rays_of_sweep.hpp"
 
 namespace berm::app {
@@ -56,16 +57,21 @@ TEST(BedHeight, IsThatOfTheFootOverWhatCarriesTheBed) {
   EXPECT_LT(height.deviation, 0.04);
 }
 
-TEST(BedHeight, IsThatOfTheFloorWhereThatAloneIsSeen) {
-  DrawnBed bed;
-  bed.y = 5.0;
+// Of the returns that lie between sides and ends alone.
+std::vector<Ray> rays_into(const DrawnBed& bed) {
   const Placing place(known(bed).pose);
   std::vector<Ray> inside;
   for (const Ray& ray : rays_to(bed)) {
     const Eigen::Vector3d at = place.of(ray.at);
     if (std::abs(at.x()) < bed.length / 2 && std::abs(at.y()) < bed.width / 2) inside.push_back(ray);
   }
-  const BedHeight height = bed_height(known(bed), inside, shipped());
+  return inside;
+}
+
+TEST(BedHeight, IsThatOfTheFloorWhereThatAloneIsSeen) {
+  DrawnBed bed;
+  bed.y = 5.0;
+  const BedHeight height = bed_height(known(bed), rays_into(bed), shipped());
   EXPECT_NEAR(height.height, bed.top - bed.floor, 1.96 * height.deviation);
   EXPECT_LT(height.deviation, 0.1) << "a flat load may look the same";
 }
@@ -110,6 +116,26 @@ TEST(BedHeight, WithinTheSlackIsOfTheClass) {
     if (high > 0.9 && high < 1.85) EXPECT_LT(height.beyond, kLikelyNone) << high;
     else EXPECT_GT(height.beyond, kLikelyNone) << high;
   }
+}
+
+// What is level within is steel, by how flat it is: a load is not as flat, so it is the floor.
+TEST(BedHeight, IsThatOfALevelPlaneWithinWhereThatIsTooFlatForALoad) {
+  ReturnsWithin returns;
+  for (int k = 0; k < 60; ++k) returns.floors.push_back(k % 2 == 0 ? 1.04 : 1.06);
+  const auto at = [](double depth) { return static_cast<std::size_t>((depth - kShallowest) / kStep + 0.5); };
+  const auto floor_before_load = [&](double flatness) {
+    const DepthWeights w = weigh_box_inside(returns, flatness);
+    return w[at(1.05)] - w[at(1.5)];
+  };
+  EXPECT_NEAR(floor_before_load(3.0) - floor_before_load(0.0), 3.0, 0.1);
+  EXPECT_NEAR(floor_before_load(20.0) - floor_before_load(0.0), 10.0, 0.1) << "not all soil is as rough";
+  EXPECT_NEAR(floor_before_load(-3.0), floor_before_load(0.0), 1e-9);
+  // Of few returns a load that lies flat is possible too.
+  DrawnBed bed;
+  bed.y = 5.0, bed.floor = bed.top - 1.05;
+  const std::vector<Ray> few = every(rays_into(bed), 20);
+  const BedHeight rough = bed_height(known(bed), few, shipped()), flat = bed_height(known(bed), few, shipped(), 3.0);
+  EXPECT_LT(flat.deviation, rough.deviation);
 }
 
 // No ray shows floor or foot: what is possible beyond the classes stays as rare as it is.

@@ -7,7 +7,7 @@ namespace berm::app {
 namespace {
 
 constexpr unsigned kSeed = 20261123;
-constexpr double kStep = 1e-6;
+constexpr double kDifference = 1e-6;
 
 class DrawnStatements : public DrawnBeds {
  public:
@@ -42,8 +42,8 @@ TEST(BedResiduals, SlopesAreThoseOfTheResiduals) {
     edges += c.edge ? 1 : 0, sloped += slope.norm() > 1e-3 ? 1 : 0;
     for (int i = 0; i < kBedValues; ++i) {
       BedVector more = values, less = values;
-      more[i] += kStep, less[i] -= kStep;
-      const double by_differences = (residual(c, BedAxes(more), more, open_end, nullptr) - residual(c, BedAxes(less), less, open_end, nullptr)) / (2 * kStep);
+      more[i] += kDifference, less[i] -= kDifference;
+      const double by_differences = (residual(c, BedAxes(more), more, open_end, nullptr) - residual(c, BedAxes(less), less, open_end, nullptr)) / (2 * kDifference);
       ASSERT_NEAR(slope[i], by_differences, 1e-3 * std::max(1.0, slope.norm())) << "statement " << k << " of seed " << kSeed << ", value " << i;
     }
   }

@@ -47,6 +47,18 @@ TEST(TruckRanges, AClassTakesInABedByEachOfItsSizes) {
   EXPECT_EQ(names(set.taking_in({5.0, 2.4, 0.1, false, 0.0})), "box half_round canopy");
 }
 
+// Both keys or none.
+TEST(TruckRanges, ACanopyIsAClassesOwn) {
+  TruckRangeSet set = read_truck_ranges(BERM_TRUCK_RANGES);
+  EXPECT_EQ(set.canopy_hull(&TruckRanges::canopy_length), (SizeRange{0.6, 1.3}));
+  EXPECT_EQ(set.canopy_hull(&TruckRanges::canopy_rise), (SizeRange{0.05, 0.45}));
+  set.classes.erase(set.classes.begin() + 2);
+  EXPECT_FALSE(set.canopy_hull(&TruckRanges::canopy_length));
+  EXPECT_NE(error_with("canopy_length = [0.60, 1.30]", "").find("canopy_length"), std::string::npos);
+  EXPECT_NE(error_with("canopy_rise = [0.05, 0.45]", "").find("canopy_rise"), std::string::npos);
+  EXPECT_NE(error_with("canopy_rise = [0.05, 0.45]", "canopy_rise = [0.45, 0.05]").find("canopy_rise"), std::string::npos);
+}
+
 TEST(TruckRanges, RefusesWhatIsWrong) {
   EXPECT_NE(error_with("inside_width = [2.30, 2.50]", "inside_width = [2.50, 2.30]").find("inside_width"), std::string::npos);
   EXPECT_NE(error_with("slack = 0.08", "slack = 2.0").find("slack"), std::string::npos);
