@@ -208,6 +208,46 @@ TEST_F(SequencerSlips, AnotherLatchedStopForgetsNothing) {
   EXPECT_GT(run.plant.site().bed_mass(), 500.0);
 }
 
+// While it looks for the truck: what it has seen of it until then is no part of what it looks at.
+TEST_F(SequencerSlips, BeforeTheTruckIsRecognisedAllIsLookedAtAnew) {
+  for (const double looked_s : {1.0, 4.0, 7.0}) {
+    Loading run(1, start_pose(), events_.fd(), half_loads());
+    const std::size_t slips = events_.named("base_moved").size();
+    run.go(looked_s);
+    ASSERT_EQ(run.sequencer.bed(), nullptr) << "recognised by then: this test asks for a bed that is not known";
+    ASSERT_GT(cells_known(run), 0);
+    slip(run);
+    EXPECT_EQ(known_after_reset_, 0) << "the old terrain is used on, " << looked_s << " s from the start";
+    EXPECT_EQ(run.sequencer.bed(), nullptr);
+    while (run.sequencer.bed() == nullptr && run.seconds < 120.0) run.step();
+    ASSERT_NE(run.sequencer.bed(), nullptr) << "never looked at again, " << looked_s << " s from the start";
+    EXPECT_NEAR(events_.named("recognised").back().at("x_m").get<double>(), app_bench::bench_bed().centre_x - x_, 1e-6);
+    EXPECT_GT(cells_known(run), 500);
+    ASSERT_EQ(events_.named("base_moved").size(), slips + 1);
+    EXPECT_EQ(events_.named("base_moved").back().at("brings_load"), false);
+    EXPECT_EQ(events_.named("base_moved").back().at("loaded_kg"), 0.0);
+    EXPECT_EQ(calls("work stands") + calls("no_truck"), 0);
+    if (looked_s == 4.0) expect_loaded(run);  // one of them for all
+  }
+}
+
+// Nobody stands there yet.
+TEST_F(SequencerSlips, WhileATruckIsWaitedForTheNextIsLoadedWhereItComes) {
+  Loading run(1, start_pose(), events_.fd(), half_loads());
+  run.plant.truck_parked = false;
+  run.go(25.0);
+  ASSERT_TRUE(events_.named("recognised").empty());
+  slip(run);
+  EXPECT_EQ(known_after_reset_, 0);
+  run.go(20.0);
+  EXPECT_TRUE(run.finder.looks.empty()) << "it looks for a truck that is not there";
+  EXPECT_TRUE(events_.named("dig").empty());
+  run.plant.truck_parked = true;
+  expect_loaded(run);
+  EXPECT_EQ(run.finder.looks.size(), 1u);
+  EXPECT_EQ(events_.named("base_moved").size(), 1u);
+}
+
 // As the kernel has it, so that a bucket over it may be led away.
 TEST(PassOver, ATruckThatIsAdmittedButNotRecognised) {
   SiteModel site = app_bench::bench();
