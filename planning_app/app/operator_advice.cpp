@@ -38,7 +38,7 @@ constexpr Advice advices[] = {
     {BERM_STOP_CLOCK, "the kernel's cycle came too late or its clock jumped: look what else runs on the kernel's computer and what sets its clock, then " RESET},
     {BERM_STOP_BASE_MOVED, "the machine tilted, turned or slipped: set it firmly, look whether truck and dig are still where the site file has them from where it stands, then " RESET},
     {BERM_STOP_UNCOMMANDED, "a joint moved otherwise than it was told: keep everybody away, look whether somebody is at the levers, have valves and joint sensors checked, then " RESET},
-    {BERM_STOP_OVERPASS, "send away who or what stands there, or admit the truck; if nothing stands there, press relearn, with the implements lifted by hand if need be"},
+    {BERM_STOP_OVERPASS, "send away who or what stands there, or admit the truck, or swing the implements by hand away from over it; if nothing stands there, press relearn, with the implements lifted by hand if need be"},
     {BERM_STOP_TAIL, "send away who stands behind the machine, look all round it, beside the tracks too, then " RESET},
     {BERM_STOP_INTRUDER, "send away who or what came; if nobody is there, press relearn"},
     {BERM_STOP_SEPARATION, "make the sensors see all round the machine again, or take it out of where they cannot"},

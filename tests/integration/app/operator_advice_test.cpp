@@ -44,7 +44,7 @@ const Expected expected[] = {
     {BERM_STOP_CLOCK, true, at_once, {"clock", "kernel's computer"}},
     {BERM_STOP_BASE_MOVED, true, at_once, {"tilted", "set it firmly", "site file"}},
     {BERM_STOP_UNCOMMANDED, true, at_once, {"otherwise than it was told", "keep everybody away", "levers"}},
-    {BERM_STOP_OVERPASS, false, in_time, {"send away", "admit the truck"}},
+    {BERM_STOP_OVERPASS, false, in_time, {"send away", "admit the truck", "away from over it"}},
     {BERM_STOP_TAIL, true, at_once, {"behind the machine"}},
     {BERM_STOP_INTRUDER, false, gone_by_then, {"send away who"}},
     {BERM_STOP_SEPARATION, false, in_time, {"see all round"}},
