@@ -96,7 +96,6 @@ Trial judge(const Scene& scene, const app::RecognisedTruck& answer) {
   t.cab = answer.cab;
   t.pose = answer.pose;
   t.planes = answer.planes;
-  t.canopy = k.canopy;
   t.true_height = k.wall_height;
   t.told_class = answer.truck_class;
   if (!t.truck) return t;

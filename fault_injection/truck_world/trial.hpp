@@ -34,9 +34,8 @@ struct Trial {
   double true_score = 0.0, true_cab = 0.0;  // what bed and cab weigh where the truck truly stands
   app::BedPose pose;
   app::LevelPlanes planes;        // floor and canopy as they were matched
-  bool canopy = false;            // the truck has one
-  double height = 0.0, true_height = 0.0;
   std::string told_class;         // the recogniser's
+  double true_height = 0.0;       // m, of the walls
 };
 
 // Of the sensor in the middle of the sweep, as a file of the scene has it.

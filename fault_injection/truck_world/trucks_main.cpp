@@ -55,6 +55,7 @@ void report(const Trial& t, const TrialOptions& o) {
              "{} below, {} above; open end {}; {:.2f} x {:.2f}, cab {:.0f}; the truth weighs {:.1f}, its cab {:.0f}\n",
              e.score, e.outer_face, e.inner_face, e.wall_top, e.inside, e.through, e.before, e.over, e.level_inside, e.below_inside, e.above_inside,
              t.pose.open_end, t.pose.length, t.pose.width, t.cab, t.true_score, t.true_cab);
+  if (t.found) fmt::print("  told as {}\n", t.told_class);
   if (t.planes.floor) fmt::print("  floor {:.2f} m below the tops, {} returns, flatness {:.1f}, spread {:.4f} of {:.4f}; truly {:.2f}, {}\n", t.planes.floor->depth, t.planes.floor->count, t.planes.floor->flatness, t.planes.floor->spread, t.planes.floor->noise, t.true_height, t.fill);
   if (t.planes.canopy) fmt::print("  canopy beyond {}, {:.2f} m, rise {:.2f}, {} returns, spread {:.4f} of {:.4f}\n", t.planes.canopy->end, t.planes.canopy->length, t.planes.canopy->rise, t.planes.canopy->count, t.planes.canopy->spread, t.planes.canopy->noise);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/recognised_bed.hpp"
 #include "planning/truck_place.hpp"
 
 namespace berm::app {
@@ -181,22 +182,11 @@ std::optional<TruckBed> TruckLook::judge(const RecognisedTruck& truck, const Obs
               "look whether a truck stands where trucks park, with its bed open, and nothing before it; the scanners look again every few seconds", o, log);
     return std::nullopt;
   }
-  TruckBed bed;
-  bed.centre_x = truck.pose.middle.x();
-  bed.centre_y = truck.pose.middle.y();
-  bed.yaw = truck.yaw;
-  bed.length = truck.length;
-  bed.width = truck.width;
-  bed.height = truck.height;
-  bed.wall_top = truck.pose.middle.z();
-  // An end lies half a length beyond the middle.
-  const Eigen::Vector2d along(std::cos(truck.yaw), std::sin(truck.yaw));
-  const double middle = along.dot(truck.pose_covariance.topLeftCorner<2, 2>() * along), both = std::fabs(along.dot(truck.pose_covariance.block<2, 1>(0, 6)));
-  bed.end_deviation = std::sqrt(std::max(0.0, middle + both + 0.25 * truck.pose_covariance(6, 6)));  // the worse end
+  TruckBed bed = recognised_bed(truck);
   limit_to_zones(bed, site_.truck_zones);
   const nlohmann::ordered_json fields{{"time_s", o.time_s}, {"truck", number}, {"class", truck.truck_class}, {"x_m", bed.centre_x}, {"y_m", bed.centre_y},
                                       {"yaw_deg", degrees(bed.yaw)}, {"length_m", bed.length}, {"width_m", bed.width}, {"height_m", bed.height}, {"height_sd_m", truck.height_deviation},
-                                      {"wall_top_m", bed.wall_top}, {"end_deviation_m", bed.end_deviation}, {"several_echoes", sweep_.several_echoes()},
+                                      {"wall_top_m", bed.top_at(0.0, 0.0)}, {"wall_top_highest_m", bed.wall_top}, {"pitch_deg", degrees(truck.pose.pitch)}, {"roll_deg", degrees(truck.pose.roll)}, {"end_deviation_m", bed.end_deviation}, {"several_echoes", sweep_.several_echoes()},
                                       {"before_sweep_end", sweep_.recording()}};
   if (!stands_in_zone(bed, site_.truck_zones)) {
     tell_none("truck_misplaced", fields, "the truck stands where the site has no truck zone: nothing may pass over it there; have it park anew", o, log);

@@ -11,9 +11,12 @@ BedMap::BedMap(const TruckBed& bed, const ImplementScale& scale) : bed_(bed), sc
 
 void BedMap::insert(double x, double y, double z, double time_s) {
   constexpr double hand = 0.15;
-  const BedPoint p = to_bed(bed_, x, y);
+  BedPoint p = to_bed(bed_, x, y);
+  // In the bed's own frame, whose walls lean as its floor tilts; trucks tilt by a few degrees, whose cosine is 1.
+  const double over_tops = z - bed_.top_at(p.u, p.v), over_middle = z - bed_.top_at(0.0, 0.0);
+  p.u += bed_.rise_along * over_middle, p.v += bed_.rise_across * over_middle;
   if (std::fabs(p.u) > 0.5 * bed_.length - hand || std::fabs(p.v) > 0.5 * bed_.width - hand) return;
-  const double above_floor = z - (bed_.wall_top - bed_.height);
+  const double above_floor = over_tops + bed_.height;
   if (above_floor > bed_.height + 1.0) return;  // no heap stands so high: the implements, or someone in the bed
   const std::size_t i = grid_.index(grid_.column_of(p.u), grid_.row_of(p.v));
   grid_.height[i] = std::max(0.0, above_floor);

@@ -1,6 +1,7 @@
 // What the app knows of the site, metres and radians; filled from the site file (app/machine_loader.hpp). Base frame.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -29,11 +30,15 @@ struct TruckBed {                 // inside of a recognised bed
   double centre_x = 0.0, centre_y = 0.0;
   double yaw = 0.0;               // of the long axis, from base x
   double length = 0.0, width = 0.0, height = 0.0;
-  double wall_top = 0.0;          // z
+  double wall_top = 0.0;          // z of the highest place of the walls' tops: what passes over them passes over that
+  double rise_along = 0.0, rise_across = 0.0;  // rise over run of the plane of the tops, and of the floor, along the bed and to its left: the truck stands on sloping ground
   double end_deviation = 0.0;     // standard deviation of either end along the bed, as the recogniser says
   // Along the bed from its centre: how far the site's truck zone holds it. The kernel lets nothing pass over what is beyond, the cab above all.
   double zone_low = -std::numeric_limits<double>::infinity(), zone_high = std::numeric_limits<double>::infinity();
   double ceiling = std::numeric_limits<double>::infinity();  // z: over a load that stands higher the kernel lets nothing pass either
+
+  // z of the plane of the tops, so far from the middle along the bed and to its left.
+  double top_at(double u, double v) const { return wall_top + rise_along * u + rise_across * v - 0.5 * (std::fabs(rise_along) * length + std::fabs(rise_across) * width); }
 };
 
 struct SiteModel {

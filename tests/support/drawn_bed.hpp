@@ -18,6 +18,7 @@ struct DrawnBed {
   bool carrier = false;                                      // below the bed, flush with its walls' outer faces, down to the ground
   bool lid = false, cab = true, rear_wall = true;            // the cab stands 0.3 m beyond the end at +x of the bed
   double canopy = 0.0, canopy_rise = 0.2;                    // length of a sheet from the top of the wall at +x, and how much its front is higher; the cab is lower than it
+  bool block = false;                                        // another, higher one beyond the end at -x
   double load = -1e9;                                        // height of a level load, where that is over the floor
   double swing_rate = 0.0;                                   // rad/s, of the sensor about z
 };
@@ -62,6 +63,7 @@ inline std::vector<ScanPoint> sweep_of(const DrawnBed& bed) {
     box(x, x + t, -y - t, y + t, bed.floor, bed.top);
     if (bed.rear_wall) box(-x - t, -x, -y - t, y + t, bed.floor, bed.top);
     if (bed.cab) box(x + t + 0.3, x + t + 2.1, -1.2, 1.2, bed.ground + 0.8, bed.top + (bed.canopy > 0.0 ? -0.1 : 0.3));
+    if (bed.block) box(-x - t - 2.1, -x - t - 0.3, -1.2, 1.2, bed.ground, bed.top + 0.4);
     box(-x, x, -y, y, bed.floor - 0.1, bed.floor);
     if (bed.canopy > 0.0) {
       const double rise = bed.canopy_rise / bed.canopy, begin = x + t, way = (bed.top + rise * (a[0] - begin) - a[2]) / (w[2] - rise * w[0]);

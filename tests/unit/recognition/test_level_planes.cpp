@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "drawn_bed.hpp"
 #include "recognition/bed_ground.hpp"
@@ -150,6 +151,15 @@ TEST(LevelPlanes, TheCanopyTellsTheFront) {
   EXPECT_EQ(i.cab_end, 1);
   weigh_whole(d.sweep, i, false, -1);
   EXPECT_EQ(i.cab_end, -1);
+  const TruckRangeSet ranges = read_truck_ranges(BERM_TRUCK_RANGES);
+  DrawnBed between;
+  between.block = true;
+  const auto to_block = [&](const RecognisedTruck& truck) { return truck.found && std::abs(std::remainder(truck.yaw - between.yaw, 2 * std::numbers::pi)) > 3.0; };
+  EXPECT_TRUE(to_block(recognise_truck(sweep_of(between), drawn_viewpoint, ranges))) << "the block is more like a cab than the cab";
+  between.canopy = 1.0;
+  const RecognisedTruck truck = recognise_truck(sweep_of(between), drawn_viewpoint, ranges);
+  EXPECT_TRUE(truck.found) << truck.reason;
+  EXPECT_FALSE(to_block(truck));
 }
 
 }  // namespace
