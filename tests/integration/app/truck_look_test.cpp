@@ -131,6 +131,21 @@ TEST(TruckLook, OfWhatIsWrongNextWithTheSameTruckTheOperatorIsToldToo) {
   EXPECT_EQ(calls[1].at("reason"), "truck_misplaced");
 }
 
+// On sloping ground: what is passed over is the highest place of its walls.
+TEST(TruckLook, ATiltedBedIsPassedOverWhereItsWallsAreHighest) {
+  Events events;
+  Loading run(1, start_pose(), events.fd());
+  app::BedPose& pose = run.finder.truck.pose;
+  pose.pitch = 0.04, pose.roll = -0.03;
+  while (events.named("recognised").empty() && run.seconds < 60.0) run.step();
+  ASSERT_EQ(events.named("recognised").size(), 1u);
+  const auto event = events.named("recognised").front();
+  EXPECT_NEAR(event.at("wall_top_m").get<double>(), pose.middle.z(), 1e-9);
+  EXPECT_NEAR(event.at("wall_top_highest_m").get<double>(), pose.middle.z() + 0.5 * (0.04 * run.finder.truck.length + 0.03 * run.finder.truck.width), 2e-3);
+  EXPECT_NEAR(event.at("pitch_deg").get<double>(), degrees(0.04), 1e-9);
+  EXPECT_NEAR(event.at("roll_deg").get<double>(), degrees(-0.03), 1e-9);
+}
+
 // The kernel lets nothing pass over a truck that stands elsewhere.
 TEST(TruckLook, ATruckOutsideTheTruckZoneIsNotLoaded) {
   Events events;
