@@ -11,6 +11,8 @@ namespace {
 
 // Half a body and a cell of the kernel's map: whoever comes is told of with his front, when his middle is not in the region yet.
 constexpr double kSamePlace_m = 1.0;
+// Times of plant and kernel are multiples of the cycle, in floating point.
+constexpr double kRounding_s = 1e-6;
 
 bool somebody_near(const std::vector<TraceRow>& rows, double from_s, const StopEvent& stop, double radius_m) {
   const auto near = [&](const std::array<double, 2>& at) {
@@ -40,7 +42,7 @@ std::map<std::string, int> own_motion_stops(const std::vector<StopEvent>& stops,
   std::map<std::string, int> own;
   for (const StopEvent& stop : stops) {
     const bool disturbed = std::any_of(disturbances.begin(), disturbances.end(),
-                                       [&](const Disturbance& d) { return d.from_s <= stop.time_s && stop.time_s <= d.to_s + memory_s; });
+                                       [&](const Disturbance& d) { return d.from_s - kRounding_s <= stop.time_s && stop.time_s <= d.to_s + memory_s + kRounding_s; });
     if (!disturbed && !somebody_near(rows, stop.time_s - memory_s, stop, radius_m)) ++own[stop.reason];
   }
   return own;
