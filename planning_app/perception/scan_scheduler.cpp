@@ -229,9 +229,7 @@ std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, d
   }
   const bool outward = head_[lead_.scanner].up == (lead_.scanner == left);
   lead_.ahead = lead_.scanner == left ? pan[left] : -pan[right];
-  // Where slowness has both see their whole ranges none leads, and none is waited for.
-  const bool leads = !(was_slowed_ && !(head_[lead_.scanner].low_seen && head_[lead_.scanner].high_seen));
-  lead_.triggered = !leads || lead_.ahead > lead_.needed.trigger + (outward ? 0.0 : table_.turn_way());
+  lead_.triggered = lead_.ahead > lead_.needed.trigger + (outward ? 0.0 : table_.turn_way());
   return request;
 }
 
