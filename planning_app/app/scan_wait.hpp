@@ -2,8 +2,7 @@
 // does not get there is made good for by the guard, which slows the swing over what was not seen.
 #pragma once
 
-#include <algorithm>
-#include <optional>
+#include <string>
 
 #include "app/progress_log.hpp"
 #include "perception/scan_scheduler.hpp"
@@ -19,14 +18,7 @@ public:
   // It has begun.
   void swing_began(double time_s, const Lead& lead, const char* way, const ProgressLog& log);
 
-  // Once a cycle while it goes on.
-  void goes_on(const Lead& lead) { least_spare_ = std::min(least_spare_, lead.ahead - lead.required); }
-  // The least by which a scanner was ahead of what its swing's speed needed, rad; none: no swing has gone on.
-  std::optional<double> least_spare() const { return least_spare_ < none ? std::optional(least_spare_) : std::nullopt; }
-
 private:
-  static constexpr double none = 1e9;
-  double least_spare_ = none;
   double since_s_ = -1.0;   // it waits
   bool late_ = false;       // and waited in vain
 };

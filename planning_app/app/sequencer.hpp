@@ -57,7 +57,6 @@ public:
 
   bool finished() const { return stage_ == Stage::finished; }
   const SlowDown& slow_down() const { return slow_down_; }
-  const ScanWait& scan_wait() const { return scan_wait_; }
   const GuardAccount& guard_account() const { return guard_account_; }
   const JointWatch& joint_watch() const { return joint_watch_; }
   KernelMap& kernel_map() { return kernel_map_; }

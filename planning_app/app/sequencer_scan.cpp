@@ -22,9 +22,10 @@ ComingSwing Sequencer::coming_swing(const Observation& o) {
   const double done = stage_ == Stage::dig ? std::clamp(std::max(follower_.progress(), dug_share_), 0.0, 1.0) : 0.0;
   ComingSwing coming;
   coming.begins_in_s = swing_forecast_.step(o.time_s, work_before_swing(), done);
-  // Over the bed the arm reaches out when the swing is slow, over the dig while it is still fast.
+  // Over the bed and at the dig the arm is out farther than it is carried; while it swings it counts as it is.
   const bool swings = phase_ == BERM_PHASE_SWING_TO_TRUCK || phase_ == BERM_PHASE_SWING_TO_DIG;
-  coming.reach_m = std::max(reach_of(machine_, swings_back() ? poses_.hover : poses_.carry), swings ? reach_of(machine_, o.angle) : 0.0);
+  const Joints& carried = swings_back() ? poses_.back : poses_.carry;
+  coming.reach_m = std::max(reach_of(machine_, carried), swings ? reach_of(machine_, o.angle) : 0.0);
   return coming;
 }
 

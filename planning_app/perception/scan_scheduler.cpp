@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "contract/berm_contract.h"
-#include "motion/joint_response.hpp"
 
 namespace berm::app {
 
@@ -87,13 +86,10 @@ void ScanScheduler::plan_lead(std::uint16_t phase, double dig, double truck, dou
   const std::size_t to_truck = truck >= dig ? left : right;
   const bool back = phase == BERM_PHASE_DUMP || phase == BERM_PHASE_SWING_TO_DIG;
   lead_.scanner = back ? (to_truck == left ? right : left) : to_truck;
-  // A swing that goes on is one from a standstill that has come to its speed: a full bucket's takes the longest way.
-  const double sped_up = swings(phase) ? 0.5 * swing_speed * swing_speed / responses_of(machine_, swing, machine_.braking.reach.back(), machine_.bucket_payload_kg).up.acceleration : 0.0;
-  lead_.needed = table_.of(lead_.scanner, std::fabs((back ? dig : truck) - swing_angle) + sped_up, coming.reach_m);
-  lead_.required = table_.required(lead_.scanner, swing_speed, coming.reach_m);
+  lead_.needed = table_.of(lead_.scanner, std::fabs((back ? dig : truck) - swing_angle), coming.reach_m);
   const double whole_inward = phase == BERM_PHASE_DIG ? -under_boom : radians(5.0);
   const double way_out = azimuth_rate * std::max(0.0, coming.begins_in_s - spare_s), turned = lead_.needed.trigger + table_.turn_way() + at_end;
-  if (swings(phase)) inner_ = std::max(lead_.needed.lookahead, lead_.required);
+  if (swings(phase)) inner_ = std::max(lead_.needed.lookahead, table_.required(lead_.scanner, swing_speed, coming.reach_m));
   else if (phase == BERM_PHASE_LIFT) inner_ = turned;
   else inner_ = std::max(whole_inward, turned - way_out);
 }

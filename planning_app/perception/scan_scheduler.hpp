@@ -27,7 +27,6 @@ struct Lead {
   std::size_t scanner = 0;
   double ahead = 0.0;           // its pan
   LookaheadTable::Angles needed;
-  double required = 0.0;        // for the swing's speed now
   bool triggered = false;       // it is so far out, and on its way, that the swing may begin
 };
 
