@@ -105,14 +105,24 @@ TEST(Sequencer, AStallIsToldByWhatPressesOnTheBucket) {
   }
 }
 
-// By the force a bucket is full at its goal.
-TEST(Sequencer, DigsEndWhenTheBucketIsFull) {
+// By the force a bucket is full at its goal, and where the plan's soil does not come the tip goes deeper than planned, but under no floor.
+TEST(Sequencer, DigsEndWhenTheBucketIsFullAndGoDeeperWhereItFillsLate) {
   const app_bench::Events events;
   Loading run(1, start_pose(), events.fd());
   run.plant.has_pressures = true;
-  while (run.seconds < 110.0) run.step();
+  double under = 0.0;
+  int digs = 0;
+  nlohmann::json drag;
+  for (std::uint32_t phase = 0; digs < 7 && run.seconds < 200.0; phase = run.last.phase) {
+    run.step();
+    if (run.last.phase == BERM_PHASE_DIG && phase != BERM_PHASE_DIG) ++digs, drag = events.named("dig").back().at("drag");
+    if (run.last.phase != BERM_PHASE_DIG) continue;
+    const PlanePoint tip = forward(run.machine, run.plant.angle()).tip;
+    for (std::size_t i = 4; i + 1 < drag.size(); ++i)  // after the way in
+      if (std::fabs(tip.r - drag[i][0].get<double>()) < 0.05) under = std::max(under, drag[i][1].get<double>() - tip.z);
+  }
   const auto dug = events.named("dug");
-  ASSERT_GE(dug.size(), 5u);
+  ASSERT_EQ(dug.size(), 6u);
   int full = 0;
   for (std::size_t k = 1; k < dug.size(); ++k) {
     if (dug[k].at("why") != "full") continue;
@@ -120,6 +130,7 @@ TEST(Sequencer, DigsEndWhenTheBucketIsFull) {
     EXPECT_NEAR(dug[k].at("felt_kg").get<double>(), events.named("dig")[k].at("goal_kg").get<double>(), 60.0) << "dig " << k;
   }
   EXPECT_GE(full, 3);
+  EXPECT_GT(under, 0.05) << "m";
 }
 
 // A dig is priced with the work that the soil took in the digs before, and with the swing to the bed.
