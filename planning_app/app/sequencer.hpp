@@ -130,7 +130,6 @@ private:
   Joints look_for_truck(const Observation& o);
   void begin_truck(const Observation& o, const TruckBed& bed);
   void begin_dig(const Observation& o);
-  bool comes_down_to_goal(const Observation& o, const ArmPoints& now) const;
   void begin_curl(const Observation& o, const char* why);
   void plan_dump(const Observation& o);
   DumpPoint dump_point(const Observation& o, double goal_kg, double dig_bearing) const;

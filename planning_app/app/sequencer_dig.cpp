@@ -15,7 +15,6 @@ namespace {
 constexpr double bank_density = 1474.0;           // kg/m3, where nothing was learned yet
 constexpr double cut_reserve = 1.05;              // the cut is planned larger than the goal; the estimate ends it
 constexpr double least_share_of_speed = 0.4;      // in soil, of digs for little
-constexpr double to_goal_speed = 0.8;             // m/s
 constexpr double mean_tip_speed = 1.2;                // m/s in the mean of digs: with what brought a kilogram, the work that it took
 constexpr double near_truck = radians(20.0);      // either side of the dump's bearing
 constexpr double bed_points_age = 12.0;           // s, for the bed map
@@ -85,7 +84,7 @@ void Sequencer::plan_next_dig(const Observation& o, double dump_beyond) {
   region_ = next.region;
   region_.bounds.nearest_start = region_.bounds.farthest_start = dig_.start_radius;  // where the arm comes down
   log_.event("next_dig", {{"time_s", o.time_s}, {"bearing_deg", degrees(dig_.bearing)}, {"bench", region_.bench}, {"column", region_.column},
-                          {"reach", reach_name(region_.reach)}, {"volume_m3", dig_.volume}, {"start_m", dig_.start_radius}, {"attack_deg", degrees(dig_.attack)}, {"energy_kj", 1e-3 * dig_.energy}, {"effort_kj", 1e-3 * needs.effort}, {"dig_s", dig_.seconds}, {"cost_s", dig_.cost}, {"candidates", next.candidates}, {"plan_ms", plan_ms}});
+                          {"reach", reach_name(region_.reach)}, {"volume_m3", dig_.volume}, {"start_m", dig_.start_radius}, {"attack_deg", degrees(dig_.attack)}, {"energy_kj", 1e-3 * dig_.energy}, {"dig_s", dig_.seconds}, {"cost_s", dig_.cost}, {"candidates", next.candidates}, {"plan_ms", plan_ms}});
 }
 
 void Sequencer::begin_dig(const Observation& o) {
@@ -189,17 +188,6 @@ void Sequencer::hold_fill(double in_bucket_kg) {
   follower_.depart(departure);
 }
 
-// A bucket that comes down as fast as in the air passes its path by half a metre where that turns; soil is dug deeper later, but what the goal leaves standing is gone.
-bool Sequencer::comes_down_to_goal(const Observation& o, const ArmPoints& now) const {
-  constexpr double ahead_s = 0.8, comes_down = 0.02;  // s; m in it
-  const double least = dig_goal_->least_tip(now.tip.r, now.bucket_attitude);
-  if (std::isinf(least)) return false;
-  Joints later = o.angle;
-  for (const std::size_t j : {boom, stick, bucket}) later[j] += o.velocity[j] * ahead_s;
-  const double then = forward(machine_, later).tip.z;
-  return then < now.tip.z - comes_down && then < least;
-}
-
 Joints Sequencer::dig(const Observation& o) {
   const ArmPoints now = forward(machine_, o.angle);
   cut_->reach(o.angle);
@@ -221,8 +209,7 @@ Joints Sequencer::dig(const Observation& o) {
   }
   // A small goal is overshot by what comes in while the bucket is told to stop.
   const double gently = std::clamp(goal_kg_ / full_bucket_kg(), least_share_of_speed, 1.0);
-  const double speed = in_soil ? gently * drag_soil_speed : drag_air_speed;
-  return follower_.step(machine_, arm_, o.angle[swing], comes_down_to_goal(o, now) ? std::min(speed, to_goal_speed) : speed, o.angle, o.velocity);
+  return follower_.step(machine_, arm_, o.angle[swing], in_soil ? gently * drag_soil_speed : drag_air_speed, o.angle, o.velocity);
 }
 
 void Sequencer::begin_curl(const Observation& o, const char* why) {

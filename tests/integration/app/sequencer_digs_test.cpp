@@ -133,44 +133,6 @@ TEST(Sequencer, DigsEndWhenTheBucketIsFullAndGoDeeperWhereItFillsLate) {
   EXPECT_GT(under, 0.05) << "m";
 }
 
-// A dig is priced with the work that the soil took in the digs before, and with the swing to the bed.
-TEST(Sequencer, TheWorkOfTheDigsBeforeAndTheSwingAreInTheNextDigsPrice) {
-  const app_bench::Events events;
-  Loading run(1, start_pose(), events.fd());
-  run.plant.has_pressures = true;
-  while (run.seconds < 110.0) run.step();
-  const auto dug = events.named("dug"), digs = events.named("dig"), next = events.named("next_dig");
-  ASSERT_GE(dug.size(), 4u);
-  ASSERT_GT(next.size(), dug.size());
-  const double usual_kj = 135.0, tip_speed = 1.2;
-  EXPECT_NEAR(next[0].at("effort_kj").get<double>(), usual_kj, 1e-9);
-  for (std::size_t k = 2; k < dug.size(); ++k) {  // the first was weighed
-    const double goal_kg = digs[k].at("goal_kg"), took_kj = tip_speed * goal_kg * dug[k].at("impulse_kns").get<double>() / dug[k].at("felt_kg").get<double>();
-    EXPECT_NEAR(next[k + 1].at("effort_kj").get<double>(), took_kj, 0.01) << "after dig " << k;
-    EXPECT_GT(std::fabs(took_kj - usual_kj), 2.0);
-    EXPECT_GT(next[k + 1].at("dig_s").get<double>(), 5.5) << "3 s of drag and way out, and the swing";
-  }
-}
-
-// The loop on the force does not go under the site's goal either.
-TEST(Sequencer, NoDigGoesUnderTheSitesGoal) {
-  SiteModel site = app_bench::bench();
-  constexpr double level = -1.2;
-  site.goal = {{3.9, -4.2, 10.5, 4.2, level}};
-  Loading run(1, start_pose(), -1, site);
-  run.plant.has_pressures = true;
-  double lowest = 0.0;
-  int digs = 0;
-  for (std::uint32_t phase = 0; digs < 8 && run.seconds < 200.0; phase = run.last.phase) {
-    run.step();
-    digs += run.last.phase == BERM_PHASE_DIG && phase != BERM_PHASE_DIG;
-    if (run.last.phase == BERM_PHASE_DIG) lowest = std::min(lowest, bucket_underside(run.machine, run.plant.angle()));
-  }
-  EXPECT_EQ(digs, 8);
-  EXPECT_GT(lowest, level - 0.3) << "as it comes down; else a decimetre";
-  EXPECT_LT(lowest, level + 0.3) << "no dig comes near it: the test shows nothing";
-}
-
 // Dug for a truck that stands as usual, and for one whose bed lies at the end of the arm's reach: there a heap would slide off before the near wall.
 TEST(Sequencer, DigsLessForADumpThatTheArmHardlyReaches) {
   const auto first_goal_kg = [](double farther) {
