@@ -1,9 +1,7 @@
-// The refined dig planner (stentz-1999, 4.2, Figure 13): within a region, where the drag begins, at which angle the bucket attacks and how deep it digs, by a
-// forward model of each candidate over the ground as it is believed to be (dig_candidate.hpp), and what that costs.
+// The refined dig planner (stentz-1999, 4.2, Figure 13): how deep to dig within a region, by a forward model of the cut over the ground as it is believed
+// to be, and what that costs.
 #pragma once
 
-#include <limits>
-#include <optional>
 #include <vector>
 
 #include "motion/dig_path.hpp"
@@ -18,14 +16,9 @@ struct DigPlan {
   double bearing = 0.0;             // swing angle
   double depth = 0.0;               // greatest vertical depth under the surface, m
   double volume = 0.0;              // bank volume the forward model expects, m3
-  double cost = 0.0;                // s: what it lacks of the wanted volume, its energy and its time
+  double cost = 0.0;                // s: what it lacks of the wanted volume, and its energy
   double start_height = 0.0;        // surface where the tip enters, z
   std::vector<DigWaypoint> drag;    // from above the entry to the end with the bucket curled
-  double start_radius = 0.0;        // of the tip where the drag begins
-  double attack = 0.0;              // rad: the bucket's attitude there
-  double energy = 0.0;              // J, at the bucket
-  double seconds = 0.0;             // drag, way out, and swing to where it will be dumped, by what the joints can
-  int candidates = 0;               // that were looked at
 };
 
 struct DigNeeds {
@@ -33,21 +26,17 @@ struct DigNeeds {
   double bucket_width = 1.1;        // m
   double deepest = 1.0;             // most vertical depth under the surface, m
   double dump_beyond = 0.0;         // rad: by how much the bucket swings farther back from the last dump than from the bed's middle, in the sense of the swing there
-  double effort = 135e3;            // J that cutting the wanted volume takes half a metre under the surface
-  double payload = 0.0;             // kg that the wanted volume weighs: the joints answer accordingly
-  std::optional<double> dump_bearing = std::nullopt;  // about where it will be dumped
+  double effort = 135e3;            // J that cutting a bucket takes half a metre under the surface
 };
 
-// What a region leaves open: the drag begins where the site's do, or nearer where that is said.
+// What a region leaves open.
 struct DigBounds {
   double bearing = 0.0;
   double floor = 0.0;               // z: the tip stays above
   double end_radius = 0.0;          // of the tip: the drag goes no farther inward
-  double nearest_start = std::numeric_limits<double>::infinity(), farthest_start = std::numeric_limits<double>::infinity();
 };
 
-// The dig within the bounds that costs least: of those that arm and zones permit the one that brings the wanted volume, or what there is, for the least energy
-// and time.
+// The dig within the bounds that brings the wanted volume, or what there is.
 DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const DigFloor& floor, const DigGround& ground, const DigNeeds& needs, const DigBounds& bounds);
 
 }  // namespace berm::app

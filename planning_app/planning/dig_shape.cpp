@@ -73,7 +73,7 @@ DigShape shape_after(const MachineModel& machine, DigGround ground, double beari
   double inner = SurfaceProfile::first;
   while (inner < start_r && std::fabs(after.at(inner) - before.at(inner)) < unchanged) inner += SurfaceProfile::step;
   DigShape shape;
-  for (double r = start_r; r > inner - 1.5 * SurfaceProfile::step; r -= SurfaceProfile::step) shape.push_back({r, after.at(r)});
+  for (double r = start_r; r > inner - 0.5 * SurfaceProfile::step; r -= SurfaceProfile::step) shape.push_back({r, after.at(r)});
   return shape;
 }
 

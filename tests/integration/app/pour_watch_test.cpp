@@ -210,7 +210,7 @@ TEST(PourWatch, TheTruckHasAHeapFromSixTenthsOfItsLoadOn) {
     run.step();
     if (run.last.phase == BERM_PHASE_DIG) tilted = 0;
     const Joints& q = run.plant.angle();
-    const bool arrives = run.last.phase == BERM_PHASE_SWING_TO_TRUCK && q[swing] > radians(55.0) && share_beside(run.machine, bed, q, 0.5) == 1.0;
+    const bool arrives = run.last.phase == BERM_PHASE_SWING_TO_TRUCK && q[swing] > radians(60.0) && share_beside(run.machine, bed, q, 0.5) == 1.0;
     if (!arrives || tilted >= tilted_cycles) continue;
     run.plant.put(bucket, q[bucket] + radians(-158.0) - forward(run.machine, q).bucket_attitude);
     run.plant.take(lost_kg / tilted_cycles);

@@ -78,61 +78,6 @@ TEST(Sequencer, AFullBucketCurlsAndRisesAtOnce) {
   EXPECT_NEAR(run.plant.angle()[stick], stick_was, radians(3.0));
 }
 
-// Digs until soil comes into the bucket in the dig after this many.
-void go_into_dig(Loading& run, const app_bench::Events& events, std::size_t digs) {
-  constexpr double some_kg = 300.0;
-  while (run.seconds < 300.0 && !(events.named("dig").size() == digs + 1 && events.named("dug").size() == digs && run.plant.payload_kg() > some_kg)) run.step();
-  ASSERT_LT(run.seconds, 300.0);
-}
-
-// What soil holds is given up after a second, what stands without a force after three: by the cylinders' pressures, which the implements' weight has to be known for.
-TEST(Sequencer, AStallIsToldByWhatPressesOnTheBucket) {
-  constexpr double until_held = 0.4;  // s, until the path's reference is so far ahead that it waits
-  struct Held { double force_n, after_s; const char* why; };
-  for (const Held& held : {Held{150e3, 1.0, "stalled"}, Held{5e3, 3.0, "standing"}}) {
-    const app_bench::Events events;
-    Loading run(1, start_pose(), events.fd());
-    run.plant.has_pressures = true;
-    go_into_dig(run, events, 2);
-    if (HasFatalFailure()) return;
-    const std::size_t dug = events.named("dug").size();
-    run.plant.held_by_n = held.force_n;
-    const double begin = run.seconds;
-    while (events.named("dug").size() == dug && run.seconds < begin + 10.0) run.step();
-    ASSERT_GT(events.named("dug").size(), dug) << held.why;
-    EXPECT_EQ(events.named("dug").back().at("why"), held.why);
-    EXPECT_NEAR(run.seconds - begin, until_held + held.after_s, 0.3) << held.why;
-  }
-}
-
-// By the force a bucket is full at its goal, and where the plan's soil does not come the tip goes deeper than planned, but under no floor.
-TEST(Sequencer, DigsEndWhenTheBucketIsFullAndGoDeeperWhereItFillsLate) {
-  const app_bench::Events events;
-  Loading run(1, start_pose(), events.fd());
-  run.plant.has_pressures = true;
-  double under = 0.0;
-  int digs = 0;
-  nlohmann::json drag;
-  for (std::uint32_t phase = 0; digs < 7 && run.seconds < 200.0; phase = run.last.phase) {
-    run.step();
-    if (run.last.phase == BERM_PHASE_DIG && phase != BERM_PHASE_DIG) ++digs, drag = events.named("dig").back().at("drag");
-    if (run.last.phase != BERM_PHASE_DIG) continue;
-    const PlanePoint tip = forward(run.machine, run.plant.angle()).tip;
-    for (std::size_t i = 4; i + 1 < drag.size(); ++i)  // after the way in
-      if (std::fabs(tip.r - drag[i][0].get<double>()) < 0.05) under = std::max(under, drag[i][1].get<double>() - tip.z);
-  }
-  const auto dug = events.named("dug");
-  ASSERT_EQ(dug.size(), 6u);
-  int full = 0;
-  for (std::size_t k = 1; k < dug.size(); ++k) {
-    if (dug[k].at("why") != "full") continue;
-    ++full;
-    EXPECT_NEAR(dug[k].at("felt_kg").get<double>(), events.named("dig")[k].at("goal_kg").get<double>(), 60.0) << "dig " << k;
-  }
-  EXPECT_GE(full, 3);
-  EXPECT_GT(under, 0.05) << "m";
-}
-
 // Dug for a truck that stands as usual, and for one whose bed lies at the end of the arm's reach: there a heap would slide off before the near wall.
 TEST(Sequencer, DigsLessForADumpThatTheArmHardlyReaches) {
   const auto first_goal_kg = [](double farther) {

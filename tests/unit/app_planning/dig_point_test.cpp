@@ -1,11 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "app_bench/bench_machine.hpp"
-#include "planning/dig_candidate.hpp"
 #include "planning/dig_point.hpp"
 
 namespace {
@@ -96,86 +93,6 @@ TEST(DigPoint, CostsWhatItLacksAndItsEnergy) {
   more.volume = 3.0;  // a metre deep it is not there
   EXPECT_GT(cost(hard), usual + 1.0);
   EXPECT_GT(cost(more), usual + 5.0);
-}
-
-// A face that is dug out from the toe to 6.9 m: what begins farther out goes through the air.
-DigGround ground_dug_out_to(double from) {
-  TerrainMap map;
-  for (double x = 3.0; x < 12.0; x += 0.1)
-    for (double y = -5.0; y < 5.0; y += 0.1) map.insert(x, y, x <= 6.0 ? 0.0 : x < from ? -1.5 * (x - 6.0) : -2.6, 1.0);
-  DigGround ground(berm::app_bench::bench());
-  ground.observe(map);
-  return ground;
-}
-
-class DigSearch : public ::testing::Test {
-protected:
-  DigPlan plan(const DigGround& ground, double nearest, double farthest) const {
-    return plan_dig(machine, site, DigFloor(machine, site), ground, needs, {0.0, -2.65, 5.6, nearest, farthest});
-  }
-  MachineModel machine = berm::app_bench::zx200();
-  SiteModel site = berm::app_bench::bench();
-  DigNeeds needs{0.8, 1.1, 1.0};
-};
-
-TEST_F(DigSearch, TheDragBeginsWhereItCostsLeastWithinTheBounds) {
-  constexpr double tolerance = 0.05;  // s: a depth is found to a centimetre
-  for (const double from : {6.7, 7.0, 7.6}) {
-    const DigGround ground = ground_dug_out_to(from);
-    const DigPlan best = plan(ground, 6.6, 7.4);
-    EXPECT_GE(best.start_radius, 6.6 - 1e-9);
-    EXPECT_LE(best.start_radius, 7.4 + 1e-9);
-    EXPECT_DOUBLE_EQ(best.drag.front().r, best.start_radius);
-    for (const double start : {7.4, 7.0, 6.6}) {
-      const DigPlan only = plan(ground, start, start);
-      EXPECT_DOUBLE_EQ(only.start_radius, start);
-      EXPECT_GE(only.cost, best.cost - tolerance) << "from " << start << " m, dug out to " << from;
-      EXPECT_LT(only.candidates, best.candidates);
-    }
-  }
-  const DigGround ground = ground_dug_out_to(6.7);
-  const double effort = needs.effort;
-  needs.effort = 3.0 * effort;
-  EXPECT_NEAR(plan(ground, 6.6, 7.4).start_radius, 7.4, 1e-9) << "a long cut is a shallow one";
-  needs.effort = 0.1 * effort;
-  EXPECT_LT(plan(ground, 6.6, 7.4).start_radius, 7.3) << "light soil: through the air to the face takes longer than a deeper cut";
-}
-
-TEST_F(DigSearch, TimeIsInThePrice) {
-  const DigGround ground = ground_dug_out_to(6.7);
-  const DigPlan far = plan(ground, 7.4, 7.4), near = plan(ground, 6.6, 6.6);
-  ASSERT_GE(std::min(far.volume, near.volume), needs.volume - 1e-9);
-  EXPECT_GT(far.seconds, near.seconds + 0.15) << "0.8 m of way";
-  EXPECT_NEAR(far.cost - near.cost, far.seconds - near.seconds + (far.energy - near.energy) / 60e3, 1e-6);
-}
-
-TEST_F(DigSearch, TheBucketAttacksAsCostsLeast) {
-  const DigGround ground = ground_of(seen_bench());
-  const DigPlan best = plan(ground, 7.4, 7.4);
-  const DigBounds bounds{0.0, -2.65, 5.6};
-  const DigFloor floor(machine, site);
-  const DigForwardModel model(machine, site, floor, ground, needs, bounds);
-  std::vector<double> cheapest;
-  for (const double attack : {-84.0, -92.0}) {
-    double least = 1e9;
-    for (double depth = 0.02; depth < 1.0; depth += 0.01)
-      if (const auto dig = model.outcome({7.4, radians(attack), depth}); dig && dig->volume >= needs.volume)
-        least = std::min(least, dig->seconds + needs.effort * dig->lifted / (needs.volume * 0.5) / 60e3);
-    cheapest.push_back(least);
-  }
-  EXPECT_NEAR(best.cost, *std::min_element(cheapest.begin(), cheapest.end()), 0.08);
-  EXPECT_GT(*std::max_element(cheapest.begin(), cheapest.end()), best.cost + 0.05) << "they cost the same: the test shows nothing";
-}
-
-TEST_F(DigSearch, ADragThatLeavesTheDigZoneOrComesToTheMachinesBodyIsNone) {
-  const DigGround ground = ground_of(seen_bench());
-  EXPECT_GE(plan(ground, 7.4, 7.4).volume, needs.volume);
-  site.dig_zones[0].x_high = 7.0;
-  EXPECT_EQ(plan(ground, 7.4, 7.4).volume, 0.0);
-  EXPECT_FALSE(plan(ground, 7.4, 7.4).drag.empty());
-  site.dig_zones[0].x_high = 10.5;
-  machine.own_body_radius = 5.0;
-  EXPECT_EQ(plan(ground, 7.4, 7.4).volume, 0.0);
 }
 
 }  // namespace
