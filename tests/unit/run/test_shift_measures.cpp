@@ -94,6 +94,14 @@ TEST(OwnMotionStops, LeaveOutWhatAnIntruderOrAFaultMayHaveCaused) {
   EXPECT_EQ(own_motion_stops(stops, {{90, 120}}, rows, 5.0, 10.0).at("stale_ground"), 2) << "farther away than 5 m he is not near";
 }
 
+// The plant's 22.01 and the kernel's are not the same number.
+TEST(OwnMotionStops, LeaveOutTheStopInTheVeryCycleOfADisturbance) {
+  const double pressed = 22.01, told = 2201 * 0.01 - 4e-15;
+  ASSERT_LT(told, pressed);
+  EXPECT_TRUE(own_motion_stops({stop(told, "operator")}, {{pressed, 22.51}}, {}, 12.0, 10.0).empty());
+  EXPECT_EQ(own_motion_stops({stop(pressed - 0.01, "operator")}, {{pressed, 22.51}}, {}, 12.0, 10.0).at("operator"), 1) << "a cycle before";
+}
+
 TEST(OwnMotionStops, LeaveOutWhomTheKernelToldOfBeforeHisMiddleWasInTheRegion) {
   const std::vector<TraceRow> rows{{184.9, {}, {{-13.96, -7.04}}}, {185.1, {}, {{-13.82, -7.01}}}};
   const StopEvent front{185.15, "intruder", true, -13.35, -7.05, 1.4}, elsewhere{185.15, "intruder", true, -9.75, -6.15, 0.8};
