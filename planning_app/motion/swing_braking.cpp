@@ -18,7 +18,8 @@ constexpr double still = 0.02;                   // rad/s
 void SwingBraking::step(double time_s, double velocity, double planned) {
   const double speed = std::fabs(velocity);
   if (speed < still) {
-    forget();
+    peak_ = 0.0;
+    from_s_ = -1.0;
     return;
   }
   if (speed >= peak_) {
@@ -36,11 +37,6 @@ void SwingBraking::step(double time_s, double velocity, double planned) {
     peak_ = 0.0;  // once a landing
     from_s_ = -1.0;
   }
-}
-
-void SwingBraking::forget() {
-  peak_ = 0.0;
-  from_s_ = -1.0;
 }
 
 void SwingBraking::judge(double reached, double planned) {
