@@ -13,8 +13,8 @@
 #include "contract/berm_contract.h"
 #include "gathering/kinematic_chain.hpp"
 #include "motion/machine_model.hpp"
-#include "perception/machine_history.hpp"
 #include "motion/own_machine.hpp"
+#include "perception/machine_history.hpp"
 #include "perception/projection_check.hpp"
 
 namespace berm::app {

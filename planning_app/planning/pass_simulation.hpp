@@ -1,6 +1,9 @@
 // Script, controllers and joint models run together, cycle by cycle, from a given state on: where the motion of a script leads.
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "planning/pass_script.hpp"
 
 namespace berm::app {
@@ -10,7 +13,6 @@ struct PassCourse {
   double carried_kg = 0.0;             // in the bucket, until the swing goes back to the dig
   double brake_empty = 0.0;            // rad/s2, PassTask's: of the swing with nothing in the bucket
   double dump_bucket = 0.0;            // angle of the bucket that is open
-  std::uint32_t events = event_none;   // that have happened, and stay so
 };
 
 // One cycle: evaluate(), and then advance(). Between the two the state may be looked at: the rules are those of this cycle.
@@ -27,10 +29,7 @@ public:
   // False when the script is at its last rules and everything stands at its goals.
   bool advance();
 
-  const Joints& angle() const { return angle_; }
-  const Joints& velocity() const { return velocity_; }
   double seconds() const { return cycle_ * machine_->cycle; }  // since begin
-  const Script& script() const { return script_; }
   bool extends() const { return script_.of(stick).reached(RuleMark::extends); }
   bool returns() const { return script_.of(swing).reached(RuleMark::returns); }
   ReachIntervals box() const { return preview(*machine_, angle_, velocity_); }
