@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/motion_guard.hpp"
+#include "motion/script_tempo.hpp"
 
 namespace berm::app {
 
@@ -22,13 +23,15 @@ const char* Sequencer::phase_name(std::uint16_t phase) {
 }
 
 Sequencer::Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, const ScriptSet& scripts, TruckFinder& finder, const ProgressLog& log)
-    : scripts_(scripts), machine_(machine), scale_(scale_of(machine)), heaped_(machine.bucket_payload_kg), site_(site), dig_floor_(machine_, site_), log_(log), trucks_(trucks), ground_(site_), arm_(machine_), brakes_(most_brake_share * machine.joint[swing].acceleration_max), joint_watch_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_),
+    : scripts_(scripts), machine_(machine), scale_(scale_of(machine)), heaped_(machine.bucket_payload_kg), site_(site), dig_floor_(machine_, site_), log_(log), trucks_(trucks), ground_(site_), arm_(machine_), brakes_(most_brake_share * machine.joint[swing].acceleration_max), joint_watch_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_), look_ahead_(machine_, scripts_),
       load_check_(scale_.load), reach_again_(machine_), fill_(site.place.target_kg, full_bucket_kg()), pour_(machine.bucket_payload_kg) {
   scanners_.begin_full_sweep();
 }
 
 void Sequencer::enter(Stage stage, const Observation& o) {
   called_for_truck_ = false;
+  if (look_ahead_.slows()) tell_change(o, {});
+  look_ahead_.begin();
   stage_ = stage;
   stage_s_ = o.time_s;
 }
@@ -51,6 +54,7 @@ void Sequencer::begin_script(const Script& script) {
   script_ = script;
   script_.start();
   reach_again_.end();
+  ahead_pass_.reset();
   script_s_ = -1.0;
 }
 
@@ -78,37 +82,28 @@ void Sequencer::hear(const Observation& o) {
   watch_joints(o);
 }
 
+// What was dug may be more than the weighing has seen yet.
+double Sequencer::carried_kg() const { return holds_nothing_ ? 0.0 : std::max(recent_.kg(), goal_kg_); }
+
 void Sequencer::watch_joints(const Observation& o) {
   const bool digs = stage_ == Stage::dig || stage_ == Stage::curl;
-  // What was dug may be more than the weighing has seen yet.
-  const double carried_kg = holds_nothing_ ? 0.0 : std::max(recent_.kg(), goal_kg_);
-  joint_watch_.step(o, {carried_kg, !holds_nothing_, !digs, comes_down() && script_.running() ? std::optional(script_.goals()) : std::nullopt}, log_);
-  arm_.carries(carried_kg);
+  joint_watch_.step(o, {carried_kg(), !holds_nothing_, !digs, comes_down() && script_.running() ? std::optional(script_.goals()) : std::nullopt}, log_);
+  arm_.carries(carried_kg());
   arm_.limit(joint_watch_.paces(!holds_nothing_));
 }
 
-// A rule that waited for the swing is timed by it (a lowering over the dig, a pouring over the bed): it is slowed with the swing, so that each
-// swing angle finds the implements where the search for the script's parameters had them. The other rules go ahead, into safer poses.
+// By what the kernel lets out and what look-ahead has slowed.
 Joints Sequencer::tempos() const {
-  constexpr double least = 0.2;  // a swing that hardly moves may be waiting for the very joint
-  constexpr double least_of_bucket = 0.05;  // less is a stop
-  const double share = std::max(least, arm_.shares()[swing]);
-  Joints tempo{1.0, 1.0, 1.0, 1.0};
-  if (reach_again_.active()) return tempo;
-  for (const Joint j : {boom, stick, bucket})
-    if (script_.of(j).waited_for(swing)) tempo[j] = share;
-  // A bucket that still opens when the swing has turned round is timed by it no more.
-  if (script_.of(swing).reached(RuleMark::returns) && script_.of(bucket).rules()[static_cast<std::size_t>(script_.of(bucket).active())].mark == RuleMark::opens) tempo[bucket] = 1.0;
-  // What waited for the bucket is timed by the bucket: an arm that is drawn in as it opens, at a share of its speed, would be drawn in before a slowed one has opened.
-  const double opens = std::max(least_of_bucket, tempo[bucket] * arm_.shares()[bucket]);
-  for (const Joint j : {boom, stick})
-    if (script_.of(j).waited_for(bucket)) tempo[j] = std::min(tempo[j], opens);
-  return tempo;
+  if (reach_again_.active()) return {1.0, 1.0, 1.0, 1.0};
+  Joints shares = arm_.shares();
+  shares[swing] *= look_ahead_.shares().swing;
+  return tempos_of(script_, shares);
 }
 
 void Sequencer::plan_landing(const Observation& o) {
   // Full it lands near the truck, whose cab the kernel wants room to: there a harder landing would be stopped.
-  if (o.running() && holds_nothing_ && comes_down()) brakes_.step(o.time_s, o.velocity[swing], arm_.swing_deceleration());
+  if (look_ahead_.slows()) brakes_.forget();
+  else if (o.running() && holds_nothing_ && comes_down()) brakes_.step(o.time_s, o.velocity[swing], arm_.swing_deceleration());
   arm_.brake_swing(holds_nothing_ ? brakes_.known() : 0.0);
 }
 
@@ -117,7 +112,8 @@ Joints Sequencer::run_script(const Observation& o, std::uint32_t events) {
     script_.evaluate(o.angle, events);
     script_s_ = o.time_s;
   }
-  return arm_.toward(stage_ == Stage::pass ? pass_goals(o) : script_.goals(), script_.paces(), tempos(), o.angle, o.velocity);
+  foresee(o, events);
+  return arm_.toward(stage_ == Stage::pass ? pass_goals(o) : script_.goals(), look_ahead_.shares().of(script_.paces()), tempos(), o.angle, o.velocity);
 }
 
 // A load that is poured in part: meanwhile the arm keeps its lip over the bed's middle, and on the way back the bucket holds the rest level.
@@ -264,6 +260,7 @@ Answer Sequencer::step(const Observation& o) {
   if (advice.resumed && (stage_ == Stage::go_look || stage_ == Stage::look)) begin_look(o);
   if (standing_.step(o, works() && o.running() && !advice.in_charge)) go_on_from_a_stand(o);
   if (advice.in_charge) {
+    look_ahead_.rest();
     answer.velocity = advice.velocity;
     if (stage_ == Stage::look) look_.stop(scanners_);
     if (stage_ == Stage::survey && scanners_.full_sweep_done()) enter(after_survey_, o);
@@ -279,7 +276,7 @@ Answer Sequencer::step(const Observation& o) {
   const double truck_bearing = site_.bed ? std::atan2(site_.bed->centre_y, site_.bed->centre_x) : std::atan2(site_.place.y, site_.place.x);
   const bool lifts_soon = stage_ == Stage::curl || (stage_ == Stage::dig && follower_.progress() > 0.6);
   // A motion that is let out slowly for long: ground grows old on which the looks of its phase do not fall.
-  const bool slowed_long = slow_down_.lasts_s() > slow_for_long;
+  const bool slowed_long = std::max(slow_down_.lasts_s(), look_ahead_.slows_for_s(o.time_s)) > slow_for_long;
   answer.pan = scanners_.step(lifts_soon ? std::uint16_t{BERM_PHASE_LIFT} : phase_, task_.next_bearing, truck_bearing, o.angle[swing], o.velocity[swing], o.pan, slowed_long);
   answer.phase = phase_;
   answer.horn = sounds_full(o) || (stage_ == Stage::ask_move && sounds_move_back(o.time_s - stage_s_, back_m_));

@@ -32,6 +32,7 @@
 #include "planning/dump_point.hpp"
 #include "planning/face_reserve.hpp"
 #include "planning/heaped_bucket.hpp"
+#include "planning/look_ahead.hpp"
 #include "planning/pass_search.hpp"
 #include "planning/sticking_soil.hpp"
 #include "planning/truck_fill.hpp"
@@ -68,6 +69,10 @@ private:
   void watch_joints(const Observation& o);    // against their models, with what is in the bucket
   Joints tempos() const;                      // of the script's active rules, with a slowed swing
   Joints run_script(const Observation& o, std::uint32_t events);
+  void foresee(const Observation& o, std::uint32_t events);  // what the script will meet
+  bool look_for_foresight(const Observation& o);
+  void tell_change(const Observation& o, const LookAhead::Change& change) const;
+  double carried_kg() const;
   Joints approach(const Observation& o);
   Joints settle(const Observation& o);
   bool swing_stands_at_goal(const Observation& o) const;
@@ -200,6 +205,10 @@ private:
   DigFollower follower_;
   Script script_;
   double script_s_ = 0.0;
+  LookAhead look_ahead_;
+  std::optional<LookAhead::Pass> ahead_pass_;  // that the script was bound with, if it is a pass's
+  std::optional<Skyline> ahead_;              // of what has ever been seen
+  double ahead_from_s_ = 0.0;
   std::optional<PassSearch> search_;
   PassTask task_;
   PassPoses poses_;

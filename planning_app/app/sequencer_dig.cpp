@@ -293,6 +293,7 @@ Joints Sequencer::curl(const Observation& o) {
     note_cut(o);
     poses_ = search_->poses();
     begin_script(pass_script(scripts_, machine_, task_, poses_, search_->thresholds()));
+    ahead_pass_ = {task_, poses_, search_->thresholds()};
     emptied_ = pours_ = false;
     open_since_s_ = -1.0;
     before_.reset();

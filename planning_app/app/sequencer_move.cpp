@@ -87,6 +87,7 @@ void Sequencer::forget_surroundings(const Observation& o) {
   kernel_map_ = KernelMap();
   search_.reset();
   skyline_.reset();
+  ahead_.reset();
   look(o);
   missed_digs_ = stands_ = 0;
   region_ = DigRegion{};
@@ -133,6 +134,7 @@ void Sequencer::begin_anew_after_slip(const Observation& o) {
   bed_slipped_ = had_bed;
   cut_.reset();
   skyline_.reset();
+  ahead_.reset();
   look(o);
   if (stage_ == Stage::raise_for_move) {  // after the move all is begun anew once more
     go_on_with_script(o);

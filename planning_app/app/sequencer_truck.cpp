@@ -68,6 +68,7 @@ void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
     if (!look_.sweep().flagged(i)) bed_->insert(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), p.time_s);
   }
   skyline_.reset();
+  ahead_.reset();
   look(o);
   const bool goes_on = part_filled_;
   if (goes_on) {

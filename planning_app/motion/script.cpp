@@ -45,6 +45,17 @@ void JointScript::look(const Joints& angle) {
     }
 }
 
+void JointScript::wait_as(const JointScript& other) {
+  for (std::size_t r = static_cast<std::size_t>(active_ + 1); r < std::min(rules_.size(), other.rules_.size()); ++r)
+    for (std::size_t i = 0; i < std::min(rules_[r].conditions.size(), other.rules_[r].conditions.size()); ++i) {
+      Condition& c = rules_[r].conditions[i];
+      const double was = c.threshold;
+      c = other.rules_[r].conditions[i];
+      const bool sooner = c.relation == Relation::falls_below ? c.threshold > was : c.relation == Relation::rises_above && c.threshold < was;
+      if (sooner && running()) armed_[r][i] = false;
+    }
+}
+
 void JointScript::evaluate(const Joints& angle, std::uint32_t events) {
   if (!running() || at_last()) return;
   look(angle);
@@ -70,6 +81,10 @@ void Script::start() {
 
 void Script::interrupted() {
   for (JointScript& s : scripts_) s.interrupted();
+}
+
+void Script::wait_as(const Script& other) {
+  for (std::size_t j = 0; j < joints; ++j) scripts_[j].wait_as(other.scripts_[j]);
 }
 
 void Script::evaluate(const Joints& angle, std::uint32_t events) {

@@ -62,6 +62,9 @@ public:
   // Motion was not the script's for a while, after a stop: a joint may have passed what the next rules wait for, and will not come back to pass it again.
   // From now on a crossing need not be seen from its other side.
   void interrupted() { interrupted_ = true; }
+  // The rules whose turn has not come wait for what those of another binding of the same script wait for. Nothing else changes: goals, paces, the active rule.
+  // A crossing whose threshold comes sooner now has to be seen from its other side anew.
+  void wait_as(const JointScript& other);
   // One pass: activates the next rule when its left-hand side holds; at most one step a pass.
   void evaluate(const Joints& angle, std::uint32_t events);
 
@@ -92,6 +95,7 @@ public:
 
   void start();
   void interrupted();
+  void wait_as(const Script& other);
   void evaluate(const Joints& angle, std::uint32_t events);  // at a fixed rate
   bool running() const { return scripts_[swing].running(); }
   Joints goals() const;

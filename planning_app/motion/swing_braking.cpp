@@ -18,8 +18,7 @@ constexpr double still = 0.02;                   // rad/s
 void SwingBraking::step(double time_s, double velocity, double planned) {
   const double speed = std::fabs(velocity);
   if (speed < still) {
-    peak_ = 0.0;
-    from_s_ = -1.0;
+    forget();
     return;
   }
   if (speed >= peak_) {
@@ -37,6 +36,11 @@ void SwingBraking::step(double time_s, double velocity, double planned) {
     peak_ = 0.0;  // once a landing
     from_s_ = -1.0;
   }
+}
+
+void SwingBraking::forget() {
+  peak_ = 0.0;
+  from_s_ = -1.0;
 }
 
 void SwingBraking::judge(double reached, double planned) {

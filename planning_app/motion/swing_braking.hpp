@@ -11,6 +11,8 @@ public:
 
   // Once a cycle while the swing is moved towards a goal: its measured speed (rad/s), and the deceleration that its controller now plans with.
   void step(double time_s, double velocity, double planned);
+  // It is slowed for another reason than that it lands: of that slowing down nothing is learned.
+  void forget();
   // What a landing may be planned with, also where the table allows less.
   double known() const { return known_; }  // rad/s2; 0 before the first
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "motion/script_tempo.hpp"
+
 namespace berm::app {
 
 namespace {
@@ -40,7 +42,7 @@ std::uint32_t PassSimulation::events() {
 void PassSimulation::evaluate() {
   const std::uint32_t happened = events();
   if (cycle_ % script_every == 0) script_.evaluate(angle_, happened);
-  const bool empty = returns();
+  const bool empty = returns() || course_.carried_kg <= 0.0;
   arm_.brake_swing(empty ? course_.brake_empty : 0.0);
   const double carried_kg = empty ? 0.0 : course_.carried_kg;
   arm_.carries(carried_kg);
@@ -50,7 +52,7 @@ void PassSimulation::evaluate() {
 
 bool PassSimulation::advance() {
   const Joints goals = script_.goals();
-  const Joints command = arm_.toward(goals, script_.paces(), angle_, velocity_);
+  const Joints command = arm_.toward(goals, course_.shares.of(script_.paces()), tempos_of(script_, {course_.shares.swing, 1.0, 1.0, 1.0}), angle_, velocity_);
   arm_.sent(command);
   bool standing = script_.at_last();
   for (std::size_t j = 0; j < joints; ++j) {
@@ -63,8 +65,8 @@ bool PassSimulation::advance() {
   return !standing;
 }
 
-std::optional<Skyline::Blocking> PassSimulation::blocking(const Skyline& skyline, const ReachIntervals& box) const {
-  auto found = skyline.blocking(box, Skyline::Ranges::left_to_guard);
+std::optional<Skyline::Blocking> PassSimulation::blocking(const Skyline& skyline, const ReachIntervals& box, double slack) const {
+  auto found = skyline.blocking(box, Skyline::Ranges::left_to_guard, slack);
   if (found && !extends() && found->what != Skyline::Blocking::What::ground) found.reset();
   return found;
 }

@@ -1,18 +1,24 @@
 // Script, controllers and joint models run together, cycle by cycle, from a given state on: where the motion of a script leads.
 #pragma once
 
-#include <array>
-#include <optional>
-
 #include "planning/pass_script.hpp"
 
 namespace berm::app {
+
+// Of the paces of a script's rules, what is kept to.
+struct PaceShares {
+  double swing = 1.0, arm = 1.0;
+  bool operator==(const PaceShares&) const = default;
+  Joints of(const Joints& paces) const { return {swing * paces[app::swing], arm * paces[boom], arm * paces[stick], arm * paces[bucket]}; }
+};
 
 // What a simulation takes for given besides the joints.
 struct PassCourse {
   double carried_kg = 0.0;             // in the bucket, until the swing goes back to the dig
   double brake_empty = 0.0;            // rad/s2, PassTask's: of the swing with nothing in the bucket
   double dump_bucket = 0.0;            // angle of the bucket that is open
+  std::uint32_t events = event_none;   // that have happened, and stay so
+  PaceShares shares{};                 // what waited for the swing is slowed with it
 };
 
 // One cycle: evaluate(), and then advance(). Between the two the state may be looked at: the rules are those of this cycle.
@@ -29,7 +35,11 @@ public:
   // False when the script is at its last rules and everything stands at its goals.
   bool advance();
 
+  const Joints& angle() const { return angle_; }
+  const Joints& velocity() const { return velocity_; }
   double seconds() const { return cycle_ * machine_->cycle; }  // since begin
+  const Script& script() const { return script_; }
+  const ArmController& arm() const { return arm_; }
   bool extends() const { return script_.of(stick).reached(RuleMark::extends); }
   bool returns() const { return script_.of(swing).reached(RuleMark::returns); }
   ReachIntervals box() const { return preview(*machine_, angle_, velocity_); }
@@ -37,7 +47,7 @@ public:
   // there: a bucket that opens far for what sticks in it comes there in every pass. Beside the truck stands its cab: how fast the swing goes towards it with
   // folded implements is the kernel's to say, which slows it smoothly. What the arm meets of its own body it meets however late the swing begins: the guard
   // slows the arm.
-  std::optional<Skyline::Blocking> blocking(const Skyline& skyline, const ReachIntervals& box) const;
+  std::optional<Skyline::Blocking> blocking(const Skyline& skyline, const ReachIntervals& box, double slack = Skyline::own_slack) const;
 
 private:
   static constexpr int script_every = 2;   // cycles: 50 Hz

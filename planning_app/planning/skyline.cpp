@@ -10,7 +10,6 @@ namespace berm::app {
 namespace {
 
 constexpr double unknown_height = 0.0;   // the bench the machine stands on
-constexpr double own_slack = 0.10;       // beyond the kernel's margin: the kernel's slices are wider than the implements
 constexpr double own_diagonal = 0.425;   // of a cell: of those wholly within its own body's circle and so far beyond it the kernel asks nothing of the boom
 constexpr double lateral_step = 0.2;     // of the search across the implements' width; at most a terrain cell
 constexpr double wall_thickness = 0.3;   // generous
@@ -197,14 +196,14 @@ const char* Skyline::Blocking::name() const {
   return "?";
 }
 
-std::optional<Skyline::Blocking> Skyline::blocking(const ReachIntervals& box, Ranges ranges) const {
+std::optional<Skyline::Blocking> Skyline::blocking(const ReachIntervals& box, Ranges ranges, double slack) const {
   for (const std::size_t j : {boom, stick, bucket})
     if (ranges == Ranges::kept && (box.low[j] < machine_->joint[j].low || box.high[j] > machine_->joint[j].high)) return Blocking{Blocking::What::joint_range};
   const LowerEdge edge(*machine_, box);
   if (!clears_own_body(*machine_, edge)) return Blocking{Blocking::What::own_body};
   const bool contact_allowed = box.swing_speed < machine_->dig_swing_limit && edge.lowest() > floor_ + over_floor;
   const std::vector<double>& top = contact_allowed ? outside_dig_zone_ : all_;
-  const double margin = machine_->margin + own_slack;
+  const double margin = machine_->margin + slack;
   constexpr double step = 2.0 * std::numbers::pi / bearings;
   for (double bearing = box.low[swing]; bearing < box.high[swing] + step; bearing += step)
     for (int bin = 0, first = static_cast<int>(slot(bearing, 0)); bin < LowerEdge::bins; ++bin)

@@ -34,6 +34,7 @@ public:
   Skyline(const MachineModel& machine, const SiteModel& site, const Height& ground, OverHigh over_high = OverHigh::ignored)
       : Skyline(machine, site, by_rows(ground), over_high, Rows{}) {}
 
+  static constexpr double own_slack = 0.10;   // m beyond the kernel's margin: the kernel's slices are wider than the implements
   static constexpr double over_floor = 0.1;  // m: so far over a dig zone's floor contact is asked for at the lowest
 
   // Whether the implements stay clear, by the kernel's margin and a little more, of everything under the intervals. In the dig zone contact is
@@ -50,7 +51,7 @@ public:
   };
   // Ranges::left_to_guard: intervals that go beyond a joint's range block nothing, and do not hide what else they meet.
   enum class Ranges { kept, left_to_guard };
-  std::optional<Blocking> blocking(const ReachIntervals& box, Ranges ranges = Ranges::kept) const;
+  std::optional<Blocking> blocking(const ReachIntervals& box, Ranges ranges = Ranges::kept, double slack = own_slack) const;
   // Whether it may not be passed over with the implements up either: ground that is too near below them is what a box meets first. Not of unseen ground.
   bool stands_too_high(const Blocking& blocking) const;
 

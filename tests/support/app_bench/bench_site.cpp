@@ -103,6 +103,12 @@ void BenchSite::dump(double x, double y, double mass_kg) {
   third_[std::clamp(static_cast<int>((x + slipped_x_ - bed_x + bed_half_length) / (2.0 * bed_half_length / 3.0)), 0, 2)] += mass_kg;
 }
 
+void BenchSite::heap_up(double x, double y, double radius, double top) {
+  for (double dx = -radius; dx <= radius; dx += 0.5 * cell)
+    for (double dy = -radius; dy <= radius; dy += 0.5 * cell)
+      if (std::hypot(dx, dy) <= radius) ground(x + dx, y + dy) = std::max(ground(x + dx, y + dy), top);
+}
+
 void BenchSite::new_truck() {
   bed_mass_ = 0.0;
   std::fill(std::begin(third_), std::end(third_), 0.0);

@@ -17,6 +17,7 @@ public:
   // One step of what was cut sliding after; call it once a cycle.
   void slump();
   void dump(double x, double y, double mass_kg);
+  void heap_up(double x, double y, double radius, double top);  // of the base frame; as steep as a wall, it stays
   void new_truck();
   // The base slips by so much: everything lies so much the other way from where it was.
   void slip(double x, double y);

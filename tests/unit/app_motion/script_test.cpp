@@ -144,4 +144,32 @@ TEST(Script, AnEventIsNeededAndNoRuleIsSkipped) {
   EXPECT_TRUE(s.at_last());
 }
 
+// Amid a motion: what is active goes on, what has been seen of a crossing holds where it comes later, and not where it comes sooner.
+TEST(Script, TheRulesThatHaveNotFiredMayBeToldToWaitForSomethingElse) {
+  const auto bound = [](double back, double open) {
+    return JointScript({{"first", {when(boom, Relation::above, back)}, event_none, back}, {"back", {when(swing, Relation::falls_below, back)}, event_none, 1.0},
+                        {"open", {when(stick, Relation::above, open)}, event_emptied, 2.0, 0.5}});
+  };
+  JointScript s = bound(60.0, 10.0);
+  s.start();
+  const auto look = [&](double deg, std::uint32_t events = event_none) { s.evaluate({radians(deg), 0, radians(20), 0}, events); };
+  look(65);
+  s.wait_as(bound(40.0, 30.0));
+  look(50);
+  EXPECT_EQ(s.active(), 0) << "not there yet";
+  EXPECT_EQ(s.goal(), 60.0) << "of the active rule";
+  s.wait_as(bound(55.0, 30.0));
+  look(50);
+  EXPECT_EQ(s.active(), 0) << "never seen at 55 and above";
+  look(56);
+  look(54);
+  EXPECT_EQ(s.active(), 1);
+  s.wait_as(bound(0.0, 10.0));
+  EXPECT_EQ(s.rules()[1].conditions[0].threshold, radians(55)) << "it has fired";
+  look(54);
+  EXPECT_EQ(s.active(), 1) << "the event is still waited for";
+  look(54, event_emptied);
+  EXPECT_EQ(s.active(), 2);
+}
+
 }  // namespace

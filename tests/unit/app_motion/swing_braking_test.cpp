@@ -56,4 +56,21 @@ TEST(SwingBraking, ASlowSwingSaysNothing) {
   EXPECT_EQ(brakes.known(), 0.0);
 }
 
+// Slowed on its way it goes on slowly, and lands from there: taken for one landing it would be the weakest of all.
+TEST(SwingBraking, LearnsNothingOfASwingThatIsSlowedOnItsWay) {
+  for (const bool told : {true, false}) {
+    SwingBraking brakes(0.4);
+    double time_s = 0.0;
+    for (int k = 0; k < 2; ++k) land(brakes, std::max(0.2, brakes.known()), 1.0, time_s);
+    const double known = brakes.known();
+    double speed = 0.0;
+    for (; speed < 0.6; speed += 0.3 * cycle, time_s += cycle) brakes.step(time_s, speed, known);
+    for (; speed > 0.3; speed -= known * cycle, time_s += cycle) brakes.step(time_s, speed, known);
+    for (int k = 0; k < 300; ++k, time_s += cycle) told ? brakes.forget() : brakes.step(time_s, speed, known);
+    for (; speed > 0.0; speed -= known * cycle, time_s += cycle) told ? brakes.forget() : brakes.step(time_s, speed, known);
+    if (told) EXPECT_EQ(brakes.known(), known);
+    else EXPECT_LT(brakes.known(), known) << "the test shows nothing";
+  }
+}
+
 }  // namespace

@@ -2,14 +2,12 @@
 
 #include <cmath>
 
-#include "app_bench/bench_machine.hpp"
-#include "motion/arm_kinematics.hpp"
-#include "planning/pass_search.hpp"
-#include "planning/skyline.hpp"
+#include "bench_pass.hpp"
 
 namespace {
 
 using namespace berm::app;
+using berm::app_bench::BenchPass;
 
 TEST(Skyline, TheTrucksWallsStandEvenUnseen) {
   const MachineModel m = berm::app_bench::zx200();
@@ -128,27 +126,6 @@ TEST(Skyline, IntervalsBeyondARangeHideNothingThatTheyMeet) {
   ASSERT_TRUE(unseen.blocking(box, Skyline::Ranges::left_to_guard));
   EXPECT_EQ(unseen.blocking(box, Skyline::Ranges::left_to_guard)->what, Skyline::Blocking::What::ground);
 }
-
-// A bench with a truck beside it, and a pass over it.
-struct BenchPass {
-  BenchPass() : machine(berm::app_bench::zx200()), site(berm::app_bench::bench_with_truck()), scripts(berm::app_bench::shipped_scripts()) {
-    for (double x = -12.0; x < 12.0; x += 0.1)
-      for (double y = -12.0; y < 12.0; y += 0.1) terrain.insert(x, y, x < 6.0 && y < 3.6 ? 0.0 : -2.2, 1.0);
-    task.lifted_from = *inverse_tip(machine, {5.6, 0.4}, radians(-170.0), radians(7.0));
-    task.truck_bearing = radians(96.0);
-    task.dump_radius = 6.8;
-    task.next_bearing = 0.0;
-    task.next_entry = {7.4, -1.6};
-    task.truck_top = task.wall_top = berm::app_bench::bench_bed().wall_top;
-  }
-  PassSearch begin(const PassPoses& poses) const { return PassSearch(scripts, machine, Skyline(machine, site, ground_of(terrain)), task, poses); }
-
-  MachineModel machine;
-  SiteModel site;
-  ScriptSet scripts;
-  TerrainMap terrain;
-  PassTask task;
-};
 
 // What sticks is let out by a bucket that opens almost to its range's end, which says nothing of where the arm may reach out over the dig.
 TEST(PassSearch, ABucketThatOpensFarDoesNotKeepTheArmFromReachingOutOverTheDig) {
