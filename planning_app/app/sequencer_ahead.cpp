@@ -7,7 +7,7 @@ namespace berm::app {
 
 namespace {
 
-constexpr double ahead_period = 0.5;  // s, of the skyline: as the guard's
+constexpr double ahead_period = 0.25;  // s, of the skyline: as often as the kernel's map is taken
 
 }  // namespace
 
