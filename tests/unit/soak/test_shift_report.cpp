@@ -160,11 +160,11 @@ TEST(ShiftReport, SoilIsWhatTheScenarioHasOfChanges) {
   const json soil = shift_json(half_an_hour(), 8.0, drawn)["soil"];
   ASSERT_GE(changes.size(), 3u);
   ASSERT_EQ(soil.size(), changes.size());
-  const auto radians = [](const json& deg) { return deg.get<double>() * std::acos(-1.0) / 180.0; };
+  const auto rise_over_run = [](const json& deg) { return std::tan(deg.get<double>() * std::acos(-1.0) / 180.0); };
   for (std::size_t i = 0; i < changes.size(); ++i) {
     EXPECT_DOUBLE_EQ(soil[i]["at_s"].get<double>(), changes[i].at_s);
-    EXPECT_NEAR(radians(soil[i]["repose_deg"]), changes[i].repose, 1e-9);
-    EXPECT_NEAR(radians(soil[i]["bank_slope_deg"]), changes[i].bank_slope, 1e-9);
+    EXPECT_NEAR(rise_over_run(soil[i]["repose_deg"]), changes[i].repose, 1e-9);
+    EXPECT_NEAR(rise_over_run(soil[i]["bank_slope_deg"]), changes[i].bank_slope, 1e-9);
     EXPECT_DOUBLE_EQ(soil[i]["resistance"].get<double>(), changes[i].resistance);
     EXPECT_DOUBLE_EQ(soil[i]["stick_fraction"].get<double>(), changes[i].stick_fraction);
   }
