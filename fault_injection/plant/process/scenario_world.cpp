@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <cmath>
 #include <set>
 
 #include "plant/machine/implement_shape.hpp"
@@ -15,6 +16,9 @@ namespace {
 constexpr double kSite = 100.0;    // m; no coordinate lies farther out, ...
 constexpr double kGround = 215.0;  // ... but a bench that the machine moves back along for 200 m
 constexpr std::size_t kMostMovers = 16;
+
+// The file has angles, the ground rises over runs.
+double rise_over_run(StrictTable& t, const char* key, double low_deg, double high_deg) { return std::tan(t.degrees(key, low_deg, high_deg)); }
 
 TerrainConfig read_terrain(StrictTable t) {
   TerrainConfig terrain;
@@ -42,7 +46,7 @@ TerrainConfig read_terrain(StrictTable t) {
     mound.from = m.array<2>("from", -kSite, kSite);
     mound.to = m.array<2>("to", -kSite, kSite);
     mound.top = m.number("top", -10.0, 10.0);
-    mound.slope = m.degrees("slope_deg", 5.0, 70.0);
+    mound.slope = rise_over_run(m, "slope_deg", 5.0, 70.0);
     m.finish();
     terrain.mounds.push_back(mound);
   }
@@ -54,8 +58,8 @@ SoilConfig read_soil(StrictTable t) {
   SoilConfig soil;
   soil.density_bank = t.number("density_bank_kg_m3", 500.0, 4000.0);
   soil.swell = t.number("swell", 1.0, 2.0);
-  soil.repose = t.degrees("repose_deg", 10.0, 60.0);
-  soil.bank_slope = t.degrees("bank_slope_deg", 20.0, 89.0);
+  soil.repose = rise_over_run(t, "repose_deg", 10.0, 60.0);
+  soil.bank_slope = rise_over_run(t, "bank_slope_deg", 20.0, 89.0);
   soil.resistance = t.number("resistance", 0.0, 1.0);
   soil.stick_fraction = t.number("stick_fraction", 0.0, 0.9);
   t.finish();
@@ -65,8 +69,8 @@ SoilConfig read_soil(StrictTable t) {
 SoilChange read_soil_change(StrictTable t) {
   SoilChange change;
   change.at_s = t.number("at_s", 0.0, 36000.0);
-  change.repose = t.degrees("repose_deg", 10.0, 60.0);
-  change.bank_slope = t.degrees("bank_slope_deg", 20.0, 89.0);
+  change.repose = rise_over_run(t, "repose_deg", 10.0, 60.0);
+  change.bank_slope = rise_over_run(t, "bank_slope_deg", 20.0, 89.0);
   change.resistance = t.number("resistance", 0.0, 1.0);
   change.stick_fraction = t.number("stick_fraction", 0.0, 0.9);
   t.finish();

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <numbers>
 #include <set>
@@ -82,6 +83,22 @@ TEST(Soil, ShippedSoilsLoadUnderTheirNamesAndDiffer) {
   EXPECT_EQ(clay.repose, bench.repose);
   EXPECT_EQ(clay.bank_slope, bench.bank_slope);
   EXPECT_EQ(clay.resistance, bench.resistance);
+}
+
+// 45 degrees rise one on one, in the soil, in the rain and on a mound.
+TEST(Soil, SlopesAreOfTheFilesAngles) {
+  const test::Scratch scratch;
+  const SoilConfig soil = load_soil(scratch.write("steep.toml", "schema = 1\nname = \"steep\"\n[soil]\ndensity_bank_kg_m3 = 1474.0\nswell = 1.1\nrepose_deg = 45.0\n"
+                                                                "bank_slope_deg = 60.0\nresistance = 0.5\nstick_fraction = 0.0\n"));
+  EXPECT_NEAR(soil.repose, 1.0, 1e-12);
+  EXPECT_NEAR(soil.bank_slope, std::sqrt(3.0), 1e-12);
+  const WorldConfig w = loaded(scratch, text_of("bench.toml") + "\n[[soil_change]]\nat_s = 9.0\nrepose_deg = 45.0\nbank_slope_deg = 60.0\nresistance = 0.5\nstick_fraction = 0.0\n"
+                                            "\n[[terrain.mound]]\nfrom = [1.0, -9.0]\nto = [2.0, -9.0]\ntop = 1.0\nslope_deg = 45.0\n").world;
+  ASSERT_EQ(w.soil_changes.size(), 1U);
+  EXPECT_NEAR(w.soil_changes[0].repose, 1.0, 1e-12);
+  EXPECT_NEAR(w.soil_changes[0].bank_slope, std::sqrt(3.0), 1e-12);
+  ASSERT_FALSE(w.terrain.mounds.empty());
+  EXPECT_NEAR(w.terrain.mounds.back().slope, 1.0, 1e-12);
 }
 
 TEST(Soil, WhatIsWrongIsNamed) {
