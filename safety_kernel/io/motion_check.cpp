@@ -12,6 +12,14 @@ namespace berm::kernel {
 
 namespace {
 
+// The room ahead of the tail is of ground that was seen within a third of what is fresh: ground that will not be seen again grows stale one cycle, and a swing that had gone faster over it
+// would be stopped. In the other two thirds it slows down to what is left.
+constexpr std::int32_t kTailAheadShare = 3;
+
+// Short of a row of the braking table by less than this the governor goes by the next: the arm's measured speeds scatter, and the box's reach with them; over the edge the box is a tenth of a
+// radian longer in one cycle, over ground that may not be seen.
+constexpr std::int32_t kNearRowMm = 150;
+
 std::uint8_t reason_of(std::int32_t verdict, std::int32_t link) {
   if (link == BERM_SWING && (verdict == SK_BLOCKED_COLLISION || verdict == SK_BLOCKED_OVERPASS)) return BERM_STOP_TAIL;
   switch (verdict) {
@@ -92,13 +100,14 @@ void MotionCheck::note_cell(const sk_height_map& map, const sk_slice& slice, con
   verdict.blocked_height_mm = inside && map.seen_us[result.iy][result.ix] >= 0 ? sk_map_top(&map, result.iy, result.ix) : 0;
 }
 
-std::uint8_t MotionCheck::clear_one(const sk_height_map& map, SliceSet& slices, std::int32_t index, sk_clearance_result& result, MotionVerdict& verdict) {
+std::uint8_t MotionCheck::clear_one(const sk_height_map& map, SliceSet& slices, std::int32_t index, bool ahead, sk_clearance_result& result, MotionVerdict& verdict) {
   const sk_slice& slice = slices.slice[index];
   const bool tail = slice.link == BERM_SWING;
   rules_.own_body_radius_mm = tail || slice.link == BERM_BOOM ? own_and_rim_radius_mm(parameters_) : 0;  // the map has the columns
-  rules_.fresh_us = tail ? parameters_.tail_fresh_us : parameters_.fresh_us;
+  rules_.fresh_us = !tail ? parameters_.fresh_us : ahead ? tail_ahead_fresh_us() : parameters_.tail_fresh_us;
+  const sk_columns& columns = !tail ? columns_ : ahead ? tail_ahead_columns_ : tail_columns_;
   // The search may fail or be wrong: what it chose is only a claim, which the core checks.
-  result = clear_slice(map, tail ? tail_columns_ : columns_, rules_, slices, index, choice_);
+  result = clear_slice(map, columns, rules_, slices, index, choice_);
   ++verdict.slices;
   verdict.cells += result.cells;
   return result.verdict == SK_CLEAR ? static_cast<std::uint8_t>(BERM_STOP_NONE) : reason_of(result.verdict, slice.link);
@@ -112,7 +121,7 @@ std::uint8_t MotionCheck::clear(const MotionQuery& query, const sk_height_map& m
   rules_.dig_allowed = box.speed_urad_s[BERM_SWING] <= parameters_.dig_swing_limit_urad_s;
   for (std::int32_t i = 0; i < slices.count; ++i) {
     sk_clearance_result result;
-    const std::uint8_t reason = clear_one(map, slices, i, result, verdict);
+    const std::uint8_t reason = clear_one(map, slices, i, false, result, verdict);
     if (reason == BERM_STOP_NONE) continue;
     note_cell(map, slices.slice[i], result, verdict);
     return reason;
@@ -178,13 +187,13 @@ std::int64_t MotionCheck::room_ahead(const MotionQuery& query, const sk_height_m
   sk_reach_box ahead = verdict.box;
   ahead.low_urad[BERM_SWING] = static_cast<std::int32_t>(from);
   ahead.high_urad[BERM_SWING] = static_cast<std::int32_t>(to);
-  if (!build_slices(shape_, ahead, other_slices_)) return std::llabs(certified - angle);
+  if (!build_slices(shape_, ahead, other_slices_) || !make_tail_ahead_columns(map)) return std::llabs(certified - angle);
   const std::int32_t intervals = other_slices_.intervals, bodies = other_slices_.count / intervals;
   for (std::int32_t near = 0; near < intervals; ++near) {
     for (std::int32_t part = 0; part < bodies; ++part) {
       const std::int32_t interval = up ? near : intervals - 1 - near;
       sk_clearance_result result;
-      if (clear_one(map, other_slices_, part * intervals + interval, result, verdict) == BERM_STOP_NONE) continue;
+      if (clear_one(map, other_slices_, part * intervals + interval, true, result, verdict) == BERM_STOP_NONE) continue;
       return std::llabs(certified - angle) + (to - from) * near / intervals;
     }
   }
@@ -193,7 +202,8 @@ std::int64_t MotionCheck::room_ahead(const MotionQuery& query, const sk_height_m
 
 void MotionCheck::govern_swing(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {
   const std::int32_t requested = verdict.command_urad_s[BERM_SWING];
-  const std::int32_t row = sk_brake_row(&parameters_, request_slices_.max_reach_mm);
+  const std::int32_t next = sk_brake_row(&parameters_, request_slices_.max_reach_mm + kNearRowMm);
+  const std::int32_t row = next >= 0 ? next : BERM_BRAKE_REACHES - 1;  // the box has been bounded
   std::int32_t level = 0;  // that the request needs
   while (level + 1 < SK_GOVERNOR_LEVELS && sk_governor_speed(&parameters_, BERM_SWING, level) < std::abs(requested)) ++level;
   if (level == 0) return;
@@ -218,6 +228,14 @@ bool MotionCheck::make_columns(const sk_height_map& map) {
   if (!shape_.tail.watched) return true;
   rules_.fresh_us = parameters_.tail_fresh_us;
   return sk_columns_of(&map, &rules_, &tail_columns_);
+}
+
+std::int32_t MotionCheck::tail_ahead_fresh_us() const { return std::max(parameters_.tail_fresh_us / kTailAheadShare, 1); }
+
+bool MotionCheck::make_tail_ahead_columns(const sk_height_map& map) {
+  if (!shape_.tail.watched) return true;
+  rules_.fresh_us = tail_ahead_fresh_us();
+  return sk_columns_of(&map, &rules_, &tail_ahead_columns_);
 }
 
 void MotionCheck::certify(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict) {

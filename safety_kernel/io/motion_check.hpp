@@ -75,7 +75,8 @@ class MotionCheck {
   // pit, and hides the ground before it, could never leave; to either side, or outward, somebody may have come since.
   bool folds(const MotionQuery& query, const Commands& commands) const;
   bool joints_within(const sk_reach_box& box, const Commands& commands) const;
-  std::uint8_t clear_one(const sk_height_map& map, SliceSet& slices, std::int32_t index, sk_clearance_result& result, MotionVerdict& verdict);
+  // ahead: of the room ahead, beyond the box.
+  std::uint8_t clear_one(const sk_height_map& map, SliceSet& slices, std::int32_t index, bool ahead, sk_clearance_result& result, MotionVerdict& verdict);
   std::uint8_t clear(const MotionQuery& query, const sk_height_map& map, const sk_reach_box& box, SliceSet& slices, bool dig_stale, MotionVerdict& verdict);
   Commands commands(const MotionQuery& query, std::int32_t percent, bool creeping) const;
   std::uint8_t judge(const MotionQuery& query, const sk_height_map& map, const Commands& commands, SliceSet& slices, bool creeping, MotionVerdict& verdict);
@@ -93,6 +94,8 @@ class MotionCheck {
   void certify(const MotionQuery& query, const sk_height_map& map, MotionVerdict& verdict);
   bool limit_overpass(bool truck_admitted);
   bool make_columns(const sk_height_map& map);
+  std::int32_t tail_ahead_fresh_us() const;
+  bool make_tail_ahead_columns(const sk_height_map& map);
   void note_cell(const sk_height_map& map, const sk_slice& slice, const sk_clearance_result& result, MotionVerdict& verdict) const;
 
   berm_parameters parameters_;  // cycle_us and state_latency_us are those of this cycle's box
@@ -104,7 +107,8 @@ class MotionCheck {
   SliceSet request_slices_;
   SliceSet other_slices_;  // of the room ahead, of a slower request, or of what may come near a lane
   sk_columns columns_;
-  sk_columns tail_columns_;  // by the tail's own freshness; made only where it is watched
+  sk_columns tail_columns_;        // by the tail's own freshness; made only where it is watched
+  sk_columns tail_ahead_columns_;  // by that of the room ahead of it; made only when that is asked for
   sk_choice choice_;
 };
 
