@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <deque>
 #include <memory>
 
 #include "cycle_rig.hpp"
+#include "geometry/reach.hpp"
 
 namespace berm::kernel::test {
 namespace {
@@ -15,6 +17,8 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kNearM = 3.0, kFarM = 4.8;  // of the ring that the lidar sees
 constexpr double kPersonRadiusM = 0.25;
 constexpr int kTurnCycles = 10;              // the lidar goes round ten times a second
+constexpr std::size_t kLatencyCycles = 8;    // the machine file has 90 ms for a command
+constexpr double kSeenFromRad = 1.78;        // 102 degrees: what two lidars at the rear corners see
 
 struct Person {
   double x_m = 0.0, y_m = 0.0, height_m = 0.0;  // absent when height is 0
@@ -32,6 +36,7 @@ class CycleTail : public testing::Test {
     if (lidar) add_ring();
     rig->cycle->step(*rig->in, *rig->out);
     rig->obey();
+    if (latency_cycles > 0) obey_later();
   }
   void steps(int count) {
     for (int i = 0; i < count; ++i) step();
@@ -47,6 +52,11 @@ class CycleTail : public testing::Test {
     begin();
     ASSERT_TRUE(reach_state(BERM_STATE_RUN, 1500)) << why();
     steps(1000);  // both sides swept
+  }
+  // The scanners do, their beams that go round the back too.
+  void look_to_the_side() {
+    rig->machine.pan_low_rad = 0.9;
+    rig->machine.pan_high_rad = 1.1;
   }
   const berm_state& state() const { return rig->state(); }
   double swing() const { return rig->machine.angle_rad[0]; }
@@ -68,6 +78,8 @@ class CycleTail : public testing::Test {
 
   berm_parameters parameters = watched();
   bool lidar = true;
+  std::size_t latency_cycles = 0;  // of the swing's command
+  double seen_from_rad = 0.0;  // the lidar sees what lies behind this on either side, from the implements on
   Person person;
   std::unique_ptr<CycleRig> rig;
 
@@ -77,6 +89,11 @@ class CycleTail : public testing::Test {
     p.tail_watched = 1;
     return p;
   }
+  void obey_later() {
+    on_their_way_.push_back(rig->machine.command_rad_s[0]);
+    rig->machine.command_rad_s[0] = on_their_way_.front();
+    if (on_their_way_.size() > latency_cycles) on_their_way_.pop_front();
+  }
   void add_ring() {
     CycleInputs& in = *rig->in;
     in.lidar_head = {0, 0, 3300};
@@ -85,7 +102,7 @@ class CycleTail : public testing::Test {
       for (int ix = 0; ix < count; ++ix) {
         if ((ix + iy) % kTurnCycles != static_cast<int>(rig->machine.cycle() % kTurnCycles)) continue;
         const double x = -kFarM + 0.1 * ix + 0.05, y = -kFarM + 0.1 * iy + 0.05, far = std::hypot(x, y);
-        if (far < kNearM || far > kFarM) continue;
+        if (far < kNearM || far > kFarM || std::fabs(std::remainder(std::atan2(y, x) - swing(), 2 * kPi)) < seen_from_rad) continue;
         const bool met = person.height_m > 0 && std::hypot(x - person.x_m, y - person.y_m) < kPersonRadiusM;
         const sk_point point{static_cast<std::int32_t>(std::lround(x * 1e3)), static_cast<std::int32_t>(std::lround(y * 1e3)),
                              met ? static_cast<std::int32_t>(std::lround(person.height_m * 1e3)) : 0};
@@ -93,6 +110,8 @@ class CycleTail : public testing::Test {
       }
     }
   }
+
+  std::deque<double> on_their_way_;
 };
 
 // verifies: SK-TS-1, IF-CF-17 (false: the kernel does not check it)
@@ -125,8 +144,7 @@ TEST_F(CycleTail, GroundSeenTooLongAgoHoldsTheMachine) {
   steps(100);
   ASSERT_EQ(state().kernel_state, BERM_STATE_RUN) << why();
   lidar = false;
-  rig->machine.pan_low_rad = 0.9;  // the scanners look to the side, their beams that go round the back too
-  rig->machine.pan_high_rad = 1.1;
+  look_to_the_side();
   int until = 0;
   while (until < 300 && state().kernel_state == BERM_STATE_RUN) {
     step();
@@ -216,6 +234,65 @@ TEST_F(CycleTail, WhoStandsBeyondTheClearanceStopsNothing) {
   rig->wanted_urad_s[0] = 300000;
   steps(400);
   EXPECT_GT(swing(), 1.2) << why();
+}
+
+// What lies beside the machine no lidar sees, only now and then another sensor. While that is fresh the tail may go over it, but not so fast that it could not be slowed down to what the lidar
+// sees when it is fresh no longer.
+// verifies: SK-TS-7
+TEST_F(CycleTail, AGlimpseOfWhatLiesBesideTheMachineDoesNotEndInAStop) {
+  bool cut = false;
+  double fastest = 0.0;
+  latency_cycles = kLatencyCycles;
+  for (const int every : {110, 130, 150, 170}) {
+    run();
+    seen_from_rad = kSeenFromRad;
+    look_to_the_side();
+    steps(150);
+    rig->wanted_urad_s[0] = 800000;
+    for (int i = 0; i < 400 && swing() < 2.4; ++i) {
+      seen_from_rad = i % every < kTurnCycles ? 0.0 : kSeenFromRad;
+      step();
+      cut = cut || state().commanded_urad_s[0] < 600000;
+      fastest = std::max(fastest, rig->machine.velocity_rad_s[0]);
+    }
+    EXPECT_EQ(state().stop_count[BERM_STOP_STALE_GROUND], 0U) << every << " cycles: " << why();
+    EXPECT_GT(swing(), 1.4) << every << " cycles";
+    seen_from_rad = 0.0;
+  }
+  EXPECT_TRUE(cut);
+  EXPECT_GT(fastest, 0.35);
+}
+
+// An arm that reaches out comes from one row of the braking table to the next, and a fast swing's box is longer by a tenth of a radian in one cycle. The governor goes by the next row before:
+// the swing is cut while the box still has the row before.
+// verifies: SK-CY-26
+TEST_F(CycleTail, TheSwingIsCutForTheNextRowShortlyBeforeTheReachComesToIt) {
+  std::int32_t least_row = -1, commanded_before = 0, cut_mm = 0, edge_mm = 0;
+  for (double stick_deg = -70.0; stick_deg < -50.0 && edge_mm == 0; stick_deg += 0.5) {
+    begin();
+    rig->machine.angle_rad[2] = stick_deg * kPi / 180.0;
+    ASSERT_TRUE(reach_state(BERM_STATE_RUN, 1500)) << why();
+    steps(600);
+    seen_from_rad = kSeenFromRad;
+    look_to_the_side();
+    steps(150);
+    rig->wanted_urad_s[0] = 700000;
+    step();
+    seen_from_rad = 0.0;
+    sk_reach_box box{};
+    std::copy(state().reach_low_urad, state().reach_low_urad + SK_JOINTS, box.low_urad);
+    std::copy(state().reach_high_urad, state().reach_high_urad + SK_JOINTS, box.high_urad);
+    const std::int32_t reach_mm = max_reach_mm(parameters, box), row = sk_brake_row(&parameters, reach_mm), commanded = state().commanded_urad_s[0];
+    if (least_row < 0) least_row = row;
+    if (row > least_row) edge_mm = reach_mm;
+    if (cut_mm == 0 && commanded < commanded_before) cut_mm = reach_mm;
+    commanded_before = commanded;
+  }
+  std::printf("the swing is cut from a reach of %d mm on, the row another from %d\n", cut_mm, edge_mm);
+  ASSERT_GT(cut_mm, 0);
+  ASSERT_GT(edge_mm, 0);
+  EXPECT_GE(edge_mm - cut_mm, 100);
+  EXPECT_LE(edge_mm - cut_mm, 200);
 }
 
 // The tail stands; whoever comes up to it, from any side but the front, is seen at the clearance.
