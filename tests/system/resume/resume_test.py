@@ -106,4 +106,43 @@ def the_app_is_silent():
     fills_its_truck_after("app_silent", 6, "look what kept the app's computer busy", fault=("--fault", f"pause-app@{WRONG_S}+{MENDED_AFTER_S}"), counted="request_hold")
 
 
-main([an_angle_lies, a_scanner_is_silent, the_stop_key, the_emergency_stop, a_brake_is_weak, the_machine_reports_an_error, a_joint_moves_untold, the_app_is_silent])
+def goes_on_by_itself(reason, tables="", fault=()):
+    """What the kernel holds without a latch: no reset, and nobody is called."""
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
+    path = folder / "resume.toml"
+    path.write_text((ROOT / "fault_injection/scenarios/short.toml").read_text() + tables)
+    _, result, out, text = load("--scenario", path, "--seed", 1, *fault)
+    assert result is not None, text[-500:]
+    assert result["contacts"] == 0 and result["end_reason"] == "finished", result
+    with open(out / "trace.csv", newline="") as file:
+        rows = [(float(row["time_s"]), row["stop_state"], int(row["stop_reason"]), max(abs(float(row[f"{joint}_rad_s"])) for joint in JOINTS)) for row in csv.DictReader(file)]
+    events = [json.loads(line) for line in (out / "app.jsonl").read_text().splitlines()]
+    assert not [e for e in events if e["event"] == "operator_needed"], f"{reason}: the operator was called"
+    share = result["payload_kg"][0] / result["target_kg"]
+    assert FULL[0] <= share <= FULL[1], f"{reason}: {100 * share:.1f} % of the target in the truck"
+    shutil.rmtree(out)
+    shutil.rmtree(folder)
+    return result, rows
+
+
+def the_app_is_late():
+    """Of ten cycles' silence the kernel makes a hold: a swing is stopped, and goes on when the app talks again."""
+    result, rows = goes_on_by_itself("request_hold", fault=("--fault", f"pause-app@{WRONG_S}+0.15"))
+    assert result["kernel_stops"] == {"request_hold": 1}, result["kernel_stops"]
+    held = [t for t, _, why, _ in rows if why == 5]
+    assert held and min(held) - WRONG_S < 0.3, f"held from {held[:1]} s on"
+    again = next(t for t, *_, speed in rows if t > max(held) and speed > 0.1)
+    print(f"request_hold: held from {min(held):.2f} s on, moves again at {again:.2f} s")
+
+
+def the_ground_is_learned_anew():
+    """The operator pauses, presses relearn with the implements lifted, and switches run on again: all ground is unknown, and the app looks before it moves."""
+    result, rows = goes_on_by_itself("unknown_ground", key("pause", 24.3, 10.0) + key("relearn", 31.0, 0.5))
+    unknown = [t for t, _, why, _ in rows if t > WRONG_S and why == 2]  # and as it starts
+    assert unknown and 31.0 <= min(unknown) < 36.0, f"unknown ground from {unknown[:1]} s on"
+    again = next(t for t, *_, speed in rows if t > min(unknown) and speed > 0.1)
+    assert again > min(unknown) + 0.2 and again < 60.0, f"moves again at {again} s"
+    print(f"unknown_ground: from {min(unknown):.2f} to {max(unknown):.2f} s, moves again at {again:.2f} s")
+
+
+main([the_app_is_late, the_ground_is_learned_anew, an_angle_lies, a_scanner_is_silent, the_stop_key, the_emergency_stop, a_brake_is_weak, the_machine_reports_an_error, a_joint_moves_untold, the_app_is_silent])
