@@ -20,6 +20,7 @@ std::string words_of(const nlohmann::json& event) {
                        event.value("yaw_deg", 0.0));
   if (name == "no_truck") return fmt::format("no truck recognised: {}", event.value("reason", "?"));
   if (name == "truck_full") return fmt::format("truck {} is full", event.value("truck", 1));
+  if (name == "stopped" && event.value("reason", "") == "none") return "the machine stands by: run is switched off";
   if (name == "stopped") return fmt::format("the kernel stopped the machine: {}", event.value("reason", "?"));
   if (name == "full_speed" && event.value("slowed_s", 0.0) >= kSlowedWorthTelling_s)
     return fmt::format("was slowed by the kernel for {:.1f} s, to {:.0f} %{}", event.value("slowed_s", 0.0), 100 * event.value("least_share", 1.0),

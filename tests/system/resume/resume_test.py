@@ -122,12 +122,12 @@ def goes_on_by_itself(reason, tables="", fault=()):
     assert FULL[0] <= share <= FULL[1], f"{reason}: {100 * share:.1f} % of the target in the truck"
     shutil.rmtree(out)
     shutil.rmtree(folder)
-    return result, rows
+    return result, rows, text
 
 
 def the_app_is_late():
     """Of ten cycles' silence the kernel makes a hold: a swing is stopped, and goes on when the app talks again."""
-    result, rows = goes_on_by_itself("request_hold", fault=("--fault", f"pause-app@{WRONG_S}+0.15"))
+    result, rows, _ = goes_on_by_itself("request_hold", fault=("--fault", f"pause-app@{WRONG_S}+0.15"))
     assert result["kernel_stops"] == {"request_hold": 1}, result["kernel_stops"]
     held = [t for t, _, why, _ in rows if why == 5]
     assert held and min(held) - WRONG_S < 0.3, f"held from {held[:1]} s on"
@@ -137,7 +137,8 @@ def the_app_is_late():
 
 def the_ground_is_learned_anew():
     """The operator pauses, presses relearn with the implements lifted, and switches run on again: all ground is unknown, and the app looks before it moves."""
-    result, rows = goes_on_by_itself("unknown_ground", key("pause", 24.3, 10.0) + key("relearn", 31.0, 0.5))
+    _, rows, text = goes_on_by_itself("unknown_ground", key("pause", 24.3, 10.0) + key("relearn", 31.0, 0.5))
+    assert "the machine stands by: run is switched off" in text, text[:800]
     unknown = [t for t, _, why, _ in rows if t > WRONG_S and why == 2]  # and as it starts
     assert unknown and 31.0 <= min(unknown) < 36.0, f"unknown ground from {unknown[:1]} s on"
     again = next(t for t, *_, speed in rows if t > min(unknown) and speed > 0.1)
