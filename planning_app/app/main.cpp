@@ -68,7 +68,8 @@ int run(const Options& options) {
   const char* why = end == LoopEnd::stopped ? "signal" : end == LoopEnd::kernel_gone ? "kernel gone" : "tick peer gone";
   const SlowDown& slowed = sequencer.slow_down();
   log.event("exit", {{"why", why}, {"finished", sequencer.finished()}, {"slowed_s", slowed.seconds()}, {"slowed_spans", slowed.spans()},
-                     {"least_share", slowed.least_share()}, {"overruns", sequencer.joint_watch().overruns()},
+                     {"least_share", slowed.least_share()}, {"guard_slowed_s", sequencer.guard_account().seconds()}, {"guard_unseen_s", sequencer.guard_account().unseen_seconds()},
+                     {"least_spare_deg", degrees(sequencer.scan_wait().least_spare().value_or(0.0))}, {"overruns", sequencer.joint_watch().overruns()},
                      {"prediction_rms_deg", in_degrees(sequencer.joint_watch().prediction_rms())},
                      {"prediction_largest_deg", in_degrees(sequencer.joint_watch().prediction_largest())},
                      {"points_compared", intake.check().compared()}, {"points_disagreeing", intake.check().disagreeing()},

@@ -198,6 +198,7 @@ Joints Sequencer::slowed(const Observation& o, const Joints& wanted) {
   // A bucket comes down into a dig until it is slowed before the zone's floor, and goes on meanwhile as it came.
   const Joints then = stage_ == Stage::dig ? arm_.taken_up(o.angle, o.velocity) : arm_.predicted(o.angle, o.velocity);
   const Joints allowed = guarded(machine_, *skyline_, then, wanted);
+  if (allowed != wanted) guard_account_.slowed(skyline_->blocking(preview(machine_, then, wanted)), machine_.cycle);
   const double held_before = hold_.seconds();
   const bool by_script = stage_ != Stage::dig && stage_ != Stage::curl;
   hold_.step(o.time_s, o.angle, cut_short(o.angle, wanted, allowed, by_script ? std::optional(script_.goals()) : std::nullopt));
@@ -274,10 +275,11 @@ Answer Sequencer::step(const Observation& o) {
     for (std::size_t j = 0; j < joints; ++j) answer.velocity[j] = std::clamp(answer.velocity[j], o.permitted_low[j], o.permitted_high[j]);
   arm_.asked(answer.velocity);
   const double truck_bearing = site_.bed ? std::atan2(site_.bed->centre_y, site_.bed->centre_x) : std::atan2(site_.place.y, site_.place.x);
-  const bool lifts_soon = stage_ == Stage::curl || (stage_ == Stage::dig && follower_.progress() > 0.6);
   // A motion that is let out slowly for long: ground grows old on which the looks of its phase do not fall.
   const bool slowed_long = std::max(slow_down_.lasts_s(), look_ahead_.slows_for_s(o.time_s)) > slow_for_long;
-  answer.pan = scanners_.step(lifts_soon ? std::uint16_t{BERM_PHASE_LIFT} : phase_, task_.next_bearing, truck_bearing, o.angle[swing], o.velocity[swing], o.pan, slowed_long);
+  answer.pan = scanners_.step(stage_ == Stage::curl ? std::uint16_t{BERM_PHASE_LIFT} : phase_, task_.next_bearing, truck_bearing, o.angle[swing], o.velocity[swing], o.pan, slowed_long,
+                              coming_swing(o));
+  if (stage_ == Stage::pass && o.running() && (phase_ == BERM_PHASE_SWING_TO_TRUCK || phase_ == BERM_PHASE_SWING_TO_DIG)) scan_wait_.goes_on(scanners_.lead());
   answer.phase = phase_;
   answer.horn = sounds_full(o) || (stage_ == Stage::ask_move && sounds_move_back(o.time_s - stage_s_, back_m_));
   return answer;

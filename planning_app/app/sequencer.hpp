@@ -6,6 +6,7 @@
 
 #include "app/base_watch.hpp"
 #include "app/bench_move.hpp"
+#include "app/guard_account.hpp"
 #include "app/hold_watch.hpp"
 #include "app/joint_watch.hpp"
 #include "app/load_check.hpp"
@@ -16,9 +17,11 @@
 #include "app/reach_again.hpp"
 #include "app/recovery.hpp"
 #include "app/restart_call.hpp"
+#include "app/scan_wait.hpp"
 #include "app/slow_down.hpp"
 #include "app/standing_watch.hpp"
 #include "app/start_call.hpp"
+#include "app/swing_forecast.hpp"
 #include "app/truck_look.hpp"
 #include "app/truck_presence.hpp"
 #include "app/weighing.hpp"
@@ -52,6 +55,8 @@ public:
 
   bool finished() const { return stage_ == Stage::finished; }
   const SlowDown& slow_down() const { return slow_down_; }
+  const ScanWait& scan_wait() const { return scan_wait_; }
+  const GuardAccount& guard_account() const { return guard_account_; }
   const JointWatch& joint_watch() const { return joint_watch_; }
   KernelMap& kernel_map() { return kernel_map_; }
   TerrainMap& terrain() { return terrain_; }
@@ -141,6 +146,12 @@ private:
   double share_that_may_trail() const;
   BedPoint lies_at(double payload_kg) const;
   std::uint32_t pass_events(const Observation& o);
+  bool swings_back() const;
+  SwingForecast::Work work_before_swing() const;
+  ComingSwing coming_swing(const Observation& o);
+  double waits_at_most_s() const;
+  std::uint32_t scan_event(const Observation& o, std::uint32_t events);
+  void note_swing_began(const Observation& o, bool left_before, bool returned_before);
   bool carries_level(const Observation& o) const;
   double pressed_kg(const Observation& o) const;
   void watch_pour(const Observation& o, double kg);
@@ -189,6 +200,11 @@ private:
   SwingBraking brakes_;                       // with an empty bucket
   JointWatch joint_watch_;
   ScanScheduler scanners_;
+  SwingForecast swing_forecast_;
+  ScanWait scan_wait_;
+  bool awaits_scan_ = false;                  // the swing would begin but for the scanner that leads it
+  double dug_share_ = 0.0;                    // of this dig's goal that is in the bucket
+  GuardAccount guard_account_;
   TruckLook look_;
   Recovery recovery_;
   RestartCall restart_call_;

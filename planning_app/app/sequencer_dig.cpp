@@ -102,6 +102,7 @@ void Sequencer::begin_dig(const Observation& o) {
   planned_fill_ = fill_along(machine_, SurfaceProfile(ground_, o.angle[swing], needs.bucket_width), needs.bucket_width, *path);
   follower_.begin(std::move(*path));
   filled_.begin();
+  dug_share_ = 0.0;
   missed_digs_ = 0;
   holds_nothing_ = false;
   brings_load_ = false;  // it opened over the dig
@@ -198,6 +199,7 @@ Joints Sequencer::dig(const Observation& o) {
   const double modelled_kg = cut_->volume() * bank_density * yield_, felt_kg = filled_.kg() + sticking_.left_kg();
   const double in_bucket_kg = filled_.known() ? felt_kg : filled_.impulse() > 0.0 ? std::min(modelled_kg, felt_kg) : modelled_kg;
   const bool heavy = in_bucket_kg >= goal_kg_;
+  dug_share_ = in_bucket_kg / goal_kg_;
   if (filled_.known()) hold_fill(in_bucket_kg);
   // A bucket that the kernel slows, as while the ground is learned, comes after the path the later for it.
   const Joints let_out = arm_.shares();
@@ -292,6 +294,7 @@ Joints Sequencer::curl(const Observation& o) {
   if (done && search_ && search_->done()) {
     note_cut(o);
     poses_ = search_->poses();
+    scanners_.learn_braking(brakes_.known());
     begin_script(pass_script(scripts_, machine_, task_, poses_, search_->thresholds()));
     ahead_pass_ = {task_, poses_, search_->thresholds()};
     emptied_ = pours_ = false;

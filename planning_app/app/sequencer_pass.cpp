@@ -118,7 +118,10 @@ Joints Sequencer::pass(const Observation& o) {
                                  .carried_kg = pour_.carried_known() ? pour_.carried_kg() : -1.0,
                                  .beside_kg = filled_.known() ? pour_.beside_kg() : 0.0};
   const double tilt = load_check_.step(lifted, fill_, log_);
-  Joints command = run_script(o, pass_events(o));
+  const std::uint32_t events = pass_events(o);
+  const bool left_before = script_.of(swing).reached(RuleMark::leaves), returned_before = script_.of(swing).reached(RuleMark::returns);
+  Joints command = run_script(o, events | scan_event(o, events));
+  note_swing_began(o, left_before, returned_before);
   if (tilt >= 0.0) command[bucket] = tilt;
   if (!script_.of(swing).reached(RuleMark::leaves)) enter_phase(BERM_PHASE_LIFT, o);
   else if (script_.of(swing).reached(RuleMark::returns)) enter_phase(BERM_PHASE_SWING_TO_DIG, o);

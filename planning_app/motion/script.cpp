@@ -59,11 +59,20 @@ void JointScript::wait_as(const JointScript& other) {
 void JointScript::evaluate(const Joints& angle, std::uint32_t events) {
   if (!running() || at_last()) return;
   look(angle);
+  if (next_holds(angle, events)) ++active_;
+}
+
+bool JointScript::next_holds(const Joints& angle, std::uint32_t events) const {
   const std::size_t turn = static_cast<std::size_t>(active_ + 1);
   const Rule& next = rules_[turn];
   bool all = (events & next.events) == next.events;
   for (std::size_t i = 0; i < next.conditions.size(); ++i) all = holds(next.conditions[i], angle, armed_[turn][i]) && all;
-  if (all) ++active_;
+  return all;
+}
+
+bool JointScript::waits_only_for(Event event, const Joints& angle, std::uint32_t events) const {
+  if (!running() || at_last()) return false;
+  return !next_holds(angle, events & ~event) && next_holds(angle, events | event);
 }
 
 bool JointScript::reached(RuleMark mark) const {

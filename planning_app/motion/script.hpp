@@ -17,6 +17,7 @@ enum Event : std::uint32_t {
   event_emptied = 1,  // the bucket has let its load go
   event_weighed = 2,  // it holds no more than it may, or what it holds does not matter yet
   event_empties = 4,  // what is still in it will have left before the swing has gone far
+  event_scanned = 8,  // the scanner that leads the coming swing is as far ahead as the swing needs
 };
 
 struct Condition {
@@ -68,6 +69,9 @@ public:
   // One pass: activates the next rule when its left-hand side holds; at most one step a pass.
   void evaluate(const Joints& angle, std::uint32_t events);
 
+  // Whether with this event besides the next rule would become active, and without it does not.
+  bool waits_only_for(Event event, const Joints& angle, std::uint32_t events) const;
+
   bool running() const { return active_ >= 0; }
   int active() const { return active_; }  // -1 before the start
   bool at_last() const { return active_ + 1 == static_cast<int>(rules_.size()); }
@@ -81,6 +85,7 @@ public:
 
 private:
   void look(const Joints& angle);
+  bool next_holds(const Joints& angle, std::uint32_t events) const;
 
   std::vector<Rule> rules_;
   bool interrupted_ = false;

@@ -15,7 +15,7 @@ constexpr std::size_t most_bytes = 64 * 1024, most_rules = 32;
 constexpr std::array<const char*, 7> relation_names{"above", "below", "rises_above", "falls_below", "beyond", "back_past", "near"};
 constexpr std::array<const char*, 4> mark_names{"leaves", "extends", "opens", "returns"};  // RuleMark from 1 on
 struct NamedEvent { const char* name; Event event; };
-constexpr std::array<NamedEvent, 3> event_names{{{"emptied", event_emptied}, {"empties", event_empties}, {"weighed", event_weighed}}};
+constexpr std::array<NamedEvent, 4> event_names{{{"emptied", event_emptied}, {"empties", event_empties}, {"scanned", event_scanned}, {"weighed", event_weighed}}};
 
 template <typename Names>
 std::string listed(const Names& names) {

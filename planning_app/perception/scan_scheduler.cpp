@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contract/berm_contract.h"
+#include "motion/joint_response.hpp"
 
 namespace berm::app {
 
@@ -14,15 +15,30 @@ constexpr double at_end = radians(1.5);
 constexpr double narrowest = radians(4.0);
 constexpr double under_boom = radians(42.0);   // inwards, to the ground below the boom that only the heads beside it can see
 constexpr double beyond_dig = radians(90.0);    // the stop beyond the dig, seen from a head at the side of near ground
-constexpr double lead_near = radians(45.0), lead_far = radians(85.0);  // ahead of a moving swing: its stop angle, and the parallax of near ground
+constexpr double lead_width = radians(40.0);     // of the leading scanner's sector during a swing, outwards from what the swing needs
+constexpr double spare_s = 0.3;                 // a dig may end so much sooner than it is expected to
+constexpr double way_near = radians(5.0);       // where a sweep over the way back begins, from the implements outward
+constexpr double beyond_way = radians(15.0);    // so far past the dig it goes on while a pour takes longer than it is expected to
+constexpr double mostly_later_s = 0.2;          // than the shortest of the last few pours the next one ends
+constexpr double known_s = 60.0;                // when a swing begins is known at all
 constexpr double past_truck = radians(55.0);    // the implements' width, the overshoot of a stop, parallax
 constexpr double pi = std::numbers::pi;
 constexpr double beyond_truck = radians(50.0);
 constexpr double before_dig = radians(60.0);    // the columns beyond the last dig, the implements' width
+constexpr double bed_half = radians(25.0);      // of the bed, to either side of its middle
+constexpr double waits_within = radians(6.0);   // of where the sweep over the face begins
+constexpr double face_half = radians(20.0);     // of the face to either side of the next dig
+
+bool swings(std::uint16_t phase) { return phase == BERM_PHASE_SWING_TO_TRUCK || phase == BERM_PHASE_SWING_TO_DIG; }
 
 }  // namespace
 
-ScanScheduler::ScanScheduler(const MachineModel& machine) : machine_(machine) {}
+ScanScheduler::ScanScheduler(const MachineModel& machine) : machine_(machine), table_(machine_) {}
+
+void ScanScheduler::learn_braking(double empty_brake) {
+  constexpr double noticeable = 0.05;
+  if (std::fabs(empty_brake - table_.empty_brake()) > noticeable * std::max(empty_brake, table_.empty_brake())) table_ = LookaheadTable(machine_, empty_brake);
+}
 
 void ScanScheduler::begin_full_sweep() {
   for (Head& h : head_) h.low_seen = h.high_seen = false;
@@ -43,30 +59,99 @@ PanSector ScanScheduler::sector(std::size_t scanner, std::uint16_t phase, double
   PanSector bearings;  // base frame
   switch (phase) {
     case BERM_PHASE_DIG:
-      if (scanner == ahead) bearings = {swing_angle - side * under_boom, swing_angle + side * radians(120.0)};
+      if (scanner == ahead) bearings = {swing_angle + side * inner_, swing_angle + side * radians(120.0)};
       else bearings = {dig + side * under_boom, dig - side * beyond_dig};
       break;
     case BERM_PHASE_LIFT:
       // Before the swing begins the leading scanner must have passed over what comes first, out to its far end: the pan cannot outrun the swing.
-      if (scanner == ahead) bearings = {swing_angle + side * lead_near, swing_angle + side * pi};
-      else bearings = {dig + side * under_boom, dig - side * beyond_dig};
+      if (scanner == ahead) bearings = {swing_angle + side * inner_, swing_angle + side * pi};
+      else bearings = {dig + side * (face_half + waits_within), dig + side * face_half};  // where its sweep over the face begins
       break;
     case BERM_PHASE_SWING_TO_TRUCK:
       // At its far end until the swing has carried it past the truck; then ahead of the stop angle.
-      if (scanner == ahead) bearings = far_seen_ ? PanSector{swing_angle + side * lead_near, swing_angle + side * lead_far} : PanSector{swing_angle + side * pi, swing_angle + side * pi};
-      else bearings = {swing_angle + side * radians(15.0), dig - side * radians(40.0)};
+      if (scanner == ahead) bearings = far_seen_ ? PanSector{swing_angle + side * inner_, swing_angle + side * (inner_ + lead_width)} : PanSector{swing_angle + side * pi, swing_angle + side * pi};
+      else if (!face_bare_) bearings = {dig + side * (face_half + waits_within), dig + side * face_half};
+      else bearings = face_.seen ? way_back(side, swing_angle) : PanSector{dig + side * face_half, dig - side * radians(40.0)};
       break;
     case BERM_PHASE_DUMP:
       if (scanner == ahead) bearings = {swing_angle - side * under_boom, truck + side * beyond_truck};
-      else bearings = {swing_angle - side * radians(5.0), swing_angle - side * radians(75.0)};  // where the swing back begins, seen just before
+      else bearings = way_back(side, swing_angle);
       break;
     case BERM_PHASE_SWING_TO_DIG:
-      if (scanner == ahead) bearings = {swing_angle - side * radians(20.0), truck + side * radians(25.0)};
-      else bearings = {swing_angle - side * lead_near, swing_angle - side * lead_far};
+      if (scanner == ahead) bearings = {bed_.seen ? swing_angle - side * radians(20.0) : truck - side * bed_half, truck + side * bed_half};
+      else bearings = {swing_angle - side * inner_, swing_angle - side * (inner_ + lead_width)};
       break;
     default: return whole;
   }
   return to_pans(scanner, bearings, swing_angle);
+}
+
+// Before a swing the leading scanner's sector begins no farther inward than it can come out from to the trigger angle until the swing begins; during one at what
+// its speed, and what it may yet speed up to, need.
+void ScanScheduler::plan_lead(std::uint16_t phase, double dig, double truck, double swing_angle, double swing_speed, const ComingSwing& coming) {
+  const std::size_t to_truck = truck >= dig ? left : right;
+  const bool back = phase == BERM_PHASE_DUMP || phase == BERM_PHASE_SWING_TO_DIG;
+  lead_.scanner = back ? (to_truck == left ? right : left) : to_truck;
+  // A swing that goes on is one from a standstill that has come to its speed: a full bucket's takes the longest way.
+  const double sped_up = swings(phase) ? 0.5 * swing_speed * swing_speed / responses_of(machine_, swing, machine_.braking.reach.back(), machine_.bucket_payload_kg).up.acceleration : 0.0;
+  lead_.needed = table_.of(lead_.scanner, std::fabs((back ? dig : truck) - swing_angle) + sped_up, coming.reach_m);
+  lead_.required = table_.required(lead_.scanner, swing_speed, coming.reach_m);
+  const double way_out = azimuth_rate * std::max(0.0, coming.begins_in_s - spare_s), turned = lead_.needed.trigger + table_.turn_way() + at_end;
+  if (swings(phase)) inner_ = std::max(lead_.needed.lookahead, lead_.required);
+  else if (phase == BERM_PHASE_LIFT) inner_ = turned;
+  else inner_ = std::max(-under_boom, turned - way_out);
+  const std::size_t back_scanner = to_truck == left ? right : left;
+  back_trigger_ = table_.of(back_scanner, std::fabs(dig - truck), coming.back_reach_m).trigger;
+  way_end_ = std::max(back_trigger_ + table_.turn_way() + at_end, std::fabs(dig - truck) + beyond_way);
+}
+
+PanSector ScanScheduler::way_back(double side, double swing_angle) const { return {swing_angle - side * way_near, swing_angle - side * way_end_}; }
+
+// Of the scanner that will lead the swing back: it sweeps over the way outward, from the implements to the trigger angle and past the dig, and hurries back inward in
+// between, over what it then sweeps again. It turns back early once, at the last moment from which another whole sweep comes to the trigger angle as the swing begins.
+// Whoever has come meanwhile is so seen on the last sweep wherever on the way he stands; a scanner that went inward only as far as it came out again in time saw
+// nobody nearer than that (PASSES_TRIED).
+void ScanScheduler::time_way_back(std::size_t scanner, double pan, const ComingSwing& coming) {
+  constexpr double worth_it = radians(20.0), moment_s = 0.1;
+  const double ahead = (scanner == left ? pan : -pan) - way_near, dead_s = table_.turn_way() / azimuth_rate;
+  const double sweep_s = (back_trigger_ - way_near) / azimuth_rate, inward_s = ahead / machine_.scanner[scanner].pan_rate_max + 2.0 * dead_s;
+  const double spare = coming.begins_in_s + mostly_later_s - inward_s - sweep_s;
+  const bool outward = head_[scanner].up == (scanner == left);
+  if (outward && ahead > worth_it && spare >= 0.0 && spare < moment_s) head_[scanner].up = scanner == right;
+}
+
+void ScanScheduler::Stretch::look(double bearing, const PanSector& wanted) {
+  from = std::min(from, bearing);
+  to = std::max(to, bearing);
+  seen = seen || (from < wanted.low + at_end && to > wanted.high - at_end);
+}
+
+// What was poured, on the swing back. The scanner begins towards the bed's end that is nearer: else it would come inward with the swing, and see nothing of the rest.
+void ScanScheduler::note_bed(std::size_t scanner, double truck, double swing_angle, double pan) {
+  if (phase_ != BERM_PHASE_SWING_TO_DIG) {
+    bed_.begin(pan + swing_angle);
+    head_[scanner].up = pan + swing_angle > truck;
+  }
+  const PanSector bed = to_pans(scanner, {truck - bed_half, truck + bed_half}, swing_angle);
+  bed_.look(pan + swing_angle, {bed.low + swing_angle, bed.high + swing_angle});
+}
+
+// What was dug, once the swing to the truck has left it: outwards over it, against the swing, with which a scanner that came inward would only go along.
+void ScanScheduler::note_face(std::size_t scanner, double dig, double truck, double swing_angle, double pan) {
+  constexpr double away = radians(30.0);
+  const double side = truck >= dig ? 1.0 : -1.0;
+  if (phase_ != BERM_PHASE_SWING_TO_TRUCK) {
+    left_at_ = swing_angle;
+    face_bare_ = false;
+  }
+  if (!face_bare_ && side * (swing_angle - left_at_) > away) {
+    face_bare_ = true;
+    face_.begin(pan + swing_angle);
+    head_[scanner].up = scanner == left;
+  }
+  const bool seen_before = face_.seen;
+  if (face_bare_) face_.look(pan + swing_angle, {dig - face_half, dig + face_half});
+  if (face_.seen && !seen_before) head_[scanner].up = scanner == right;  // the way back is next
 }
 
 bool ScanScheduler::end_beyond_dig_seen(std::size_t scanner) const { return scanner == right ? head_[right].low_seen : head_[left].high_seen; }
@@ -132,7 +217,7 @@ PanRequest ScanScheduler::look(double swing_angle, double pan) {
 }
 
 std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, double truck, double swing_angle, double swing_speed, const std::array<double, 2>& pan,
-                                              bool slowed) {
+                                              bool slowed, const ComingSwing& coming) {
   std::array<PanRequest, 2> request;
   const std::size_t ahead = truck >= dig ? left : right;
   const double side = truck >= dig ? 1.0 : -1.0;
@@ -141,6 +226,13 @@ std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, d
   const bool back_soon = was_slowed_ && !slowed && (phase == BERM_PHASE_DUMP || phase == BERM_PHASE_SWING_TO_DIG);
   if (phase != BERM_PHASE_SWING_TO_TRUCK) far_seen_ = false;
   else if (side * (pan[ahead] + swing_angle - truck) > past_truck) far_seen_ = true;
+  plan_lead(phase, dig, truck, swing_angle, swing_speed, coming);
+  const std::size_t other = ahead == left ? right : left;
+  if (phase == BERM_PHASE_SWING_TO_DIG) note_bed(ahead, truck, swing_angle, pan[ahead]);
+  if (phase == BERM_PHASE_SWING_TO_TRUCK) note_face(other, dig, truck, swing_angle, pan[other]);
+  const bool over_way = phase == BERM_PHASE_DUMP || (phase == BERM_PHASE_SWING_TO_TRUCK && face_.seen);
+  if (over_way && head_[other].low_seen && head_[other].high_seen) time_way_back(other, pan[other], coming);
+  phase_ = phase;
   for (std::size_t i = 0; i < head_.size(); ++i) {
     const ScannerMount& mount = machine_.scanner[i];
     Head& head = head_[i];
@@ -158,10 +250,16 @@ std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, d
     if (pan[i] > s.high - at_end) head.up = false;
     if (pan[i] < s.low + at_end) head.up = true;
     const double direction = head.up ? 1.0 : -1.0;
-    const bool hurries = end_first && back_soon && (pan[i] < s.low || pan[i] > s.high);
-    const double rate = hurries ? mount.pan_rate_max : std::max(radians(1.0), azimuth_rate - direction * swing_speed);
-    request[i] = {head.up ? s.high : s.low, std::min(rate, mount.pan_rate_max)};
+    const bool inward = head.up == (i == right);
+    const bool hurries = (end_first && back_soon && (pan[i] < s.low || pan[i] > s.high)) || (over_way && !whole && i == other && inward && coming.begins_in_s < known_s);
+    request[i] = {head.up ? s.high : s.low, hurries ? mount.pan_rate_max : LookaheadTable::pan_rate(mount, direction, swing_speed)};
   }
+  const bool outward = head_[lead_.scanner].up == (lead_.scanner == left);
+  lead_.ahead = lead_.scanner == left ? pan[left] : -pan[right];
+  lead_.comes_in_s = outward ? std::max(0.0, lead_.needed.trigger - lead_.ahead) / azimuth_rate : 1e9;
+  // Where slowness has both see their whole ranges none leads, and none is waited for.
+  const bool leads = !(was_slowed_ && !(head_[lead_.scanner].low_seen && head_[lead_.scanner].high_seen));
+  lead_.triggered = !leads || lead_.ahead > lead_.needed.trigger + (outward ? 0.0 : table_.turn_way());
   return request;
 }
 

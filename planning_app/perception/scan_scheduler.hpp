@@ -1,22 +1,41 @@
-// Points both scanners so that the ground under the coming motion has been seen, densely and lately enough, before the machine gets there.
+// Points both scanners so that the ground under the coming motion has been seen, densely and lately enough, before the machine gets there: the sensor motion
+// planner (stentz-1999, 3; leger-1998, 2.4).
 //
 // Each scanner sweeps a sector back and forth; the sector follows the work phase. The rate is held so that pan and swing together turn the
-// scanline by no more than azimuth_rate in the base frame: at 30 scanlines a second that is the spacing of the lines on the ground.
+// scanline by no more than azimuth_rate in the base frame. How far the scanner that leads a swing is ahead of it comes from a LookaheadTable.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
 #include "motion/machine_model.hpp"
+#include "perception/lookahead_table.hpp"
 
 namespace berm::app {
 
 struct PanRequest { double goal = 0.0, rate = 0.0; };        // rad relative to the upper body, rad/s
 struct PanSector { double low = 0.0, high = 0.0; };          // rad, relative to the upper body
 
+// What is known of the swing that comes next, or goes on. On the way to the truck and over it that is the swing back.
+struct ComingSwing {
+  double begins_in_s = 1e9;     // at the soonest; far off: not known
+  double reach_m = 0.0;         // the implements' farthest point meanwhile
+  double back_reach_m = 0.0;    // and on the swing back, if that is another
+};
+
+// The scanner that leads the swing that comes next, or goes on: pans towards its side, rad.
+struct Lead {
+  std::size_t scanner = 0;
+  double ahead = 0.0;           // its pan
+  LookaheadTable::Angles needed;
+  double required = 0.0;        // for the swing's speed now
+  double comes_in_s = 1e9;      // at the trigger angle; far off: it is on its way inward
+  bool triggered = false;       // it is so far out, and on its way, that the swing may begin
+};
+
 class ScanScheduler {
 public:
-  static constexpr double azimuth_rate = radians(38.0);
+  static constexpr double azimuth_rate = LookaheadTable::azimuth_rate;
   static constexpr double look_rate = radians(30.0);
 
   explicit ScanScheduler(const MachineModel& machine);
@@ -37,18 +56,34 @@ public:
   // Since begin_look the other scanner has been under the boom.
   bool feet_seen() const { return feet_seen_; }
 
+  // How hard an empty swing was learned to brake (SwingBraking): the table is made anew where it is noticeably another. Takes some milliseconds then.
+  void learn_braking(double empty_brake);
+  // As of the last step.
+  const Lead& lead() const { return lead_; }
+
   // phase: BERM_PHASE_*, the one the motion is about to enter where that is known (LIFT before a dig ends); bearings of dig and truck; measured pans, swing angle and speed.
   // slowed: the motion is let out slowly for long, and both sweep their whole ranges meanwhile. As soon as it is slow no more, over the truck or on the swing back,
   // the scanner on the dig's side hurries to its end there and stays until the swing has carried it past what lies beyond the dig: from over the truck it does not
   // reach so far, and what it saw there before the swing out is old by then.
   std::array<PanRequest, 2> step(std::uint16_t phase, double dig_bearing, double truck_bearing, double swing_angle, double swing_speed,
-                                 const std::array<double, 2>& pan, bool slowed = false);
-
-  PanSector sector(std::size_t scanner, std::uint16_t phase, double dig_bearing, double truck_bearing, double swing_angle) const;
+                                 const std::array<double, 2>& pan, bool slowed = false, const ComingSwing& coming = {});
 
 private:
   struct Head { bool up = true; bool low_seen = false, high_seen = false; };
+  // Bearings that are to be seen anew, all of them, by one sweep without a gap.
+  struct Stretch {
+    double from = 0.0, to = 0.0;
+    bool seen = false;
+    void begin(double bearing) { from = to = bearing, seen = false; }
+    void look(double bearing, const PanSector& wanted);
+  };
 
+  PanSector sector(std::size_t scanner, std::uint16_t phase, double dig_bearing, double truck_bearing, double swing_angle) const;
+  void plan_lead(std::uint16_t phase, double dig_bearing, double truck_bearing, double swing_angle, double swing_speed, const ComingSwing& coming);
+  PanSector way_back(double side, double swing_angle) const;
+  void time_way_back(std::size_t scanner, double pan, const ComingSwing& coming);
+  void note_bed(std::size_t scanner, double truck_bearing, double swing_angle, double pan);
+  void note_face(std::size_t scanner, double dig_bearing, double truck_bearing, double swing_angle, double pan);
   PanRequest look(double swing_angle, double pan);
   bool end_beyond_dig_seen(std::size_t scanner) const;
   PanSector end_beyond_dig(std::size_t scanner) const;
@@ -57,6 +92,11 @@ private:
   PanSector to_pans(std::size_t scanner, const PanSector& bearings, double swing_angle) const;
 
   MachineModel machine_;
+  LookaheadTable table_;
+  Lead lead_;
+  double inner_ = 0.0;              // end of the leading scanner's sector, as lead_.ahead
+  double back_trigger_ = 0.0, way_end_ = 0.0;  // of the sweeps over the way back, before the swing back begins
+  std::uint16_t phase_ = 0;         // of the step before
   std::array<Head, 2> head_;
   enum class Look { none, goes, sweeps, done } look_ = Look::none;
   std::size_t looker_ = 0;
@@ -66,6 +106,9 @@ private:
   double at_end_s_ = 0.0;    // waits at the end beyond the dig
   bool feet_seen_ = false;
   bool far_seen_ = false;  // during this swing to the truck the leading scanner has seen the ground beyond the truck
+  Stretch bed_, face_;              // as the scanner that does not lead has seen them during this swing
+  double left_at_ = 0.0;            // where the swing to the truck began
+  bool face_bare_ = false;          // it has left the face
 };
 
 }  // namespace berm::app

@@ -36,7 +36,7 @@ std::uint32_t PassSimulation::events() {
   const bool opens = script_.of(bucket).reached(RuleMark::opens), open = opens && angle_[bucket] > course_.dump_bucket - opened;
   open_s_ = open ? open_s_ + machine_->cycle : open_s_;
   const std::uint32_t pours = opens && angle_[bucket] > course_.dump_bucket - empties_before ? event_empties : event_none;
-  return event_weighed | pours | (open_s_ >= emptying ? event_emptied : event_none);
+  return event_weighed | event_scanned | pours | (open_s_ >= emptying ? event_emptied : event_none);
 }
 
 void PassSimulation::evaluate() {

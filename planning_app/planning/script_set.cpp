@@ -17,7 +17,7 @@ ScriptVocabulary vocabulary(const char* name, const std::vector<ScriptAngle>& an
 
 ScriptVocabulary pass_vocabulary() {
   ScriptVocabulary v = vocabulary("pass", pass_angles({}, {}, {}, {}));
-  v.events = event_emptied | event_empties | event_weighed;
+  v.events = event_emptied | event_empties | event_scanned | event_weighed;
   v.marks = {{swing, RuleMark::leaves}, {swing, RuleMark::returns}, {boom, RuleMark::extends}, {stick, RuleMark::extends}, {bucket, RuleMark::opens}};
   return v;
 }

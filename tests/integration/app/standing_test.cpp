@@ -71,7 +71,7 @@ protected:
     return ScriptText::parse(text, "changed", pass_vocabulary());
   }
   // A rule of the swing that never comes; the boom's range ends far below.
-  static ScriptText never_swings() { return changed("when boom above swing_start_boom :", "when boom above swing_start_boom + 60 deg :"); }
+  static ScriptText never_swings() { return changed("when boom above swing_start_boom and", "when boom above swing_start_boom + 60 deg and"); }
   static ScriptText never_lowers() { return changed("rule \"over the dig: lower\" when swing back_past lower_bearing", "rule \"over the dig: lower\" when boom above back_boom + 60 deg"); }
 
   app_bench::Events events_;

@@ -70,7 +70,7 @@ Hidden parse(const std::string& cell, const std::string& line) {
 
 PanRates pan_rates(const berm_parameters& parameters) {
   PanRates rates{};
-  rates.app = rate_in("planning_app/perception/scan_scheduler.hpp", R"(azimuth_rate = radians\(([0-9.]+)\))");
+  rates.app = rate_in("planning_app/perception/lookahead_table.hpp", R"(azimuth_rate = radians\(([0-9.]+)\))");
   rates.commander = rate_in("fault_injection/validate/commander.cpp", R"(azimuth_rate = ([0-9.]+) \* degree)");
   rates.full_swing = parameters.velocity_max_urad_s[0] * 1e-6 + kSlowestPan;
   rates.limit = parameters.velocity_max_urad_s[0] * 1e-6 + parameters.scanner[0].pan_rate_max_urad_s * 1e-6;

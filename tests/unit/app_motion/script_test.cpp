@@ -70,6 +70,21 @@ TEST(Script, ACrossingMustBeSeenFromItsOtherSide) {
   EXPECT_EQ(s.active(), 1);
 }
 
+TEST(Script, WhatARuleWaitsForBesidesAnEventIsTold) {
+  JointScript s({{"first", {}, event_none, 0.0}, {"second", {when(boom, Relation::above, 10)}, event_scanned | event_emptied, 1.0}});
+  const auto waits = [&](double boom_deg, std::uint32_t events) { return s.waits_only_for(event_scanned, {0, radians(boom_deg), 0, 0}, events); };
+  EXPECT_FALSE(waits(20.0, event_emptied)) << "not begun";
+  s.start();
+  EXPECT_TRUE(waits(20.0, event_emptied));
+  EXPECT_TRUE(waits(20.0, event_emptied | event_scanned));
+  EXPECT_FALSE(waits(5.0, event_emptied)) << "for the boom, too";
+  EXPECT_FALSE(waits(20.0, event_none)) << "for another event, too";
+  EXPECT_EQ(s.active(), 0) << "told without a step";
+  s.evaluate({0, radians(20), 0, 0}, event_emptied | event_scanned);
+  EXPECT_EQ(s.active(), 1);
+  EXPECT_FALSE(waits(20.0, event_emptied)) << "at its end";
+}
+
 // Soil that sticks leaves the bucket late: by then the swing may be past where the arm reaches out.
 TEST(Script, ACrossingMayHaveBeenSeenSinceTheScriptsStartWhereTheRuleSaysSo) {
   for (const bool since_start : {true, false}) {

@@ -38,7 +38,7 @@ protected:
     const bool opens = script_.of(bucket).reached(RuleMark::opens);
     open_s_ += opens && angle_[bucket] > pass_.poses.dump[bucket] - radians(8.0) ? bench_.machine.cycle : 0.0;
     const std::uint32_t pours = opens && angle_[bucket] > pass_.poses.dump[bucket] - radians(40.0) ? event_empties : event_none;
-    const std::uint32_t events = event_weighed | pours | (open_s_ >= 0.5 ? event_emptied : event_none);
+    const std::uint32_t events = event_weighed | event_scanned | pours | (open_s_ >= 0.5 ? event_emptied : event_none);
     if (cycle_++ % 2 == 0) script_.evaluate(angle_, events);
     const bool returns = script_.of(swing).reached(RuleMark::returns);
     const double carried_kg = returns ? 0.0 : bench_.machine.bucket_payload_kg;

@@ -51,7 +51,7 @@ TEST(PassScript, ABucketThatStandsOpenWhenTheSwingBeginsOpensOverTheBed) {
     angle[bucket] = at_start;
     script.start();
     for (int step = 0; step < 1000 && !script.of(bucket).reached(RuleMark::opens); ++step) {
-      script.evaluate(angle, event_weighed);
+      script.evaluate(angle, event_weighed | event_scanned);
       const Joints goals = script.goals();
       for (std::size_t j = 0; j < joints; ++j) angle[j] += std::clamp(goals[j] - angle[j], -radians(1.0), radians(1.0));
     }

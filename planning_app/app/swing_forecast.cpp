@@ -1,0 +1,42 @@
+#include "app/swing_forecast.hpp"
+
+#include <algorithm>
+
+namespace berm::app {
+
+void SwingForecast::Shortest::add(double seconds) {
+  last_s_[next_] = seconds;
+  next_ = (next_ + 1) % last_s_.size();
+}
+
+double SwingForecast::Shortest::seconds() const { return *std::min_element(last_s_.begin(), last_s_.end()); }
+
+double SwingForecast::step(double time_s, Work work, double done) {
+  constexpr double never = 1e9;
+  constexpr double least_done = 0.05;  // before that how long it takes cannot be told
+  if (work != work_) {
+    // What then waits for the scanner was ready; the wait is none of its time.
+    if (work == Work::other || work == Work::waits || work == Work::swings) {
+      if (work_ == Work::lifts) lift_.add(time_s - began_s_);
+      if (work_ == Work::pours) {
+        pour_.add(time_s - began_s_);
+        if (left_s_ >= 0.0) there_.add(time_s - left_s_);
+      }
+    }
+    if (work != Work::pours) left_s_ = work == Work::swings ? time_s : -1.0;
+    began_s_ = time_s;
+    work_ = work;
+  }
+  const double so_far = time_s - began_s_;
+  switch (work) {
+    case Work::digs: return done < least_done ? never : so_far * std::max(0.0, 1.0 - done) / done + lift_.seconds();
+    case Work::lifts: return std::max(0.0, lift_.seconds() - so_far);
+    case Work::swings: return std::max(pour_.seconds(), there_.seconds() - so_far);
+    case Work::pours: return std::max({0.0, pour_.seconds() - so_far, left_s_ < 0.0 ? 0.0 : there_.seconds() - (time_s - left_s_)});
+    case Work::waits: return 0.0;
+    case Work::other: return never;
+  }
+  return never;
+}
+
+}  // namespace berm::app

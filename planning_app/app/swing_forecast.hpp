@@ -1,0 +1,43 @@
+// When the next swing begins, at the soonest: while a bucket is filled, by how far it is; while it is lifted, swung to the truck or poured, by the shortest of the last few times.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace berm::app {
+
+class SwingForecast {
+public:
+  enum class Work {
+    digs,
+    lifts,   // from the dig's end until the swing to the truck begins
+    swings,  // to the truck, until the bucket opens; what comes next is the swing back
+    pours,   // from when the bucket opens until the swing back begins
+    waits,   // for nothing but the scanner, after either
+    other
+  };
+
+  // Once a cycle. done: while it digs, the share of the dig that is done, 0..1. Seconds until the swing begins.
+  double step(double time_s, Work work, double done = 0.0);
+
+private:
+  // The shortest of the last few.
+  class Shortest {
+  public:
+    explicit Shortest(double first_s) { last_s_.fill(first_s); }
+    void add(double seconds);
+    double seconds() const;
+
+  private:
+    std::array<double, 4> last_s_;
+    std::size_t next_ = 0;
+  };
+
+  Work work_ = Work::other;
+  double began_s_ = 0.0;         // this work
+  Shortest lift_{0.8}, pour_{1.5};
+  Shortest there_{5.2};          // from the swing to the truck's start to the swing back's: a bucket that opens sooner mostly pours for longer
+  double left_s_ = -1.0;         // this swing to the truck
+};
+
+}  // namespace berm::app
