@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 #include "config/parameter_block.h"
 #include "config/strict_table.hpp"
@@ -14,6 +15,7 @@ namespace {
 constexpr double kHighest = 20.0;  // the map's heights end there: nothing is too high to be passed over
 
 constexpr double kLeastSide = 0.01;
+constexpr std::size_t kMostGoalParts = 8;
 
 struct Sides {
   std::array<double, 2> x, y;
@@ -74,6 +76,22 @@ TruckPlaceFile read_truck(StrictTable table) {
   return truck;
 }
 
+// None of it under the floor of the digs.
+GoalPartFile read_goal(StrictTable table, double floor) {
+  const Sides s = read_sides(table);
+  GoalPartFile part{s.x[0], s.x[1], s.y[0], s.y[1], table.number("level", floor, 0.0), {0.0, 0.0}};
+  if (table.has("slope")) part.slope = table.array<2>("slope", -0.5, 0.5);
+  const double falls = 0.5 * (std::fabs(part.slope[0]) * (s.x[1] - s.x[0]) + std::fabs(part.slope[1]) * (s.y[1] - s.y[0]));
+  if (part.level - falls < floor - 1e-9) table.fail("slope", fmt::format("it falls to {:.2f}, under the floor of the digs, {:.2f}", part.level - falls, floor));
+  table.finish();
+  return part;
+}
+
+void read_goals(StrictTable& dig, DigFile& file) {
+  for (auto& part : dig.tables("goal")) file.goal.push_back(read_goal(std::move(part), file.floor));
+  if (file.goal.size() > kMostGoalParts) dig.fail("goal", fmt::format("{} parts, up to {} are taken", file.goal.size(), kMostGoalParts));
+}
+
 }  // namespace
 
 SiteFile load_site_file(const std::string& path) {
@@ -95,6 +113,7 @@ SiteFile load_site_file(const std::string& path) {
   if (site.dig.radius[0] <= site.dig.radius[1]) dig.fail("radius", "the drag goes inwards: the start is farther out than the end");
   site.dig.floor = dig.number("floor", -15.0, -0.1);
   site.dig.bench_height = dig.number("bench_height", 0.3, 10.0);
+  read_goals(dig, site.dig);
   dig.finish();
   file.finish();
   return site;

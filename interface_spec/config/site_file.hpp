@@ -18,11 +18,18 @@ struct TruckPlaceFile {            // where trucks park
   double target_kg;
 };
 
+struct GoalPartFile {              // of the shape that digs are to leave
+  double x_low, x_high, y_low, y_high;
+  double level;                    // z at its middle
+  std::array<double, 2> slope;     // rise over run along x and y
+};
+
 struct DigFile {
   std::array<double, 2> swing;     // leftmost and rightmost dig bearing, rad
   std::array<double, 2> radius;    // of the tip at the start and at the end of the drag
   double floor;                    // z of the ground that digs leave
   double bench_height;             // a higher face is taken bench by bench
+  std::vector<GoalPartFile> goal;  // where it is higher than the floor: none, or rectangles; of several that meet the later one counts
 };
 
 struct SiteFile {

@@ -71,6 +71,7 @@ SiteModel site_model(const config::SiteFile& file) {
   s.dig_radius_end = std::min(file.dig.radius[0], file.dig.radius[1]);
   s.dig_floor = file.dig.floor;
   s.bench_height = file.dig.bench_height;
+  for (const config::GoalPartFile& part : file.dig.goal) s.goal.push_back({part.x_low, part.y_low, part.x_high, part.y_high, part.level, part.slope[0], part.slope[1]});
   return s;
 }
 

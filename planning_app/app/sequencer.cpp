@@ -23,7 +23,7 @@ const char* Sequencer::phase_name(std::uint16_t phase) {
 }
 
 Sequencer::Sequencer(const MachineModel& machine, const SiteModel& site, int trucks, const ScriptSet& scripts, TruckFinder& finder, const ProgressLog& log)
-    : scripts_(scripts), machine_(machine), scale_(scale_of(machine)), heaped_(machine.bucket_payload_kg), site_(site), dig_floor_(machine_, site_), log_(log), trucks_(trucks), ground_(site_), arm_(machine_), brakes_(most_brake_share * machine.joint[swing].acceleration_max), joint_watch_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_), look_ahead_(machine_, scripts_),
+    : scripts_(scripts), machine_(machine), scale_(scale_of(machine)), stall_(scale_.load), heaped_(machine.bucket_payload_kg), site_(site), dig_floor_(machine_, site_), log_(log), trucks_(trucks), ground_(site_), arm_(machine_), brakes_(most_brake_share * machine.joint[swing].acceleration_max), joint_watch_(machine_), scanners_(machine_), look_(machine_, site_, finder), recovery_(machine_), look_ahead_(machine_, scripts_),
       load_check_(scale_.load), reach_again_(machine_), fill_(site.place.target_kg, full_bucket_kg()), pour_(machine.bucket_payload_kg) {
   scanners_.begin_full_sweep();
 }

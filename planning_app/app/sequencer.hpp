@@ -26,6 +26,7 @@
 #include "app/truck_presence.hpp"
 #include "app/weighing.hpp"
 #include "motion/dig_path.hpp"
+#include "motion/dig_stall.hpp"
 #include "motion/soil_force.hpp"
 #include "motion/swing_braking.hpp"
 #include "perception/kernel_map.hpp"
@@ -34,6 +35,7 @@
 #include "planning/dig_regions.hpp"
 #include "planning/dump_point.hpp"
 #include "planning/face_reserve.hpp"
+#include "planning/goal_shape.hpp"
 #include "planning/heaped_bucket.hpp"
 #include "planning/look_ahead.hpp"
 #include "planning/pass_search.hpp"
@@ -133,7 +135,8 @@ private:
   Joints look_for_truck(const Observation& o);
   void begin_truck(const Observation& o, const TruckBed& bed);
   void begin_dig(const Observation& o);
-  void begin_curl(const Observation& o);
+  bool comes_down_to_goal(const Observation& o, const ArmPoints& now) const;
+  void begin_curl(const Observation& o, const char* why);
   void plan_dump(const Observation& o);
   DumpPoint dump_point(const Observation& o, double goal_kg, double dig_bearing) const;
   double next_goal_kg(const Observation& o, double dig_bearing) const;
@@ -184,6 +187,7 @@ private:
   const ScriptSet& scripts_;
   MachineModel machine_;
   ImplementScale scale_;
+  DigStall stall_;
   HeapedBucket heaped_;                       // what the bucket holds of this soil
   SiteModel site_;
   DigFloor dig_floor_;
@@ -233,9 +237,11 @@ private:
   double stage_s_ = 0.0;
   std::uint16_t phase_ = BERM_PHASE_WAIT;
   DigPlan dig_;
+  std::optional<GoalProfile> dig_goal_;       // of this dig
   DigRegion region_;                          // that is worked
   std::optional<CutModel> cut_;               // of this dig
   ImplementWeight weight_;
+  std::optional<double> soil_n_;              // force of the soil on the bucket, while that can be told
   DigFill filled_;                            // of this dig, by force
   std::vector<double> planned_fill_;          // of this dig: bank m3 in the bucket, evenly along its path
   bool can_lift_ = false;                     // a way out of the soil is known

@@ -5,6 +5,7 @@
 
 #include "app/sequencer.hpp"
 #include "motion/bucket_weight.hpp"
+#include "motion/fill_loop.hpp"
 #include "planning/dig_shape.hpp"
 
 namespace berm::app {
@@ -13,10 +14,9 @@ namespace {
 
 constexpr double bank_density = 1474.0;           // kg/m3, where nothing was learned yet
 constexpr double cut_reserve = 1.05;              // the cut is planned larger than the goal; the estimate ends it
-constexpr double air_speed = 3.6, soil_speed = 1.8;  // m/s of the tip
 constexpr double least_share_of_speed = 0.4;      // in soil, of digs for little
-constexpr double stall_patience = 1.0;            // s
-constexpr double least_share = 0.05;              // of a request that the kernel lets out; less is a stop
+constexpr double to_goal_speed = 0.8;             // m/s
+constexpr double mean_tip_speed = 1.2;                // m/s in the mean of digs: with what brought a kilogram, the work that it took
 constexpr double near_truck = radians(20.0);      // either side of the dump's bearing
 constexpr double bed_points_age = 12.0;           // s, for the bed map
 
@@ -57,6 +57,9 @@ DigNeeds Sequencer::needs_for(double kg) const {
   needs.volume = cut_reserve * std::max(300.0 * scale_.load, kg) / (yield_ * bank_density);
   needs.bucket_width = bucket_width(machine_);
   needs.deepest *= scale_.bucket;
+  needs.payload = kg;
+  needs.effort *= scale_.load;
+  if (filled_.known()) needs.effort = mean_tip_speed * kg / filled_.kg_per_impulse();
   return needs;
 }
 
@@ -64,7 +67,7 @@ DigNeeds Sequencer::needs_for(double kg) const {
 void Sequencer::tell_region(const Observation& o, const RegionDig& next) const {
   const DigRegion& to = next.region;
   if (to.bench == region_.bench && to.reach == region_.reach) return;
-  const char* why = region_.bench == 0 ? "begin" : next.left == 0 ? "yields again" : "dug out before it";
+  const char* why = region_.bench == 0 ? "begin" : next.left == 0 || (to.reach == region_.reach && to.bench < region_.bench) ? "yields again" : "dug out before it";
   log_.event("region", {{"time_s", o.time_s}, {"bench", to.bench}, {"reach", reach_name(to.reach)}, {"floor_m", to.bounds.floor},
                         {"end_m", to.bounds.end_radius}, {"why", why}, {"columns_dug_out", next.left}});
 }
@@ -74,13 +77,16 @@ void Sequencer::plan_next_dig(const Observation& o, double dump_beyond) {
   ground_.observe(terrain_);
   DigNeeds needs = needs_for(goal_kg_ > 0.0 ? goal_kg_ : full_bucket_kg());
   needs.dump_beyond = dump_beyond;
+  if (site_.bed) needs.dump_bearing = std::atan2(site_.bed->centre_y, site_.bed->centre_x);
   RegionDig next = next_dig(machine_, site_, dig_floor_, ground_, needs, region_);
   const double plan_ms = milliseconds_since(began);
   tell_region(o, next);
   dig_ = std::move(next.plan);
   region_ = next.region;
   log_.event("next_dig", {{"time_s", o.time_s}, {"bearing_deg", degrees(dig_.bearing)}, {"bench", region_.bench}, {"column", region_.column},
-                          {"reach", reach_name(region_.reach)}, {"volume_m3", dig_.volume}, {"cost_s", dig_.cost}, {"plan_ms", plan_ms}});
+                          {"reach", reach_name(region_.reach)}, {"volume_m3", dig_.volume}, {"energy_kj", 1e-3 * dig_.energy},
+                          {"effort_kj", 1e-3 * needs.effort}, {"dig_s", dig_.dig_seconds}, {"swing_s", dig_.swing_seconds}, {"cost_s", dig_.price()},
+                          {"candidates", next.candidates}, {"plan_ms", plan_ms}});
 }
 
 void Sequencer::begin_dig(const Observation& o) {
@@ -89,6 +95,7 @@ void Sequencer::begin_dig(const Observation& o) {
   ground_.observe(terrain_);
   cut_.emplace(machine_, SurfaceProfile(ground_, o.angle[swing], needs.bucket_width), needs.bucket_width);
   region_.bounds.bearing = o.angle[swing];
+  dig_goal_.emplace(machine_, site_, o.angle[swing], needs.bucket_width);
   dig_ = plan_dig(machine_, site_, dig_floor_, ground_, needs, region_.bounds);
   const ArmPoints now = forward(machine_, arm_.predicted(o.angle, o.velocity));  // it may still be lowered
   auto path = DigPath::solve(machine_, way_in(now, dig_.drag));
@@ -103,6 +110,7 @@ void Sequencer::begin_dig(const Observation& o) {
   follower_.begin(std::move(*path));
   filled_.begin();
   dug_share_ = 0.0;
+  stall_.begin();
   missed_digs_ = 0;
   holds_nothing_ = false;
   brings_load_ = false;  // it opened over the dig
@@ -158,36 +166,40 @@ void Sequencer::feel(const Observation& o) {
   const Moments held = without_load(machine_, o.angle, holding_moments(machine_, o.pressure), stuck_kg());
   if (stage_ == Stage::pass && emptied_ && !load_check_.keeps_rest()) holds_nothing_ = true;
   if (holds_nothing_ && o.running() && knows_what_stuck()) weight_.learn(o.angle, held, machine_.cycle);
+  soil_n_.reset();
   if ((stage_ != Stage::dig && stage_ != Stage::curl) || !weight_.known(o.angle)) return;
   PlaneForce soil = force_on_bucket(machine_, o.angle, held, weight_.of(o.angle));
   soil.z += gravity * std::min(heaped_.kg(), filled_.kg());
+  soil_n_ = std::hypot(soil.r, soil.z);
   filled_.add(resistance(machine_, o.angle, o.velocity, soil), machine_.cycle);
 }
 
-// Closed loop on the fill. Where less has come into the bucket than the plan had here, the soil lies lower than it seemed, and the tip goes deeper; a
-// bucket that fills sooner than planned curls sooner, so that a full one holds what is in it.
+// Closed loop on the fill, along the path.
 void Sequencer::hold_fill(double in_bucket_kg) {
-  constexpr double gain = 0.8;                            // m/s for a bucket that lacks all of its goal
-  constexpr double fastest = 0.5;                         // m/s
-  constexpr double sure_share = 0.5;                      // of what the force says, for the depth: too deep costs less than a bucket that ends its drag half full
-  constexpr double deepest = 0.5;                         // m under the path
-  constexpr double curl_from = 0.4;                       // of the goal
-  constexpr double holding = radians(-152.0), open = radians(-95.0);
-  constexpr double curl_speed_most = radians(45.0);
   DigFollower::Departure departure = follower_.departure();
-  const double share = in_bucket_kg / goal_kg_, curl = open + (holding - open) * std::clamp((share - curl_from) / (1.0 - curl_from), 0.0, 1.0);
   const ArmPoints planned_arm = forward(machine_, follower_.on_path());
-  if (share > curl_from)                                  // from the path's own attitude on: asked for at once, the way in would wait for the bucket
-    departure.curl = std::max(std::min(departure.curl, curl), std::min(departure.curl, planned_arm.bucket_attitude) - curl_speed_most * machine_.cycle);
   const double total = planned_fill_.back();
   const double planned = total > 0.0 ? planned_fill_[static_cast<std::size_t>(follower_.progress() * static_cast<double>(planned_fill_.size() - 1))] / total : 0.0;
-  if (planned > 0.0 && follower_.stalled_s() == 0.0) {    // in the soil
-    const double rate = std::clamp(gain * (sure_share * share - planned), -fastest, fastest);
+  const FillSeen seen{in_bucket_kg / goal_kg_, planned};
+  departure.curl = curl_for(seen, departure.curl, planned_arm.bucket_attitude, machine_.cycle);
+  if (follower_.stalled_s() == 0.0) {
     // Over the floor at the attitude that it has: curled sooner than planned its shell lies lower.
-    const double to_floor = dig_floor_.at(planned_arm.tip.r, std::min(planned_arm.bucket_attitude, departure.curl)) - planned_arm.tip.z;
-    departure.lift = std::clamp(departure.lift + rate * machine_.cycle, std::max(to_floor, -deepest), std::max(to_floor, 0.0));
+    const double attitude = std::min(planned_arm.bucket_attitude, departure.curl), r = planned_arm.tip.r;
+    const double floor = std::max({region_.bounds.floor, dig_floor_.at(r, attitude), dig_goal_->least_tip(r, attitude)});
+    departure.lift = lift_for(seen, departure.lift, floor - planned_arm.tip.z, machine_.cycle);
   }
   follower_.depart(departure);
+}
+
+// A bucket that comes down as fast as in the air passes its path by half a metre where that turns; soil is dug deeper later, but what the goal leaves standing is gone.
+bool Sequencer::comes_down_to_goal(const Observation& o, const ArmPoints& now) const {
+  constexpr double ahead_s = 0.8, comes_down = 0.02;  // s; m in it
+  const double least = dig_goal_->least_tip(now.tip.r, now.bucket_attitude);
+  if (std::isinf(least)) return false;
+  Joints later = o.angle;
+  for (const std::size_t j : {boom, stick, bucket}) later[j] += o.velocity[j] * ahead_s;
+  const double then = forward(machine_, later).tip.z;
+  return then < now.tip.z - comes_down && then < least;
 }
 
 Joints Sequencer::dig(const Observation& o) {
@@ -204,20 +216,22 @@ Joints Sequencer::dig(const Observation& o) {
   // A bucket that the kernel slows, as while the ground is learned, comes after the path the later for it.
   const Joints let_out = arm_.shares();
   const double slowest = std::min({let_out[boom], let_out[stick], let_out[bucket]});
-  const bool stalled = follower_.stalled_s() * std::max(least_share, slowest) > stall_patience;
-  if (follower_.finished() || heavy || stalled) {
-    begin_curl(o);
+  stall_.add({follower_.stalled_s() > 0.0, slowest, soil_n_, tip_speed(machine_, o.angle, o.velocity)}, machine_.cycle);
+  const DigStall::Told stall = stall_.told();
+  if (follower_.finished() || heavy || stall != DigStall::Told::no) {
+    begin_curl(o, heavy ? "full" : stall == DigStall::Told::no ? "end of path" : stall == DigStall::Told::by_soil ? "stalled" : "standing");
     return lift_and_curl(o);
   }
   // A small goal is overshot by what comes in while the bucket is told to stop.
   const double gently = std::clamp(goal_kg_ / full_bucket_kg(), least_share_of_speed, 1.0);
-  return follower_.step(machine_, arm_, o.angle[swing], in_soil ? gently * soil_speed : air_speed, o.angle, o.velocity);
+  const double speed = in_soil ? gently * drag_soil_speed : drag_air_speed;
+  return follower_.step(machine_, arm_, o.angle[swing], comes_down_to_goal(o, now) ? std::min(speed, to_goal_speed) : speed, o.angle, o.velocity);
 }
 
-void Sequencer::begin_curl(const Observation& o) {
+void Sequencer::begin_curl(const Observation& o, const char* why) {
   const ArmPoints now = forward(machine_, arm_.predicted(o.angle, o.velocity));  // it is on its way up already
-  log_.event("dug", {{"time_s", o.time_s}, {"r_m", now.tip.r}, {"z_m", now.tip.z}, {"modelled_kg", cut_->volume() * bank_density * yield_},
-                     {"felt_kg", filled_.kg()}, {"impulse_kns", 1e-3 * filled_.impulse()}});
+  log_.event("dug", {{"time_s", o.time_s}, {"why", why}, {"r_m", now.tip.r}, {"z_m", now.tip.z}, {"modelled_kg", cut_->volume() * bank_density * yield_},
+                     {"felt_kg", filled_.kg()}, {"impulse_kns", 1e-3 * filled_.impulse()}, {"hardest_kn", 1e-3 * stall_.hardest_n()}});
   constexpr double deep = 1.75;  // m
   comes_from_deep_ = bank_over(cut_->surface(), now) > deep;
   const auto way = DigPath::solve(machine_, way_out(machine_, cut_->surface(), now));

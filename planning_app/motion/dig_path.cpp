@@ -7,8 +7,6 @@ namespace berm::app {
 
 namespace {
 
-constexpr double sample_spacing = 0.04;            // m
-constexpr double joint_share = 0.95;               // of a joint's largest speed that the reference may ask for
 constexpr double error_full_stop = radians(14.0);   // the reference waits when the joints are this far behind
 
 constexpr double guard = radians(7.5);              // keeps a standing joint's stop travel inside its range
@@ -43,13 +41,13 @@ std::optional<Joints> pose_at(const MachineModel& machine, const DigWaypoint& w)
   return std::nullopt;
 }
 
-std::optional<DigPath> DigPath::solve(const MachineModel& machine, const std::vector<DigWaypoint>& waypoints) {
+std::optional<DigPath> DigPath::solve(const MachineModel& machine, const std::vector<DigWaypoint>& waypoints, double apart) {
   DigPath path;
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     const DigWaypoint& to = waypoints[i];
     const DigWaypoint& from = i == 0 ? to : waypoints[i - 1];
     const double way = std::hypot(to.r - from.r, to.z - from.z) + 0.5 * machine.bucket_length * std::fabs(to.attitude - from.attitude);
-    const int pieces = i == 0 ? 1 : std::max(1, static_cast<int>(std::ceil(way / sample_spacing)));
+    const int pieces = i == 0 ? 1 : std::max(1, static_cast<int>(std::ceil(way / apart)));
     for (int k = 1; k <= pieces; ++k) {
       const double t = static_cast<double>(k) / pieces;
       const auto q = pose_at(machine, {from.r + t * (to.r - from.r), from.z + t * (to.z - from.z), from.attitude + t * (to.attitude - from.attitude)});
@@ -62,10 +60,16 @@ std::optional<DigPath> DigPath::solve(const MachineModel& machine, const std::ve
   return path;
 }
 
+double speed_along(const MachineModel& machine, const Joints& slope, double wanted) {
+  constexpr double joint_share = 0.95;  // of a joint's largest speed that the reference may ask for
+  for (const std::size_t j : {boom, stick, bucket})
+    if (slope[j] != 0.0) wanted = std::min(wanted, joint_share * machine.joint[j].velocity_max / std::fabs(slope[j]));
+  return wanted;
+}
+
 std::size_t DigPath::segment(double s) const {
-  std::size_t i = 0;
-  while (i + 2 < samples_.size() && samples_[i + 1].s <= s) ++i;
-  return i;
+  const auto after = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, s, [](double at, const Sample& sample) { return at < sample.s; });
+  return static_cast<std::size_t>(after - samples_.begin()) - 1;
 }
 
 Joints DigPath::at(double s) const {
@@ -92,8 +96,7 @@ Joints DigFollower::departed(const MachineModel& machine, const Joints& on_path,
 Joints DigFollower::step(const MachineModel& machine, ArmController& arm, double held_swing, double speed, const Joints& angle, const Joints& velocity) {
   if (!path_) return {};
   const Joints slope = path_->slope(s_);
-  for (const std::size_t j : {boom, stick, bucket})
-    if (slope[j] != 0.0) speed = std::min(speed, joint_share * machine.joint[j].velocity_max / std::fabs(slope[j]));
+  speed = speed_along(machine, slope, speed);
   const Joints on_path = path_->at(s_);
   Joints reference = departed(machine, on_path, departure_);
   // What a changed departure moves the reference by comes on top of its way along the path.

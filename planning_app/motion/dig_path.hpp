@@ -20,8 +20,9 @@ std::optional<Joints> pose_at(const MachineModel& machine, const DigWaypoint& wa
 
 class DigPath {
 public:
-  // Waypoints are joined by straight lines, sampled at a few centimetres and solved by pose_at. Nothing when that gives none.
-  static std::optional<DigPath> solve(const MachineModel& machine, const std::vector<DigWaypoint>& waypoints);
+  static constexpr double spacing = 0.04;         // m
+  // Waypoints are joined by straight lines, sampled so far apart and solved by pose_at. Nothing when that gives none.
+  static std::optional<DigPath> solve(const MachineModel& machine, const std::vector<DigWaypoint>& waypoints, double apart = spacing);
 
   double length() const { return length_; }       // m, of the tip's way (a turn on the spot counts by its arc at the tip)
   Joints at(double s) const;                      // swing entry 0
@@ -34,6 +35,11 @@ private:
   std::vector<Sample> samples_;
   double length_ = 0.0;
 };
+
+// m/s of the tip where the path's joints turn by so much a metre: as wanted, or as the joints can.
+double speed_along(const MachineModel& machine, const Joints& slope, double wanted);
+// m/s of the tip that a dig wants in the air, and in soil.
+constexpr double drag_air_speed = 3.6, drag_soil_speed = 1.8;
 
 // Follows a path. The reference waits for joints that soil holds back.
 class DigFollower {

@@ -18,14 +18,29 @@ PlaneForce force_on_bucket(const MachineModel& machine, const Joints& angle, con
   return {(along_boom.r * stick_share - along_stick.r * boom_share) / -determinant, (along_stick.z * boom_share - along_boom.z * stick_share) / determinant};
 }
 
-double resistance(const MachineModel& machine, const Joints& angle, const Joints& velocity, const PlaneForce& force) {
-  constexpr double least_speed = 0.03, dt = 0.01;
+namespace {
+
+PlanePoint tip_velocity(const MachineModel& machine, const Joints& angle, const Joints& velocity) {
+  constexpr double dt = 0.01;
   Joints later = angle;
   for (const Joint j : {boom, stick, bucket}) later[j] += velocity[j] * dt;
   const PlanePoint from = forward(machine, angle).tip, to = forward(machine, later).tip;
-  const double r = (to.r - from.r) / dt, z = (to.z - from.z) / dt, speed = std::hypot(r, z);
+  return {(to.r - from.r) / dt, (to.z - from.z) / dt};
+}
+
+}  // namespace
+
+double tip_speed(const MachineModel& machine, const Joints& angle, const Joints& velocity) {
+  const PlanePoint v = tip_velocity(machine, angle, velocity);
+  return std::hypot(v.r, v.z);
+}
+
+double resistance(const MachineModel& machine, const Joints& angle, const Joints& velocity, const PlaneForce& force) {
+  constexpr double least_speed = 0.03;
+  const PlanePoint v = tip_velocity(machine, angle, velocity);
+  const double speed = std::hypot(v.r, v.z);
   if (speed < least_speed) return 0.0;
-  return -(force.r * r + force.z * z) / speed;
+  return -(force.r * v.r + force.z * v.z) / speed;
 }
 
 double DigFill::kg() const {

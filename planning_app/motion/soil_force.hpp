@@ -13,6 +13,9 @@ struct PlaneForce { double r = 0.0, z = 0.0; };
 // neighbouring pins, so that it need not be known where on the bucket it acts; nothing where boom and stick are in line.
 PlaneForce force_on_bucket(const MachineModel& machine, const Joints& angle, const Moments& held, const Moments& empty);
 
+// Of the tip in the swing plane, m/s.
+double tip_speed(const MachineModel& machine, const Joints& angle, const Joints& velocity);
+
 // The part of a force that works against the tip's motion, N; nothing below 0.03 m/s.
 double resistance(const MachineModel& machine, const Joints& angle, const Joints& velocity, const PlaneForce& force);
 

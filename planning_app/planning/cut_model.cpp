@@ -27,17 +27,10 @@ double SurfaceProfile::at(double r) const {
   return (1.0 - t) * z_[i] + t * z_[i + 1];
 }
 
-CutModel::CutModel(const MachineModel& machine, const SurfaceProfile& surface, double bucket_width)
-    : machine_(machine), surface_(surface), width_(bucket_width) {}
-
-double CutModel::reach(const Joints& pose) {
+BucketShell::BucketShell(const MachineModel& machine) {
   constexpr double spacing = 0.06;      // under a step of the profile
-  constexpr double shell_side = -0.05;  // the outline's other side is the heaped load
-  std::vector<double>& z = surface_.heights();
-  const ArmPoints arm = forward(machine_, pose);
-  const double c = std::cos(arm.bucket_attitude), s = std::sin(arm.bucket_attitude);
-  double area = 0.0;
-  for (const Prism& part : machine_.parts) {
+  constexpr double shell_side = -0.05;
+  for (const Prism& part : machine.parts) {
     if (part.link != bucket) continue;
     for (std::size_t i = 0; i < part.outline.size(); ++i) {
       const auto& from = part.outline[i];
@@ -45,17 +38,29 @@ double CutModel::reach(const Joints& pose) {
       const int pieces = std::max(1, static_cast<int>(std::ceil(std::hypot(to[0] - from[0], to[1] - from[1]) / spacing)));
       for (int k = 0; k < pieces; ++k) {
         const double t = static_cast<double>(k) / pieces;
-        const double x = from[0] + t * (to[0] - from[0]), across = from[1] + t * (to[1] - from[1]);
-        if (across < shell_side) continue;
-        const double r = arm.bucket_pin.r + x * c - across * s, height = arm.bucket_pin.z + x * s + across * c;
-        const double place = std::round((r - SurfaceProfile::first) / SurfaceProfile::step);
-        if (!(place >= 0.0 && place < static_cast<double>(z.size()))) continue;
-        double& ground = z[static_cast<std::size_t>(place)];
-        if (ground > height) {
-          area += (ground - height) * SurfaceProfile::step;
-          ground = height;
-        }
+        const std::array<double, 2> point{from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])};
+        if (point[1] >= shell_side) points_.push_back(point);
       }
+    }
+  }
+}
+
+CutModel::CutModel(const MachineModel& machine, const SurfaceProfile& surface, double bucket_width)
+    : machine_(&machine), shell_(machine), surface_(surface), width_(bucket_width) {}
+
+double CutModel::reach(const Joints& pose) {
+  std::vector<double>& z = surface_.heights();
+  const ArmPoints arm = forward(*machine_, pose);
+  const double c = std::cos(arm.bucket_attitude), s = std::sin(arm.bucket_attitude);
+  double area = 0.0;
+  for (const auto& [along, across] : shell_.points()) {
+    const double r = arm.bucket_pin.r + along * c - across * s, height = arm.bucket_pin.z + along * s + across * c;
+    const double place = (r - SurfaceProfile::first) / SurfaceProfile::step + 0.5;  // of the nearest
+    if (!(place >= 0.0 && place < static_cast<double>(z.size()))) continue;
+    double& ground = z[static_cast<std::size_t>(place)];
+    if (ground > height) {
+      area += (ground - height) * SurfaceProfile::step;
+      ground = height;
     }
   }
   volume_ += area * width_;
@@ -63,9 +68,8 @@ double CutModel::reach(const Joints& pose) {
 }
 
 std::vector<double> fill_along(const MachineModel& machine, const SurfaceProfile& surface, double bucket_width, const DigPath& path) {
-  constexpr double pace = 0.06;  // m along the path
   CutModel model(machine, surface, bucket_width);
-  const std::size_t pieces = static_cast<std::size_t>(std::ceil(path.length() / pace));
+  const std::size_t pieces = static_cast<std::size_t>(std::ceil(path.length() / cut_pace));
   std::vector<double> fill;
   for (std::size_t i = 0; i <= pieces; ++i) {
     model.reach(path.at(path.length() * static_cast<double>(i) / static_cast<double>(pieces)));

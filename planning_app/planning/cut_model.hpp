@@ -1,6 +1,7 @@
 // Forward model of a cut: what the bucket's shell takes from the ground in its way, in the swing plane.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "motion/dig_path.hpp"
@@ -22,8 +23,21 @@ private:
   std::vector<double> z_;
 };
 
+// The side of the bucket's outline that cuts, as points a few centimetres apart: the other side is the heaped load.
+class BucketShell {
+public:
+  explicit BucketShell(const MachineModel& machine);
+
+  // In the bucket's frame: along the line from pin to tip, and to its left.
+  const std::vector<std::array<double, 2>>& points() const { return points_; }
+
+private:
+  std::vector<std::array<double, 2>> points_;
+};
+
 class CutModel {
 public:
+  // The machine outlives it.
   CutModel(const MachineModel& machine, const SurfaceProfile& surface, double bucket_width);
 
   // The bucket gets to the pose; returns the bank volume (m3) that it takes on the way from the pose before, and lowers the surface.
@@ -32,11 +46,14 @@ public:
   const SurfaceProfile& surface() const { return surface_; }
 
 private:
-  MachineModel machine_;
+  const MachineModel* machine_;
+  BucketShell shell_;
   SurfaceProfile surface_;
   double width_;
   double volume_ = 0.0;
 };
+
+constexpr double cut_pace = 0.06;  // m along a path, from pose to pose of a cut
 
 // What is in the bucket (bank m3) at places that lie evenly along a path, from its start to its end.
 std::vector<double> fill_along(const MachineModel& machine, const SurfaceProfile& surface, double bucket_width, const DigPath& path);

@@ -3,86 +3,108 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/joint_model.hpp"
+#include "planning/dig_candidate.hpp"
+
 namespace berm::app {
 
 namespace {
 
-constexpr double profile_step = 0.1;               // m along r
-constexpr double entry_height = 0.35;              // the drag begins this far above the surface
-constexpr double attitude_entry = radians(-92.0);  // teeth down
-constexpr double attitude_end = radians(-172.0);   // curled, mouth up
+constexpr double attack = radians(-92.0);  // teeth down
+constexpr int depths = 128;                // steps down to the deepest, less than a centimetre each
 
-struct Profile {
-  std::vector<double> r, z;  // from the start inward
-};
-
-Profile drag_profile(const SiteModel& site, const SurfaceProfile& surface, double end_radius) {
-  Profile raw;
-  for (double r = site.dig_radius_start; r > end_radius - 0.5 * profile_step; r -= profile_step) {
-    raw.r.push_back(r);
-    raw.z.push_back(surface.at(r));
-  }
-  Profile smooth = raw;  // a drag need not follow every clod
-  for (std::size_t i = 1; i + 1 < raw.z.size(); ++i) smooth.z[i] = (raw.z[i - 1] + raw.z[i] + raw.z[i + 1]) / 3.0;
-  return smooth;
-}
-
-double shape(std::size_t i, std::size_t n) {
-  const double u = static_cast<double>(i) / static_cast<double>(n - 1);
-  return std::sin(std::numbers::pi * std::clamp(u, 0.0, 1.0));
-}
-
-double tip_height(const Profile& p, std::size_t i, double depth, double lowest) {
-  return std::max(std::min(lowest, p.z[i] + entry_height), p.z[i] - depth * shape(i, p.z.size()));
-}
-
-std::vector<DigWaypoint> drag_of(const Profile& p, double depth, const DigBounds& bounds, const DigFloor& floor) {
-  std::vector<DigWaypoint> w;
-  const std::size_t n = p.r.size();
-  const auto lowest = [&](double r, double attitude) { return std::max(bounds.floor, floor.at(r, attitude)); };
-  w.push_back({p.r[0], std::max(p.z[0] + entry_height, lowest(p.r[0], attitude_entry)), attitude_entry});
-  for (std::size_t i = 0; i < n; ++i) {
-    const double u = static_cast<double>(i) / static_cast<double>(n - 1);
-    // Teeth down at first; most of the curl comes late, when the bucket fills.
-    const double attitude = attitude_entry + (attitude_end - attitude_entry) * u * u * (3.0 - 2.0 * u) * 0.85;
-    const double least = lowest(p.r[i], attitude);
-    w.push_back({p.r[i], std::max(tip_height(p, i, depth, least), least), attitude});
-  }
-  w.push_back({p.r[n - 1], std::max(p.z[n - 1], lowest(p.r[n - 1], attitude_end)) + 0.25, attitude_end});
-  return w;
-}
-
-// In seconds, as if the machine's power, and the passes that a lack of volume costs, were time. Swing and drag are left out: with them only the columns
-// near the truck are dug, into a hole, and trucks need more passes.
+// In seconds, as if the machine's power, and the passes that a lack of volume costs, were time.
 double cost_of(const DigNeeds& needs, const DigPlan& plan) {
   constexpr double lack_s = 45.0;          // a bucket that is not full costs more than its share of a pass: the truck may need another
   constexpr double power = 60e3;           // W, at the bucket
-  constexpr double reference_depth = 0.5;  // m: the soil resists the more the deeper the cut
-  return lack_s * std::max(0.0, needs.volume - plan.volume) / needs.volume + needs.effort * plan.depth / reference_depth / power;
+  return lack_s * std::max(0.0, needs.volume - plan.volume) / needs.volume + plan.energy / power;
 }
+
+double energy_of(const DigNeeds& needs, double depth) {
+  constexpr double reference_depth = 0.5;  // m: the soil resists the more the deeper the cut
+  return needs.effort * depth / reference_depth;
+}
+
+// Loaded to where it will be dumped, and back empty.
+double swing_seconds(const MachineModel& machine, const DigNeeds& needs, double bearing, double reach) {
+  if (!needs.dump_bearing) return 0.0;
+  const double way = wrapped(*needs.dump_bearing - bearing);
+  const auto one_way = [&](double angle, double kg) {
+    const TwoWayResponse response = responses_of(machine, swing, reach, kg);
+    return time_to_reach(angle > 0.0 ? response.up : response.down, 0.0, angle);
+  };
+  return one_way(way, needs.payload) + one_way(-way, 0.0);
+}
+
+// Candidates of one region, one for each depth in steps.
+class Depths {
+public:
+  Depths(const DigForwardModel& model, double start, double deepest) : model_(model), start_(start), deepest_(deepest) {}
+
+  DigParameters at(int step) const { return {start_, attack, deepest_ * step / depths}; }
+  // The shallowest that brings the volume, or the deepest: more depth brings more. By false position, of which one end may not stay for good (Illinois).
+  int for_volume(double wanted) {
+    int low = 0, high = depths;
+    double below = -wanted, above = volume(high) - wanted;
+    if (above <= 0.0) return high;
+    bool was_high = false, was_low = false;
+    while (high - low > 1) {
+      const int step = std::clamp(low + static_cast<int>(std::lround((high - low) * -below / (above - below))), low + 1, high - 1);
+      const double off = volume(step) - wanted;
+      if (off >= 0.0) {
+        high = step, above = off;
+        if (was_high) below *= 0.5;
+      } else {
+        low = step, below = off;
+        if (was_low) above *= 0.5;
+      }
+      was_high = off >= 0.0, was_low = !was_high;
+    }
+    return high;
+  }
+  // The deepest that is permitted, down to this one; 0 where none is.
+  int permitted(int step) const {
+    if (model_.permitted(at(step))) return step;
+    int low = 0, high = step;
+    while (high - low > 1) {
+      const int middle = (low + high) / 2;
+      (model_.permitted(at(middle)) ? low : high) = middle;
+    }
+    return low;
+  }
+  int tried() const { return tried_; }
+
+private:
+  double volume(int step) {
+    ++tried_;
+    const auto outcome = model_.outcome(at(step));
+    return outcome ? outcome->volume : 0.0;
+  }
+
+  const DigForwardModel& model_;
+  double start_, deepest_;
+  int tried_ = 0;
+};
 
 }  // namespace
 
 DigPlan plan_dig(const MachineModel& machine, const SiteModel& site, const DigFloor& floor, const DigGround& ground, const DigNeeds& needs, const DigBounds& bounds) {
-  const SurfaceProfile surface(ground, bounds.bearing, needs.bucket_width);
-  const Profile profile = drag_profile(site, surface, bounds.end_radius);
+  const DigForwardModel model(machine, site, floor, ground, needs, bounds);
+  Depths candidates(model, site.dig_radius_start, needs.deepest);
+  const int step = candidates.permitted(candidates.for_volume(needs.volume));
+  const DigParameters dig = candidates.at(step);
+  const DigOutcome outcome = step > 0 ? model.outcome(dig).value_or(DigOutcome{}) : DigOutcome{};
   DigPlan plan;
-  const auto volume = [&](double depth) {
-    const auto path = DigPath::solve(machine, drag_of(profile, depth, bounds, floor));
-    return path ? cut_volume(machine, surface, needs.bucket_width, *path) : 0.0;
-  };
-  double low = 0.0, high = needs.deepest;
-  if (volume(high) > needs.volume)
-    for (int i = 0; i < 7; ++i) {  // to a centimetre
-      const double mid = 0.5 * (low + high);
-      (volume(mid) < needs.volume ? low : high) = mid;
-    }
   plan.bearing = bounds.bearing;
-  plan.depth = high;
-  plan.volume = volume(high);
-  plan.start_height = profile.z.front();
-  plan.drag = drag_of(profile, high, bounds, floor);
+  plan.depth = dig.depth;
+  plan.volume = outcome.volume;
+  plan.start_height = model.surface(dig.start);
+  plan.drag = model.drag(dig);
+  plan.energy = energy_of(needs, dig.depth);
+  plan.dig_seconds = outcome.seconds;
+  plan.swing_seconds = swing_seconds(machine, needs, bounds.bearing, dig.start);
   plan.cost = cost_of(needs, plan);
+  plan.candidates = candidates.tried();
   return plan;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planning/goal_shape.hpp"
 #include "planning/skyline.hpp"
 
 namespace berm::app {
@@ -53,10 +54,13 @@ const char* reach_name(RegionReach reach) {
   return names[static_cast<std::size_t>(reach)];
 }
 
-std::vector<DigRegion> dig_regions(const SiteModel& site, const DigFloor& floor, const DigNeeds& needs) {
+std::vector<DigRegion> dig_regions(const MachineModel& machine, const SiteModel& site, const DigFloor& floor, const DigNeeds& needs) {
   const double lowest = floor.lowest();
   const int benches = std::max(1, static_cast<int>(std::ceil(-lowest / site.bench_height - 1e-9)));
   const std::vector<double> bearings = column_bearings(site);
+  // Down to which a column is dug at its deepest, with the drag of either end.
+  std::vector<double> goals;
+  for (const double bearing : bearings) goals.push_back(GoalProfile(machine, site, bearing, needs.bucket_width).lowest(site.dig_radius_end, site.dig_radius_start, lowest));
   std::vector<DigRegion> regions;
   for (const RegionReach reach : {RegionReach::site, RegionReach::beside, RegionReach::nearer})
     for (int bench = 1; bench <= benches; ++bench)
@@ -64,7 +68,9 @@ std::vector<DigRegion> dig_regions(const SiteModel& site, const DigFloor& floor,
         const bool of_site = column > widest && column <= static_cast<int>(bearings.size()) - widest;
         if (reach != RegionReach::nearer && of_site != (reach == RegionReach::site)) continue;
         const double end = site.dig_radius_end - (reach == RegionReach::nearer ? further_in : 0.0);
-        const DigRegion region{bench, column, reach, {bearings[static_cast<std::size_t>(column - 1)], lowest * bench / benches, end}};
+        const double goal = goals[static_cast<std::size_t>(column - 1)];
+        if (bench > 1 && lowest * (bench - 1) / benches <= goal) continue;  // the bench over it is the column's last
+        const DigRegion region{bench, column, reach, {bearings[static_cast<std::size_t>(column - 1)], std::max(goal, lowest * bench / benches), end}};
         if (reach == RegionReach::site || zone_holds(site, region.bounds, 0.5 * needs.bucket_width)) regions.push_back(region);
       }
   return regions;
@@ -73,13 +79,15 @@ std::vector<DigRegion> dig_regions(const SiteModel& site, const DigFloor& floor,
 RegionDig next_dig(const MachineModel& machine, const SiteModel& site, const DigFloor& floor, const DigGround& ground, const DigNeeds& needs, const DigRegion& last) {
   RegionDig best;
   double best_cost = INFINITY;
-  const std::vector<DigRegion> regions = dig_regions(site, floor, needs);
+  const std::vector<DigRegion> regions = dig_regions(machine, site, floor, needs);
   const double middle = middle_of_digs(site);
   for (std::size_t k = 0; k < regions.size(); ++k) {
     const bool new_group = k > 0 && (regions[k].bench != regions[k - 1].bench || regions[k].reach != regions[k - 1].reach);
     if (new_group && best.plan.volume >= enough * needs.volume) break;
     DigPlan plan = plan_dig(machine, site, floor, ground, needs, regions[k].bounds);
+    best.candidates += plan.candidates;
     if (plan.volume < enough * needs.volume) ++best.left;
+    // Without the time: that is owed for a column's soil whenever it is dug, and counted here it has those near the truck dug into a hole.
     const double cost = plan.cost + order_cost(regions[k], last) + swing_s * needs.dump_beyond * (middle - regions[k].bounds.bearing);
     if (cost >= best_cost) continue;
     best_cost = cost;

@@ -22,12 +22,13 @@ struct DigRegion {
 struct RegionDig {
   DigRegion region;
   DigPlan plan;
+  int candidates = 0;       // that the refined planner looked at in all of them
   int left = 0;             // regions that were looked at before and yield too little: dug out
 };
 
 // All regions of a site in the order in which they are worked: of every reach the upper bench first. The benches are equally high, none higher than the
-// site's bench_height, from the ground that the machine stands on down to the floor of the digs.
-std::vector<DigRegion> dig_regions(const SiteModel& site, const DigFloor& floor, const DigNeeds& needs);
+// site's bench_height, from the ground that the machine stands on down to the floor of the digs; a column has none under the goal there.
+std::vector<DigRegion> dig_regions(const MachineModel& machine, const SiteModel& site, const DigFloor& floor, const DigNeeds& needs);
 
 // The next dig after one in the region `last`. A lower bench, and another reach, is worked when no column before yields three quarters of the wanted
 // volume; of a bench the column that costs least: by the refined planner, and by the order, for to the left costs, and beside the last cut. Always

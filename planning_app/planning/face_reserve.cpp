@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planning/cut_model.hpp"
+#include "planning/goal_shape.hpp"
 #include "planning/skyline.hpp"
 
 namespace berm::app {
@@ -24,7 +25,7 @@ FaceReserve face_reserve(const SiteModel& site, const DigGround& ground, double 
     const SurfaceProfile surface(ground, b, width);
     const double c = std::cos(b), s = std::sin(b);
     for (double r = site.dig_radius_end - nearer; r <= site.dig_radius_start; r += radius_step)
-      if (in_dig_zone(site, r * c, r * s)) face.volume += std::max(0.0, surface.at(r) - lowest) * r * sector_step * radius_step;
+      if (in_dig_zone(site, r * c, r * s)) face.volume += std::max(0.0, surface.at(r) - std::max(lowest, goal_part_height(site, r * c, r * s))) * r * sector_step * radius_step;
     if (b < site.dig_swing_right || b > site.dig_swing_left) continue;
     double crest = SurfaceProfile::first;
     while (crest < SurfaceProfile::last && surface.at(crest) > -fallen) crest += radius_step;

@@ -10,6 +10,13 @@ namespace berm::app {
 
 struct DigZone { double x_low = 0.0, y_low = 0.0, x_high = 0.0, y_high = 0.0, floor = 0.0, ceiling = 0.0; };
 
+// Of the shape that digs are to leave: a rectangle with a level, which may slope. Of several that meet the later one counts.
+struct GoalPart {
+  double x_low = 0.0, y_low = 0.0, x_high = 0.0, y_high = 0.0;
+  double level = 0.0;             // z at its middle
+  double slope_x = 0.0, slope_y = 0.0;  // rise over run
+};
+
 struct TruckPlace {               // where trucks park
   double x = 0.0, y = 0.0;        // about the middle of the bed
   double yaw = 0.0;               // of the bed's long axis, either way round, from base x
@@ -45,6 +52,7 @@ struct SiteModel {
   double dig_swing_left = 0.0, dig_swing_right = 0.0;  // bearings between which the app digs; left > right
   double dig_radius_start = 0.0, dig_radius_end = 0.0; // of the tip, start > end
   double dig_floor = -std::numeric_limits<double>::infinity();  // z of the ground that digs leave
+  std::vector<GoalPart> goal;     // where it is none of these: dig_floor
   double bench_height = std::numeric_limits<double>::infinity();  // a higher face is taken from the top, bench by bench
 };
 

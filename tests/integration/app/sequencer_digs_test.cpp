@@ -78,6 +78,90 @@ TEST(Sequencer, AFullBucketCurlsAndRisesAtOnce) {
   EXPECT_NEAR(run.plant.angle()[stick], stick_was, radians(3.0));
 }
 
+// Digs until soil comes into the bucket in the dig after this many.
+void go_into_dig(Loading& run, const app_bench::Events& events, std::size_t digs) {
+  constexpr double some_kg = 300.0;
+  while (run.seconds < 300.0 && !(events.named("dig").size() == digs + 1 && events.named("dug").size() == digs && run.plant.payload_kg() > some_kg)) run.step();
+  ASSERT_LT(run.seconds, 300.0);
+}
+
+// What soil holds is given up after a second, what stands without a force after three: by the cylinders' pressures, which the implements' weight has to be known for.
+TEST(Sequencer, AStallIsToldByWhatPressesOnTheBucket) {
+  constexpr double until_held = 0.4;  // s, until the path's reference is so far ahead that it waits
+  struct Held { double force_n, after_s; const char* why; };
+  for (const Held& held : {Held{150e3, 1.0, "stalled"}, Held{5e3, 3.0, "standing"}}) {
+    const app_bench::Events events;
+    Loading run(1, start_pose(), events.fd());
+    run.plant.has_pressures = true;
+    go_into_dig(run, events, 2);
+    if (HasFatalFailure()) return;
+    const std::size_t dug = events.named("dug").size();
+    run.plant.held_by_n = held.force_n;
+    const double begin = run.seconds;
+    while (events.named("dug").size() == dug && run.seconds < begin + 10.0) run.step();
+    ASSERT_GT(events.named("dug").size(), dug) << held.why;
+    EXPECT_EQ(events.named("dug").back().at("why"), held.why);
+    EXPECT_NEAR(run.seconds - begin, until_held + held.after_s, 0.3) << held.why;
+  }
+}
+
+// By the force a bucket is full at its goal.
+TEST(Sequencer, DigsEndWhenTheBucketIsFull) {
+  const app_bench::Events events;
+  Loading run(1, start_pose(), events.fd());
+  run.plant.has_pressures = true;
+  while (run.seconds < 110.0) run.step();
+  const auto dug = events.named("dug");
+  ASSERT_GE(dug.size(), 5u);
+  int full = 0;
+  for (std::size_t k = 1; k < dug.size(); ++k) {
+    if (dug[k].at("why") != "full") continue;
+    ++full;
+    EXPECT_NEAR(dug[k].at("felt_kg").get<double>(), events.named("dig")[k].at("goal_kg").get<double>(), 60.0) << "dig " << k;
+  }
+  EXPECT_GE(full, 3);
+}
+
+// A dig is priced with the work that the soil took in the digs before, and with the swing to the bed.
+TEST(Sequencer, TheWorkOfTheDigsBeforeAndTheSwingAreInTheNextDigsPrice) {
+  const app_bench::Events events;
+  Loading run(1, start_pose(), events.fd());
+  run.plant.has_pressures = true;
+  while (run.seconds < 110.0) run.step();
+  const auto dug = events.named("dug"), digs = events.named("dig"), next = events.named("next_dig");
+  ASSERT_GE(dug.size(), 4u);
+  ASSERT_GT(next.size(), dug.size());
+  const double usual_kj = 135.0, tip_speed = 1.2;
+  EXPECT_NEAR(next[0].at("effort_kj").get<double>(), usual_kj, 1e-9);
+  for (std::size_t k = 2; k < dug.size(); ++k) {  // the first was weighed
+    const double goal_kg = digs[k].at("goal_kg"), took_kj = tip_speed * goal_kg * dug[k].at("impulse_kns").get<double>() / dug[k].at("felt_kg").get<double>();
+    EXPECT_NEAR(next[k + 1].at("effort_kj").get<double>(), took_kj, 0.01) << "after dig " << k;
+    EXPECT_GT(std::fabs(took_kj - usual_kj), 2.0);
+    EXPECT_GT(next[k + 1].at("dig_s").get<double>(), 2.5);
+    EXPECT_GT(next[k + 1].at("swing_s").get<double>(), 5.5) << "to the bed and back";
+    EXPECT_GT(next[k + 1].at("cost_s").get<double>(), next[k + 1].at("dig_s").get<double>() + next[k + 1].at("swing_s").get<double>());
+  }
+}
+
+// The loop on the force does not go under the site's goal either.
+TEST(Sequencer, NoDigGoesUnderTheSitesGoal) {
+  SiteModel site = app_bench::bench();
+  constexpr double level = -1.2;
+  site.goal = {{3.9, -4.2, 10.5, 4.2, level}};
+  Loading run(1, start_pose(), -1, site);
+  run.plant.has_pressures = true;
+  double lowest = 0.0;
+  int digs = 0;
+  for (std::uint32_t phase = 0; digs < 8 && run.seconds < 200.0; phase = run.last.phase) {
+    run.step();
+    digs += run.last.phase == BERM_PHASE_DIG && phase != BERM_PHASE_DIG;
+    if (run.last.phase == BERM_PHASE_DIG) lowest = std::min(lowest, bucket_underside(run.machine, run.plant.angle()));
+  }
+  EXPECT_EQ(digs, 8);
+  EXPECT_GT(lowest, level - 0.3) << "as it comes down; else a decimetre";
+  EXPECT_LT(lowest, level + 0.3) << "no dig comes near it: the test shows nothing";
+}
+
 // Dug for a truck that stands as usual, and for one whose bed lies at the end of the arm's reach: there a heap would slide off before the near wall.
 TEST(Sequencer, DigsLessForADumpThatTheArmHardlyReaches) {
   const auto first_goal_kg = [](double farther) {

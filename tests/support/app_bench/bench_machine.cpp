@@ -72,6 +72,7 @@ void BenchMachine::step(const berm_request& request) {
   move();
   work_soil();
   push_ = has_pressures && digging_ ? soil_push(machine_, before, angle_, pushed_) : PlaneForce{};
+  if (held_by_n > 0.0) push_ = {held_by_n, 0.0};
   site_.slump();
   measure();
   scan(request);
@@ -119,8 +120,8 @@ void BenchMachine::move() {
     // A loaded bucket makes the machine 15 % slower to answer than its file says.
     response.acceleration *= payload_ > 500.0 ? 0.85 : 1.0;
     response.deceleration *= brake_share[j];
-    velocity_[j] = speed_after(response, before, acting, machine_.cycle);
-    angle_[j] += 0.5 * (before + velocity_[j]) * machine_.cycle;
+    velocity_[j] = held_by_n >= 0.0 && j != swing ? 0.0 : speed_after(response, before, acting, machine_.cycle);
+    if (held_by_n < 0.0 || j == swing) angle_[j] += 0.5 * (before + velocity_[j]) * machine_.cycle;
     if (angle_[j] < limits.low || angle_[j] > limits.high) ++findings_.range_contacts;
   }
 }

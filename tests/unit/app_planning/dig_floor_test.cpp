@@ -91,7 +91,7 @@ TEST(DigFloor, ADragAlongTheFloorIsOneThatTheGuardPermits) {
 TEST(DigFloor, TheShippedSitesZonesAreDeepEnoughForTheirDigs) {
   struct Pair { const char *site, *machine; double over; };
   for (const Pair& pair : {Pair{"measured", "zx200", 0.0}, {"measured_shift", "zx200", 0.0}, {"bench", "zx200", 0.5}, {"bench_small", "zx200", 0.5}, {"shift", "zx200", 0.5},
-                           {"bench_12t", "excavator_12t", 0.5}, {"bench_25t", "excavator_25t", 0.5}}) {
+                           {"two_benches", "zx200", 0.5}, {"bench_12t", "excavator_12t", 0.5}, {"bench_25t", "excavator_25t", 0.5}}) {
     const MachineModel machine = berm::app_bench::shipped_machine(pair.machine);
     const SiteModel site = berm::app_bench::shipped_site(pair.site);
     const double bearing = 0.5 * (site.dig_swing_left + site.dig_swing_right);

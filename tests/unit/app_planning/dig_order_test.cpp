@@ -47,7 +47,7 @@ protected:
   bool yields(const DigRegion& region) const { return plan_dig(machine, site, *floor, *ground, needs, region.bounds).volume >= 0.75 * needs.volume; }
   // Whether a column of that bench, within the site's bearings, does.
   bool bench_yields(int bench) const {
-    const auto regions = dig_regions(site, *floor, needs);
+    const auto regions = dig_regions(machine, site, *floor, needs);
     return std::any_of(regions.begin(), regions.end(), [&](const DigRegion& r) { return r.bench == bench && r.reach == RegionReach::site && yields(r); });
   }
 

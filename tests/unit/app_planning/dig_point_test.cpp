@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "app_bench/bench_machine.hpp"
+#include "planning/dig_candidate.hpp"
 #include "planning/dig_point.hpp"
 
 namespace {
@@ -93,6 +96,74 @@ TEST(DigPoint, CostsWhatItLacksAndItsEnergy) {
   more.volume = 3.0;  // a metre deep it is not there
   EXPECT_GT(cost(hard), usual + 1.0);
   EXPECT_GT(cost(more), usual + 5.0);
+}
+
+class DigCandidates : public ::testing::Test {
+protected:
+  DigPlan plan(const DigGround& ground) const { return plan_dig(machine, site, DigFloor(machine, site), ground, needs, bounds); }
+  MachineModel machine = berm::app_bench::zx200();
+  SiteModel site = berm::app_bench::bench();
+  DigNeeds needs{0.8, 1.1, 1.0};
+  DigBounds bounds{0.0, -2.65, 5.6};
+};
+
+TEST_F(DigCandidates, TheShallowestThatFillsTheBucketIsTaken) {
+  const DigGround ground = ground_of(seen_bench());
+  const DigFloor floor(machine, site);
+  const DigForwardModel model(machine, site, floor, ground, needs, bounds);
+  const DigPlan best = plan(ground);
+  EXPECT_GE(best.volume, needs.volume);
+  EXPECT_LE(best.candidates, 9) << "of 128 depths";
+  const auto shallower = model.outcome({site.dig_radius_start, radians(-92.0), best.depth - 0.01});
+  ASSERT_TRUE(shallower);
+  EXPECT_LT(shallower->volume, needs.volume);
+}
+
+// The dump is on the left.
+TEST_F(DigCandidates, WorkAndTimeAreInThePrice) {
+  const DigGround ground = ground_of(seen_bench());
+  needs.dump_bearing = radians(90.0);
+  needs.payload = 1500.0;
+  const DigPlan dig = plan(ground);
+  EXPECT_GT(dig.energy, 20e3);
+  EXPECT_GT(dig.dig_seconds, 2.0);
+  EXPECT_GT(dig.swing_seconds, 6.0) << "there and back";
+  EXPECT_NEAR(dig.price(), dig.energy / 60e3 + dig.dig_seconds + dig.swing_seconds, 1e-9);
+  bounds.bearing = radians(9.0);
+  const DigPlan nearer_to_dump = plan(ground);
+  EXPECT_LT(nearer_to_dump.swing_seconds, dig.swing_seconds - 0.1);
+}
+
+// Half a metre deep a dig takes what the digs before took.
+TEST_F(DigCandidates, TheWorkGoesWithTheDepthAndWithWhatTheDigsBeforeTook) {
+  const DigGround ground = ground_of(seen_bench());
+  const DigPlan dig = plan(ground);
+  EXPECT_NEAR(dig.energy, needs.effort * dig.depth / 0.5, 1e-6);
+  needs.effort *= 2.0;
+  EXPECT_NEAR(plan(ground).energy, 2.0 * dig.energy, 1e-6);
+}
+
+TEST_F(DigCandidates, ADragThatLeavesTheDigZoneOrComesToTheMachinesBodyIsNone) {
+  const DigGround ground = ground_of(seen_bench());
+  EXPECT_GE(plan(ground).volume, needs.volume);
+  site.dig_zones[0].x_high = 7.0;
+  EXPECT_EQ(plan(ground).volume, 0.0);
+  EXPECT_FALSE(plan(ground).drag.empty());
+  site.dig_zones[0].x_high = 10.5;
+  machine.own_body_radius = 5.0;
+  EXPECT_EQ(plan(ground).volume, 0.0);
+}
+
+// A wall of soil between machine and face, up to where the stick comes.
+TEST_F(DigCandidates, AStickThatWouldComeIntoTheCrestIsNoDig) {
+  const auto with_wall = [](double top) {
+    TerrainMap map;
+    for (double x = 3.0; x < 12.0; x += 0.1)
+      for (double y = -5.0; y < 5.0; y += 0.1) map.insert(x, y, x < 5.3 ? top : x < 6.0 ? 0.0 : std::max(-2.2, -1.5 * (x - 6.0)), 1.0);
+    return ground_of(map);
+  };
+  EXPECT_GE(plan(with_wall(0.0)).volume, needs.volume);
+  EXPECT_EQ(plan(with_wall(4.0)).volume, 0.0);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ RegionDig next(const SiteModel& site, const TerrainMap& map, const DigRegion& la
 TEST(DigRegions, GoFromLeftToRightAndFromTheTopDown) {
   SiteModel site = berm::app_bench::bench();
   site.bench_height = 1.4;  // of 2.65 m
-  const auto regions = dig_regions(site, floor_of(site), needs);
+  const auto regions = dig_regions(berm::app_bench::zx200(), site, floor_of(site), needs);
   ASSERT_GE(regions.size(), 10u);
   EXPECT_EQ(regions[0].bench, 1);
   EXPECT_EQ(regions[0].bounds.bearing, site.dig_swing_left);
@@ -56,7 +56,7 @@ TEST(DigRegions, ABenchIsNoHigherThanTheSiteWantsAndNoneLowerThanItsFloor) {
     site.bench_height = height;
     site.dig_floor = -2.0;
     double upper = 0.0;
-    for (const DigRegion& region : dig_regions(site, floor_of(site), needs)) {
+    for (const DigRegion& region : dig_regions(berm::app_bench::zx200(), site, floor_of(site), needs)) {
       if (region.column == 4) {
         EXPECT_LE(region.bench == 1 ? -region.bounds.floor : upper - region.bounds.floor, height + 1e-9);
         upper = region.bounds.floor;

@@ -18,6 +18,12 @@ std::string four_lanes() {
   return all;
 }
 
+std::string nine_goals() {
+  std::string all;
+  for (int i = 0; i < 9; ++i) all += "[[dig.goal]]\nx = [5.0, 6.0]\ny = [0.0, 1.0]\nlevel = -1.0\n";
+  return all;
+}
+
 }  // namespace
 
 std::string machine_path() { return BERM_CONFIG_FILES "/machines/zx200.toml"; }
@@ -194,6 +200,11 @@ const std::vector<BadEdit>& bad_site_edits() {
       {"digs without a floor", "floor = -2.65", "", "dig.floor", "is missing"},
       {"digs that go upwards", "floor = -2.65", "floor = 0.5", "dig.floor", "outside"},
       {"benches of no height", "bench_height = 3.0", "bench_height = 0.0", "dig.bench_height", "outside"},
+      {"goal under the floor of the digs", "bench_height = 3.0", "bench_height = 3.0\n[[dig.goal]]\nx = [5.0, 7.0]\ny = [0.0, 2.0]\nlevel = -2.7 #", "dig.goal[0].level", "outside"},
+      {"goal that slopes under it", "bench_height = 3.0", "bench_height = 3.0\n[[dig.goal]]\nx = [5.0, 7.0]\ny = [0.0, 2.0]\nlevel = -2.6\nslope = [0.1, 0.0] #", "dig.goal[0].slope", "falls to -2.70"},
+      {"goal without a level", "bench_height = 3.0", "bench_height = 3.0\n[[dig.goal]]\nx = [5.0, 7.0]\ny = [0.0, 2.0] #", "dig.goal[0].level", "is missing"},
+      {"goal with a depth", "bench_height = 3.0", "bench_height = 3.0\n[[dig.goal]]\nx = [5.0, 7.0]\ny = [0.0, 2.0]\nlevel = -2.0\ndepth = 1.0 #", "dig.goal[0].depth", "not a known key"},
+      {"nine goals", "bench_height = 3.0", "bench_height = 3.0\n" + nine_goals() + "#", "dig.goal", "9 parts, up to 8 are taken"},
       {"right before left", "swing_deg = [12.0, -12.0]", "swing_deg = [-12.0, 12.0]", "dig.swing_deg", "leftmost first"},
   };
   return edits;

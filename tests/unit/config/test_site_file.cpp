@@ -37,6 +37,22 @@ TEST(SiteFileTest, TheDefaultInSiUnits) {
   EXPECT_DOUBLE_EQ(site.dig.radius[1], 5.6);
   EXPECT_DOUBLE_EQ(site.dig.floor, -2.65);
   EXPECT_DOUBLE_EQ(site.dig.bench_height, 3.0);
+  EXPECT_TRUE(site.dig.goal.empty());
+}
+
+// verifies: IF-CF-8
+TEST(SiteFileTest, AGoalIsRectanglesWithALevelThatMaySlope) {
+  const Scratch scratch;
+  const std::string parts = "bench_height = 3.0\n[[dig.goal]]\nx = [5.0, 7.0]\ny = [0.0, 2.0]\nlevel = -1.5\n[[dig.goal]]\nx = [7.0, 9.0]\ny = [-1.0, 2.0]\nlevel = -2.0\nslope = [-0.1, 0.2] #";
+  const SiteFile site = load_site_file(scratch.write("site.toml", replaced(read_text(site_path()), "bench_height = 3.0", parts)));
+  ASSERT_EQ(site.dig.goal.size(), 2u);
+  EXPECT_DOUBLE_EQ(site.dig.goal[0].x_low, 5.0);
+  EXPECT_DOUBLE_EQ(site.dig.goal[0].x_high, 7.0);
+  EXPECT_DOUBLE_EQ(site.dig.goal[0].level, -1.5);
+  EXPECT_EQ(site.dig.goal[0].slope, (std::array{0.0, 0.0}));
+  EXPECT_DOUBLE_EQ(site.dig.goal[1].y_low, -1.0);
+  EXPECT_DOUBLE_EQ(site.dig.goal[1].y_high, 2.0);
+  EXPECT_EQ(site.dig.goal[1].slope, (std::array{-0.1, 0.2}));
 }
 
 // verifies: IF-CF-16
