@@ -10,14 +10,14 @@ nlohmann::ordered_json fields(double time_s, const Lead& lead, const char* way, 
 
 }  // namespace
 
-bool ScanWait::step(double time_s, const Lead& lead, bool awaited, const char* way, const ProgressLog& log, double at_most) {
+bool ScanWait::step(double time_s, const Lead& lead, bool awaited, const char* way, const ProgressLog& log) {
   if (lead.triggered || late_) return true;
   if (!awaited) {
     since_s_ = -1.0;
     return false;
   }
   if (since_s_ < 0.0) since_s_ = time_s;
-  if (time_s - since_s_ < at_most) return false;
+  if (time_s - since_s_ < at_most_s) return false;
   late_ = true;
   log.event("scanner_late", fields(time_s, lead, way, time_s - since_s_));
   return true;

@@ -13,10 +13,9 @@ namespace berm::app {
 class ScanWait {
 public:
   static constexpr double at_most_s = 1.5;  // from under the boom a pan comes out to the largest trigger angle of the shipped machines in two seconds and a half, and mostly it is on its way
-  static constexpr double back_at_most_s = 0.1;  // the swing back
 
   // Once a look at the script: whether the swing may begin. awaited: it would begin but for the scanner.
-  bool step(double time_s, const Lead& lead, bool awaited, const char* way, const ProgressLog& log, double at_most = at_most_s);
+  bool step(double time_s, const Lead& lead, bool awaited, const char* way, const ProgressLog& log);
   // It has begun.
   void swing_began(double time_s, const Lead& lead, const char* way, const ProgressLog& log);
 

@@ -152,7 +152,6 @@ private:
   bool swings_back() const;
   SwingForecast::Work work_before_swing() const;
   ComingSwing coming_swing(const Observation& o);
-  double waits_at_most_s() const;
   std::uint32_t scan_event(const Observation& o, std::uint32_t events);
   void note_swing_began(const Observation& o, bool left_before, bool returned_before);
   bool carries_level(const Observation& o) const;

@@ -12,11 +12,8 @@ bool Sequencer::swings_back() const { return phase_ == BERM_PHASE_DUMP || phase_
 SwingForecast::Work Sequencer::work_before_swing() const {
   using Work = SwingForecast::Work;
   if (stage_ == Stage::dig) return Work::digs;
-  if (stage_ != Stage::curl && stage_ != Stage::pass) return Work::other;
-  if (stage_ == Stage::pass && script_.of(swing).reached(RuleMark::returns)) return Work::other;
-  if (phase_ != BERM_PHASE_DUMP && stage_ == Stage::pass && script_.of(swing).reached(RuleMark::leaves)) return Work::swings;
-  if (awaits_scan_) return Work::waits;
-  return phase_ == BERM_PHASE_DUMP ? Work::pours : Work::lifts;
+  const bool lifts = stage_ == Stage::curl || (stage_ == Stage::pass && !script_.of(swing).reached(RuleMark::leaves));
+  return !lifts ? Work::other : awaits_scan_ ? Work::waits : Work::lifts;
 }
 
 ComingSwing Sequencer::coming_swing(const Observation& o) {
@@ -25,20 +22,13 @@ ComingSwing Sequencer::coming_swing(const Observation& o) {
   coming.begins_in_s = swing_forecast_.step(o.time_s, work_before_swing(), done);
   // Over the bed the arm reaches out when the swing is slow, over the dig while it is still fast.
   const bool swings = phase_ == BERM_PHASE_SWING_TO_TRUCK || phase_ == BERM_PHASE_SWING_TO_DIG;
-  coming.back_reach_m = reach_of(machine_, poses_.hover);
-  coming.reach_m = std::max(swings_back() ? coming.back_reach_m : reach_of(machine_, poses_.carry), swings ? reach_of(machine_, o.angle) : 0.0);
+  coming.reach_m = std::max(reach_of(machine_, swings_back() ? poses_.hover : poses_.carry), swings ? reach_of(machine_, o.angle) : 0.0);
   return coming;
-}
-
-// The swing back waits for no more than a moment, and only for a scanner that is all but there: over all of its way it has looked within one sweep.
-double Sequencer::waits_at_most_s() const {
-  if (!swings_back()) return ScanWait::at_most_s;
-  return scanners_.lead().comes_in_s <= ScanWait::back_at_most_s ? ScanWait::back_at_most_s : 0.0;
 }
 
 std::uint32_t Sequencer::scan_event(const Observation& o, std::uint32_t events) {
   awaits_scan_ = script_.of(swing).waits_only_for(event_scanned, o.angle, events);
-  const bool scanned = scan_wait_.step(o.time_s, scanners_.lead(), awaits_scan_, swings_back() ? "to dig" : "to truck", log_, waits_at_most_s());
+  const bool scanned = scan_wait_.step(o.time_s, scanners_.lead(), awaits_scan_, swings_back() ? "to dig" : "to truck", log_);
   awaits_scan_ = awaits_scan_ && !scanned;
   return scanned ? event_scanned : event_none;
 }

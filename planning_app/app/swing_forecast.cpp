@@ -16,14 +16,7 @@ double SwingForecast::step(double time_s, Work work, double done) {
   constexpr double least_done = 0.05;  // before that how long it takes cannot be told
   if (work != work_) {
     // What then waits for the scanner was ready; the wait is none of its time.
-    if (work == Work::other || work == Work::waits || work == Work::swings) {
-      if (work_ == Work::lifts) lift_.add(time_s - began_s_);
-      if (work_ == Work::pours) {
-        pour_.add(time_s - began_s_);
-        if (left_s_ >= 0.0) there_.add(time_s - left_s_);
-      }
-    }
-    if (work != Work::pours) left_s_ = work == Work::swings ? time_s : -1.0;
+    if (work_ == Work::lifts && (work == Work::other || work == Work::waits)) lift_.add(time_s - began_s_);
     began_s_ = time_s;
     work_ = work;
   }
@@ -31,8 +24,6 @@ double SwingForecast::step(double time_s, Work work, double done) {
   switch (work) {
     case Work::digs: return done < least_done ? never : so_far * std::max(0.0, 1.0 - done) / done + lift_.seconds();
     case Work::lifts: return std::max(0.0, lift_.seconds() - so_far);
-    case Work::swings: return std::max(pour_.seconds(), there_.seconds() - so_far);
-    case Work::pours: return std::max({0.0, pour_.seconds() - so_far, left_s_ < 0.0 ? 0.0 : there_.seconds() - (time_s - left_s_)});
     case Work::waits: return 0.0;
     case Work::other: return never;
   }

@@ -1,4 +1,4 @@
-// When the next swing begins, at the soonest: while a bucket is filled, by how far it is; while it is lifted, swung to the truck or poured, by the shortest of the last few times.
+// When the next swing begins, at the soonest: while a bucket is filled, by how far it is; while it is lifted, by the shortest of the last few times.
 #pragma once
 
 #include <array>
@@ -11,9 +11,7 @@ public:
   enum class Work {
     digs,
     lifts,   // from the dig's end until the swing to the truck begins
-    swings,  // to the truck, until the bucket opens; what comes next is the swing back
-    pours,   // from when the bucket opens until the swing back begins
-    waits,   // for nothing but the scanner, after either
+    waits,   // for nothing but the scanner, after that
     other
   };
 
@@ -35,9 +33,7 @@ private:
 
   Work work_ = Work::other;
   double began_s_ = 0.0;         // this work
-  Shortest lift_{0.8}, pour_{1.5};
-  Shortest there_{5.2};          // from the swing to the truck's start to the swing back's: a bucket that opens sooner mostly pours for longer
-  double left_s_ = -1.0;         // this swing to the truck
+  Shortest lift_{0.8};
 };
 
 }  // namespace berm::app

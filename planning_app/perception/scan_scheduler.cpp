@@ -17,10 +17,8 @@ constexpr double under_boom = radians(42.0);   // inwards, to the ground below t
 constexpr double beyond_dig = radians(90.0);    // the stop beyond the dig, seen from a head at the side of near ground
 constexpr double lead_width = radians(40.0);     // of the leading scanner's sector during a swing, outwards from what the swing needs
 constexpr double spare_s = 0.3;                 // a dig may end so much sooner than it is expected to
-constexpr double way_near = radians(5.0);       // where a sweep over the way back begins, from the implements outward
-constexpr double beyond_way = radians(15.0);    // so far past the dig it goes on while a pour takes longer than it is expected to
-constexpr double mostly_later_s = 0.2;          // than the shortest of the last few pours the next one ends
-constexpr double known_s = 60.0;                // when a swing begins is known at all
+constexpr double back_least = radians(12.0);     // ahead of a swing back that is slow yet: the implements' width, parallax
+constexpr double back_faster = 0.1;             // rad/s: than it is now it soon will be
 constexpr double past_truck = radians(55.0);    // the implements' width, the overshoot of a stop, parallax
 constexpr double pi = std::numbers::pi;
 constexpr double beyond_truck = radians(50.0);
@@ -71,11 +69,11 @@ PanSector ScanScheduler::sector(std::size_t scanner, std::uint16_t phase, double
       // At its far end until the swing has carried it past the truck; then ahead of the stop angle.
       if (scanner == ahead) bearings = far_seen_ ? PanSector{swing_angle + side * inner_, swing_angle + side * (inner_ + lead_width)} : PanSector{swing_angle + side * pi, swing_angle + side * pi};
       else if (!face_bare_) bearings = {dig + side * (face_half + waits_within), dig + side * face_half};
-      else bearings = face_.seen ? way_back(side, swing_angle) : PanSector{dig + side * face_half, dig - side * radians(40.0)};
+      else bearings = {face_.seen ? swing_angle + side * radians(15.0) : dig + side * face_half, dig - side * radians(40.0)};
       break;
     case BERM_PHASE_DUMP:
       if (scanner == ahead) bearings = {swing_angle - side * under_boom, truck + side * beyond_truck};
-      else bearings = way_back(side, swing_angle);
+      else bearings = {swing_angle - side * radians(5.0), swing_angle - side * radians(75.0)};  // where the swing back begins, seen just before
       break;
     case BERM_PHASE_SWING_TO_DIG:
       if (scanner == ahead) bearings = {bed_.seen ? swing_angle - side * radians(20.0) : truck - side * bed_half, truck + side * bed_half};
@@ -97,27 +95,10 @@ void ScanScheduler::plan_lead(std::uint16_t phase, double dig, double truck, dou
   lead_.needed = table_.of(lead_.scanner, std::fabs((back ? dig : truck) - swing_angle) + sped_up, coming.reach_m);
   lead_.required = table_.required(lead_.scanner, swing_speed, coming.reach_m);
   const double way_out = azimuth_rate * std::max(0.0, coming.begins_in_s - spare_s), turned = lead_.needed.trigger + table_.turn_way() + at_end;
-  if (swings(phase)) inner_ = std::max(lead_.needed.lookahead, lead_.required);
+  if (phase == BERM_PHASE_SWING_TO_DIG) inner_ = std::max(back_least, table_.required(lead_.scanner, std::fabs(swing_speed) + back_faster, coming.reach_m));
+  else if (swings(phase)) inner_ = std::max(lead_.needed.lookahead, lead_.required);
   else if (phase == BERM_PHASE_LIFT) inner_ = turned;
   else inner_ = std::max(-under_boom, turned - way_out);
-  const std::size_t back_scanner = to_truck == left ? right : left;
-  back_trigger_ = table_.of(back_scanner, std::fabs(dig - truck), coming.back_reach_m).trigger;
-  way_end_ = std::max(back_trigger_ + table_.turn_way() + at_end, std::fabs(dig - truck) + beyond_way);
-}
-
-PanSector ScanScheduler::way_back(double side, double swing_angle) const { return {swing_angle - side * way_near, swing_angle - side * way_end_}; }
-
-// Of the scanner that will lead the swing back: it sweeps over the way outward, from the implements to the trigger angle and past the dig, and hurries back inward in
-// between, over what it then sweeps again. It turns back early once, at the last moment from which another whole sweep comes to the trigger angle as the swing begins.
-// Whoever has come meanwhile is so seen on the last sweep wherever on the way he stands; a scanner that went inward only as far as it came out again in time saw
-// nobody nearer than that (PASSES_TRIED).
-void ScanScheduler::time_way_back(std::size_t scanner, double pan, const ComingSwing& coming) {
-  constexpr double worth_it = radians(20.0), moment_s = 0.1;
-  const double ahead = (scanner == left ? pan : -pan) - way_near, dead_s = table_.turn_way() / azimuth_rate;
-  const double sweep_s = (back_trigger_ - way_near) / azimuth_rate, inward_s = ahead / machine_.scanner[scanner].pan_rate_max + 2.0 * dead_s;
-  const double spare = coming.begins_in_s + mostly_later_s - inward_s - sweep_s;
-  const bool outward = head_[scanner].up == (scanner == left);
-  if (outward && ahead > worth_it && spare >= 0.0 && spare < moment_s) head_[scanner].up = scanner == right;
 }
 
 void ScanScheduler::Stretch::look(double bearing, const PanSector& wanted) {
@@ -149,9 +130,7 @@ void ScanScheduler::note_face(std::size_t scanner, double dig, double truck, dou
     face_.begin(pan + swing_angle);
     head_[scanner].up = scanner == left;
   }
-  const bool seen_before = face_.seen;
   if (face_bare_) face_.look(pan + swing_angle, {dig - face_half, dig + face_half});
-  if (face_.seen && !seen_before) head_[scanner].up = scanner == right;  // the way back is next
 }
 
 bool ScanScheduler::end_beyond_dig_seen(std::size_t scanner) const { return scanner == right ? head_[right].low_seen : head_[left].high_seen; }
@@ -230,8 +209,6 @@ std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, d
   const std::size_t other = ahead == left ? right : left;
   if (phase == BERM_PHASE_SWING_TO_DIG) note_bed(ahead, truck, swing_angle, pan[ahead]);
   if (phase == BERM_PHASE_SWING_TO_TRUCK) note_face(other, dig, truck, swing_angle, pan[other]);
-  const bool over_way = phase == BERM_PHASE_DUMP || (phase == BERM_PHASE_SWING_TO_TRUCK && face_.seen);
-  if (over_way && head_[other].low_seen && head_[other].high_seen) time_way_back(other, pan[other], coming);
   phase_ = phase;
   for (std::size_t i = 0; i < head_.size(); ++i) {
     const ScannerMount& mount = machine_.scanner[i];
@@ -250,13 +227,11 @@ std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, d
     if (pan[i] > s.high - at_end) head.up = false;
     if (pan[i] < s.low + at_end) head.up = true;
     const double direction = head.up ? 1.0 : -1.0;
-    const bool inward = head.up == (i == right);
-    const bool hurries = (end_first && back_soon && (pan[i] < s.low || pan[i] > s.high)) || (over_way && !whole && i == other && inward && coming.begins_in_s < known_s);
+    const bool hurries = end_first && back_soon && (pan[i] < s.low || pan[i] > s.high);
     request[i] = {head.up ? s.high : s.low, hurries ? mount.pan_rate_max : LookaheadTable::pan_rate(mount, direction, swing_speed)};
   }
   const bool outward = head_[lead_.scanner].up == (lead_.scanner == left);
   lead_.ahead = lead_.scanner == left ? pan[left] : -pan[right];
-  lead_.comes_in_s = outward ? std::max(0.0, lead_.needed.trigger - lead_.ahead) / azimuth_rate : 1e9;
   // Where slowness has both see their whole ranges none leads, and none is waited for.
   const bool leads = !(was_slowed_ && !(head_[lead_.scanner].low_seen && head_[lead_.scanner].high_seen));
   lead_.triggered = !leads || lead_.ahead > lead_.needed.trigger + (outward ? 0.0 : table_.turn_way());

@@ -16,11 +16,10 @@ namespace berm::app {
 struct PanRequest { double goal = 0.0, rate = 0.0; };        // rad relative to the upper body, rad/s
 struct PanSector { double low = 0.0, high = 0.0; };          // rad, relative to the upper body
 
-// What is known of the swing that comes next, or goes on. On the way to the truck and over it that is the swing back.
+// What is known of the swing that comes next, or goes on.
 struct ComingSwing {
   double begins_in_s = 1e9;     // at the soonest; far off: not known
   double reach_m = 0.0;         // the implements' farthest point meanwhile
-  double back_reach_m = 0.0;    // and on the swing back, if that is another
 };
 
 // The scanner that leads the swing that comes next, or goes on: pans towards its side, rad.
@@ -29,7 +28,6 @@ struct Lead {
   double ahead = 0.0;           // its pan
   LookaheadTable::Angles needed;
   double required = 0.0;        // for the swing's speed now
-  double comes_in_s = 1e9;      // at the trigger angle; far off: it is on its way inward
   bool triggered = false;       // it is so far out, and on its way, that the swing may begin
 };
 
@@ -80,8 +78,6 @@ private:
 
   PanSector sector(std::size_t scanner, std::uint16_t phase, double dig_bearing, double truck_bearing, double swing_angle) const;
   void plan_lead(std::uint16_t phase, double dig_bearing, double truck_bearing, double swing_angle, double swing_speed, const ComingSwing& coming);
-  PanSector way_back(double side, double swing_angle) const;
-  void time_way_back(std::size_t scanner, double pan, const ComingSwing& coming);
   void note_bed(std::size_t scanner, double truck_bearing, double swing_angle, double pan);
   void note_face(std::size_t scanner, double dig_bearing, double truck_bearing, double swing_angle, double pan);
   PanRequest look(double swing_angle, double pan);
@@ -94,9 +90,8 @@ private:
   MachineModel machine_;
   LookaheadTable table_;
   Lead lead_;
-  double inner_ = 0.0;              // end of the leading scanner's sector, as lead_.ahead
-  double back_trigger_ = 0.0, way_end_ = 0.0;  // of the sweeps over the way back, before the swing back begins
-  std::uint16_t phase_ = 0;         // of the step before
+  double inner_ = 0.0;      // end of the leading scanner's sector, as lead_.ahead
+  std::uint16_t phase_ = 0; // of the step before
   std::array<Head, 2> head_;
   enum class Look { none, goes, sweeps, done } look_ = Look::none;
   std::size_t looker_ = 0;
@@ -106,9 +101,9 @@ private:
   double at_end_s_ = 0.0;    // waits at the end beyond the dig
   bool feet_seen_ = false;
   bool far_seen_ = false;  // during this swing to the truck the leading scanner has seen the ground beyond the truck
-  Stretch bed_, face_;              // as the scanner that does not lead has seen them during this swing
-  double left_at_ = 0.0;            // where the swing to the truck began
-  bool face_bare_ = false;          // it has left the face
+  Stretch bed_, face_;      // as the scanner that does not lead has seen them during this swing
+  double left_at_ = 0.0;    // where the swing to the truck began
+  bool face_bare_ = false;  // it has left the face
 };
 
 }  // namespace berm::app

@@ -61,17 +61,6 @@ TEST(ScanWait, ForAScannerThatDoesNotComeItWaitsABoundedTimeAndSaysSo) {
   EXPECT_FALSE(wait.step(t + 20.0, lead_at(radians(-20.0), false), true, "to truck", log)) << "the next swing waits again";
 }
 
-TEST(ScanWait, TheSwingBackWaitsNoLongerThanItIsTold) {
-  const Events events;
-  const ProgressLog log(events.fd());
-  ScanWait wait;
-  EXPECT_FALSE(wait.step(1.0, lead_at(radians(50.0), false), true, "to dig", log, ScanWait::back_at_most_s));
-  EXPECT_TRUE(wait.step(1.0 + ScanWait::back_at_most_s + 0.01, lead_at(radians(54.0), false), true, "to dig", log, ScanWait::back_at_most_s));
-  wait.swing_began(1.2, lead_at(radians(54.0), false), "to dig", log);
-  EXPECT_TRUE(wait.step(5.0, lead_at(radians(10.0), false), true, "to dig", log, 0.0)) << "not for one that is far off";
-  EXPECT_EQ(events.named("scanner_late").size(), 2U);
-}
-
 TEST(SwingForecast, ADigIsExpectedToEndAsFastAsItGoesAndTheLiftToBeAsShortAsTheShortestOfLate) {
   SwingForecast forecast;
   EXPECT_GT(forecast.step(0.0, Work::other), 1e6);
@@ -88,35 +77,6 @@ TEST(SwingForecast, ADigIsExpectedToEndAsFastAsItGoesAndTheLiftToBeAsShortAsTheS
   }
   forecast.step(60.0, Work::lifts);
   EXPECT_NEAR(forecast.step(60.2, Work::lifts), 1.0, 1e-9);
-}
-
-TEST(SwingForecast, APourIsExpectedToBeAsShortAsTheShortestOfLate) {
-  SwingForecast forecast;
-  for (double began = 0.0; began < 50.0; began += 10.0) {
-    forecast.step(began, Work::pours);
-    forecast.step(began + (began == 20.0 ? 1.5 : 2.0), Work::other);
-  }
-  forecast.step(60.0, Work::pours);
-  EXPECT_NEAR(forecast.step(60.5, Work::pours), 1.0, 1e-9);
-  EXPECT_EQ(forecast.step(63.0, Work::pours), 0.0);
-}
-
-TEST(SwingForecast, TheSwingBackIsExpectedAsSoonAfterTheSwingToTheTruckBeganAsTheSoonestOfLate) {
-  SwingForecast forecast;
-  for (double began = 0.0; began < 50.0; began += 10.0) {  // a bucket that opens sooner pours for longer
-    forecast.step(began, Work::swings);
-    forecast.step(began + (began == 30.0 ? 3.5 : 4.5), Work::pours);
-    forecast.step(began + 6.0, Work::other);
-  }
-  forecast.step(60.0, Work::swings);
-  EXPECT_NEAR(forecast.step(62.0, Work::swings), 4.0, 1e-9);
-  EXPECT_NEAR(forecast.step(65.5, Work::swings), 1.5, 1e-9) << "the shortest pour is still to come";
-  forecast.step(65.6, Work::pours);
-  EXPECT_NEAR(forecast.step(66.0, Work::pours), 1.1, 1e-9);
-  forecast.step(67.0, Work::other);
-  forecast.step(70.0, Work::swings);
-  forecast.step(72.0, Work::pours);
-  EXPECT_NEAR(forecast.step(73.6, Work::pours), 2.4, 1e-9) << "it opened soon";
 }
 
 TEST(GuardAccount, WhatWasNotSeenIsCountedApart) {

@@ -23,11 +23,10 @@ struct Scanning {
   void step(std::uint16_t phase, double angle, double speed, double begins_in_s = 1e9) {
     ++cycles;
     const auto before = pan;
-    const auto request = scheduler.step(phase, 0.0, truck, angle, speed, pan, false, {begins_in_s, machine.braking.reach.front(), machine.braking.reach.front()});
+    const auto request = scheduler.step(phase, 0.0, truck, angle, speed, pan, false, {begins_in_s, machine.braking.reach.front()});
     for (std::size_t i = 0; i < 2; ++i) {
-      const bool over_way = (phase == BERM_PHASE_SWING_TO_TRUCK || phase == BERM_PHASE_DUMP) && (i == 0) == (side < 0.0), inward = side * (request[i].goal - pan[i]) > 0.0;
       const double turn = std::fabs(std::copysign(std::min(request[i].rate, std::fabs(request[i].goal - pan[i]) / cycle), request[i].goal - pan[i]) + speed);
-      if (!(over_way && inward)) fastest_turn = std::max(fastest_turn, turn);
+      fastest_turn = std::max(fastest_turn, turn);
       pan[i] += std::clamp(request[i].goal - pan[i], -request[i].rate * cycle, request[i].rate * cycle);
       const double from = before[i] + angle - speed * cycle, to = pan[i] + angle;
       for (std::size_t a = 0; a < seen.size(); ++a)
@@ -40,20 +39,19 @@ struct Scanning {
   void wait(std::uint16_t phase, double angle, double seconds, double then_s = 0.0) {
     for (double left = seconds; left > 0.0; left -= cycle) step(phase, angle, 0.0, left + then_s);
   }
-  // As fast as the machine swings, told when the swing back will begin; the least by which the leading pan is ahead of what the speed needs.
-  double swing(std::uint16_t phase, double from, double to, double pour_s = 1e9) {
-    return swing(phase, from, to, [&](double gone_s) { return swing_s - gone_s + pour_s; }, [](double, double) {});
+  // As fast as the machine swings; the least by which the leading pan is ahead of what the speed needs.
+  double swing(std::uint16_t phase, double from, double to) {
+    return swing(phase, from, to, [](double, double) {});
   }
-  template <class BeginsIn, class Visit>
-  double swing(std::uint16_t phase, double from, double to, BeginsIn begins_in, Visit visit) {
+  template <class Visit>
+  double swing(std::uint16_t phase, double from, double to, Visit visit) {
     constexpr double fastest = radians(38.75), speeds_up = radians(20.0), brakes = radians(15.0);
     const double sense = to > from ? 1.0 : -1.0, way = std::fabs(to - from);
-    double gone = 0.0, speed = 0.0, least = 1e9, seconds = 0.0;
+    double gone = 0.0, speed = 0.0, least = 1e9;
     while (gone < way - radians(0.1)) {
       speed = std::min({speed + speeds_up * cycle, fastest, std::max(radians(0.5), std::sqrt(2.0 * brakes * (way - gone)))});
       gone += speed * cycle;
-      seconds += cycle;
-      step(phase, from + sense * gone, sense * speed, begins_in(seconds));
+      step(phase, from + sense * gone, sense * speed);
       visit(gone, speed);
       const std::size_t leads = sense > 0.0 ? 0 : 1;
       least = std::min(least, sense * pan[leads] - table.required(leads, speed, machine.braking.reach.front()));
@@ -65,9 +63,8 @@ struct Scanning {
   ScanScheduler scheduler;
   LookaheadTable table;
   double side, truck;
-  static constexpr double swing_s = 4.4;  // over 94 degrees
   std::array<double, 2> pan{};
-  double fastest_turn = 0.0;  // turn of a scanline in the base frame, but where the scanner hurries inward over the way back
+  double fastest_turn = 0.0;  // turn of a scanline in the base frame
   std::vector<int> way_seen = std::vector<int>(110, -1);  // by the scanner that leads the swing back: when last, by the degrees from the truck on the way back
   int cycles = 0;
   std::vector<int> seen = std::vector<int>(180, -1);  // by the scanner on the truck's side: when last, by the bearing towards the truck, degrees
@@ -77,59 +74,51 @@ TEST(ScanLead, ItIsAtTheTriggerAngleWhenTheSwingBeginsAndAheadOfItFromThenOn) {
   for (const double side : {1.0, -1.0})
     for (double dig_s = 0.9; dig_s < 8.0; dig_s += 0.35) {
       Scanning s(side);
-      const double pour = 1.2 + 0.25 * dig_s;
       for (int pass = 0; pass < 4; ++pass) {
         s.wait(BERM_PHASE_DIG, 0.0, pass == 0 ? 3.0 : dig_s, 0.9);  // wherever the sweep of the whole range had it
         s.wait(BERM_PHASE_LIFT, 0.0, 0.9);
         const Lead out = s.scheduler.lead();
         EXPECT_TRUE(out.triggered) << side << ": a dig of " << dig_s << " s";
         EXPECT_GE(out.ahead, out.needed.trigger) << side << ": a dig of " << dig_s << " s";
-        EXPECT_GT(s.swing(BERM_PHASE_SWING_TO_TRUCK, 0.0, s.truck, pour), 0.0) << side << ": to the truck after a dig of " << dig_s << " s";
-        s.wait(BERM_PHASE_DUMP, s.truck, pour);
-        const Lead back = s.scheduler.lead();
-        EXPECT_GT(back.ahead, back.needed.trigger - radians(12.0)) << side << ": a pour of " << pour << " s";
+        EXPECT_GT(s.swing(BERM_PHASE_SWING_TO_TRUCK, 0.0, s.truck), 0.0) << side << ": to the truck after a dig of " << dig_s << " s";
+        s.wait(BERM_PHASE_DUMP, s.truck, 1.2 + 0.25 * dig_s);
         s.swing(BERM_PHASE_SWING_TO_DIG, s.truck, 0.0);
       }
     }
 }
 
-// Whoever came to stand in the way of the swing back before it begins has been seen, wherever on it: the last sweep is a whole one, outward from the implements.
-TEST(ScanLead, TheLastThatIsDoneBeforeTheSwingBackIsASweepOverAllOfItsWay) {
+// On the swing back the sweeps turn outward again where the kernel's box will soon end, and no farther out: who comes onto the way is looked at as late as he can be for the machine to stand
+// before him.
+TEST(ScanLead, OnTheSwingBackItLooksWhereTheSpeedNeedsItAndNoFartherOut) {
   for (const double side : {1.0, -1.0})
-    for (double pour = 1.4; pour < 3.0; pour += 0.1) {
+    for (const double speed : {0.1, 0.2, 0.3, 0.4}) {
       Scanning s(side);
-      s.wait(BERM_PHASE_DIG, 0.0, 4.0, 0.9);
-      s.wait(BERM_PHASE_LIFT, 0.0, 0.9);
-      s.swing(BERM_PHASE_SWING_TO_TRUCK, 0.0, s.truck, pour);
-      s.wait(BERM_PHASE_DUMP, s.truck, pour);
-      const double ahead = s.scheduler.lead().ahead;
-      for (int a = 7; radians(a) < ahead - radians(1.0); ++a)
-        EXPECT_NEAR((s.cycles - s.way_seen[static_cast<std::size_t>(a)]) * cycle, (ahead - radians(a)) / ScanScheduler::azimuth_rate, 0.1) << side << ": " << a << " degrees, " << pour << " s";
+      const std::size_t leads = side > 0.0 ? 1 : 0;
+      const double needs = s.table.required(leads, speed + 0.1, s.machine.braking.reach.front());
+      double inmost = 1e9, outmost = 0.0;
+      for (int i = 0; i < 1600; ++i) {
+        s.step(BERM_PHASE_SWING_TO_DIG, s.truck - side * 0.2, -side * speed);
+        if (i < 800) continue;
+        const double ahead = -side * s.pan[leads];
+        inmost = std::min(inmost, ahead);
+        outmost = std::max(outmost, ahead);
+      }
+      EXPECT_NEAR(inmost, std::max(needs, radians(12.0)), radians(3.0)) << side << ", " << speed << " rad/s";
+      EXPECT_NEAR(outmost, std::max(needs, radians(12.0)) + radians(40.0), radians(3.0)) << side << ", " << speed << " rad/s";
       EXPECT_LE(s.fastest_turn, radians(40.0));
     }
 }
 
-// Of a pour that ends otherwise than expected, too, nothing on the way is older than a sweep out and back, when the swing begins and while it goes on.
-TEST(ScanLead, NothingThatTheSwingBackNeedsWasSeenLongerAgoThanASweep) {
-  constexpr double sweep_s = 4.3, expected = 1.5, past_dig = radians(104.0);
+// While the bucket pours the way back is swept over and over, so that after a long pour none of its first 70 degrees was seen longer ago than a sweep out and in takes.
+TEST(ScanLead, TheFirstOfTheWayBackIsSweptWhileTheBucketPours) {
   for (const double side : {1.0, -1.0})
-    for (double pour = 1.0; pour < 7.0; pour += 0.1) {
+    for (double pour = 4.2; pour < 8.0; pour += 0.1) {
       Scanning s(side);
       s.wait(BERM_PHASE_DIG, 0.0, 4.0, 0.9);
       s.wait(BERM_PHASE_LIFT, 0.0, 0.9);
-      s.swing(BERM_PHASE_SWING_TO_TRUCK, 0.0, s.truck, expected);
-      for (double t = 0.0; t < pour; t += cycle) s.step(BERM_PHASE_DUMP, s.truck, 0.0, std::max(0.0, expected - t));
-      const auto oldest = [&](double from, double to) {
-        double age = 0.0;
-        for (auto a = static_cast<std::size_t>(degrees(from)) + 1; a < s.way_seen.size() && radians(static_cast<double>(a)) < std::min(to, past_dig); ++a) age = std::max(age, (s.cycles - s.way_seen[a]) * cycle);
-        return age;
-      };
-      EXPECT_LT(oldest(radians(6.0), s.table.required(side > 0.0 ? 1 : 0, 0.0, s.machine.braking.reach.front())), sweep_s) << side << ": " << pour << " s";
-      double worst = 0.0;
-      s.swing(BERM_PHASE_SWING_TO_DIG, s.truck, 0.0, [](double) { return 1e9; }, [&](double gone, double speed) {
-        worst = std::max(worst, oldest(gone + radians(6.0), gone + s.table.required(side > 0.0 ? 1 : 0, speed, s.machine.braking.reach.front())));
-      });
-      EXPECT_LT(worst, sweep_s) << side << ": while it goes on, after " << pour << " s";
+      s.swing(BERM_PHASE_SWING_TO_TRUCK, 0.0, s.truck);
+      s.wait(BERM_PHASE_DUMP, s.truck, pour);
+      for (std::size_t a = 7; a < 70; ++a) EXPECT_LT((s.cycles - s.way_seen[a]) * cycle, 4.2) << side << ": " << a << " degrees, " << pour << " s";
     }
 }
 
