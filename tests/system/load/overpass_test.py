@@ -16,8 +16,8 @@ PLACE_X, PLACE_Y = 5.35, 3.30  # of the scenario: on the bench, outside the dig 
 BEARING = math.atan2(PLACE_Y, PLACE_X)
 
 
-def files(folder, rule, speed):
-    """The scenario of the person, lower and at this speed (m/s), with a truck that is soon full; the site with or without the overpass rule."""
+def files(folder, rule, speed, from_s=None):
+    """The scenario of the person, lower and at this speed (m/s), from this time on, with a truck that is soon full; the site with or without the overpass rule."""
     config = ROOT / "interface_spec" / "config" / "sites" / "bench_small.toml"
     site = folder / "site.toml"
     text = config.read_text()
@@ -32,6 +32,11 @@ def files(folder, rule, speed):
                      ("speed = 1.4\n", f"speed = {speed}\n")):
         assert text.count(old) == 1, f"{text.count(old)} times {old}"
         text = text.replace(old, new)
+    if from_s is not None:
+        before, person = text.split("[[person]]")
+        person, changed = re.subn(r"(?m)^start_s = [0-9.]+", f"start_s = {from_s}", person)
+        assert changed == 1, f"{changed} times start_s"
+        text = before + "[[person]]" + person
     scenario.write_text(text)
     return scenario
 
@@ -48,10 +53,10 @@ def seconds_over(trace):
     return over, there
 
 
-def runs(rule, seed, speed=1.4):
+def runs(rule, seed, speed=1.4, from_s=None):
     folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
     try:
-        status, result, out, text = load("--scenario", files(folder, rule, speed), "--seed", seed)
+        status, result, out, text = load("--scenario", files(folder, rule, speed, from_s), "--seed", seed)
         assert result is not None, text[-500:]
         over, there = seconds_over(out / "trace.csv")
         assert there > 20.0, f"the person was there for only {there:.1f} s"
@@ -84,9 +89,19 @@ def nothing_passes_over_one_who_comes_just_before_the_swing_back():
     nothing_passes_over(2.5)
 
 
+def nothing_passes_over_one_who_comes_in_a_later_pass():
+    """As the swing back to the third dig begins, or on its way: whom the scanner has seen in time the machine stands before."""
+    for speed in (1.4, 2.0):
+        for seed in (1, 2):
+            _, result, over = runs(True, seed, speed, 45.0)
+            assert over == 0.0, f"{speed} m/s, seed {seed}: over the person for {over:.2f} s"
+            assert result["contacts"] == 0, f"{speed} m/s, seed {seed}: {result['contacts']} contacts"
+
+
 def without_the_rule_they_do():
     _, result, over = runs(False, 1)
     assert over > 0.0 and WHY not in result["kernel_stops"], f"over for {over:.2f} s, {result['kernel_stops']}: the test above shows nothing"
 
 
-main([nothing_passes_over_a_person_of_one_and_a_half_metres, nothing_passes_over_one_who_comes_just_before_the_swing_back, without_the_rule_they_do])
+main([nothing_passes_over_a_person_of_one_and_a_half_metres, nothing_passes_over_one_who_comes_just_before_the_swing_back, nothing_passes_over_one_who_comes_in_a_later_pass,
+      without_the_rule_they_do])
