@@ -44,7 +44,7 @@ def goes_on_by_itself(at_s, ranging, reason):
 
 
 def dust_is_told():
-    goes_on_by_itself(35.0, "trailing_edge", "dust")
+    goes_on_by_itself(38.0, "trailing_edge", "dust")
 
 
 def its_front_is_too_high_to_pass_over():
