@@ -279,7 +279,7 @@ Answer Sequencer::step(const Observation& o) {
   const bool slowed_long = std::max(slow_down_.lasts_s(), look_ahead_.slows_for_s(o.time_s)) > slow_for_long;
   answer.pan = scanners_.step(stage_ == Stage::curl ? std::uint16_t{BERM_PHASE_LIFT} : phase_, task_.next_bearing, truck_bearing, o.angle[swing], o.velocity[swing], o.pan, slowed_long,
                               coming_swing(o));
-  if (stage_ == Stage::pass && o.running() && (phase_ == BERM_PHASE_SWING_TO_TRUCK || phase_ == BERM_PHASE_SWING_TO_DIG)) scan_wait_.goes_on(scanners_.lead());
+  if (stage_ == Stage::pass && o.running() && swings()) scan_wait_.goes_on(scanners_.lead());
   answer.phase = phase_;
   answer.horn = sounds_full(o) || (stage_ == Stage::ask_move && sounds_move_back(o.time_s - stage_s_, back_m_));
   return answer;

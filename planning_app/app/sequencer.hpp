@@ -149,6 +149,7 @@ private:
   double share_that_may_trail() const;
   BedPoint lies_at(double payload_kg) const;
   std::uint32_t pass_events(const Observation& o);
+  bool swings() const;
   bool swings_back() const;
   SwingForecast::Work work_before_swing() const;
   ComingSwing coming_swing(const Observation& o);

@@ -6,6 +6,8 @@
 
 namespace berm::app {
 
+bool Sequencer::swings() const { return phase_ == BERM_PHASE_SWING_TO_TRUCK || phase_ == BERM_PHASE_SWING_TO_DIG; }
+
 // Back: the swing from the truck to the next dig is what comes, or goes on.
 bool Sequencer::swings_back() const { return phase_ == BERM_PHASE_DUMP || phase_ == BERM_PHASE_SWING_TO_DIG; }
 
@@ -21,8 +23,7 @@ ComingSwing Sequencer::coming_swing(const Observation& o) {
   ComingSwing coming;
   coming.begins_in_s = swing_forecast_.step(o.time_s, work_before_swing(), done);
   // Over the bed the arm reaches out when the swing is slow, over the dig while it is still fast.
-  const bool swings = phase_ == BERM_PHASE_SWING_TO_TRUCK || phase_ == BERM_PHASE_SWING_TO_DIG;
-  coming.reach_m = std::max(reach_of(machine_, swings_back() ? poses_.hover : poses_.carry), swings ? reach_of(machine_, o.angle) : 0.0);
+  coming.reach_m = std::max(reach_of(machine_, swings_back() ? poses_.hover : poses_.carry), swings() ? reach_of(machine_, o.angle) : 0.0);
   return coming;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/outline_points.hpp"
+
 namespace berm::app {
 
 SurfaceProfile::SurfaceProfile(const DigGround& ground, double bearing, double width) {
@@ -32,16 +34,8 @@ BucketShell::BucketShell(const MachineModel& machine) {
   constexpr double shell_side = -0.05;
   for (const Prism& part : machine.parts) {
     if (part.link != bucket) continue;
-    for (std::size_t i = 0; i < part.outline.size(); ++i) {
-      const auto& from = part.outline[i];
-      const auto& to = part.outline[(i + 1) % part.outline.size()];
-      const int pieces = std::max(1, static_cast<int>(std::ceil(std::hypot(to[0] - from[0], to[1] - from[1]) / spacing)));
-      for (int k = 0; k < pieces; ++k) {
-        const double t = static_cast<double>(k) / pieces;
-        const std::array<double, 2> point{from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])};
-        if (point[1] >= shell_side) points_.push_back(point);
-      }
-    }
+    for (const auto& point : outline_points(part, spacing))
+      if (point[1] >= shell_side) points_.push_back(point);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "motion/joint_model.hpp"
+#include "motion/outline_points.hpp"
 #include "motion/reach_preview.hpp"
 #include "planning/dig_shape.hpp"
 #include "planning/skyline.hpp"
@@ -23,15 +24,7 @@ public:
     constexpr double spacing = 0.1;  // m
     for (const Prism& part : machine.parts) {
       if (part.link == bucket) continue;
-      for (std::size_t i = 0; i < part.outline.size(); ++i) {
-        const auto& from = part.outline[i];
-        const auto& to = part.outline[(i + 1) % part.outline.size()];
-        const int pieces = std::max(1, static_cast<int>(std::ceil(std::hypot(to[0] - from[0], to[1] - from[1]) / spacing)));
-        for (int k = 0; k < pieces; ++k) {
-          const double t = static_cast<double>(k) / pieces;
-          points_.push_back({part.link, {from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])}});
-        }
-      }
+      for (const auto& at : outline_points(part, spacing)) points_.push_back({part.link, at});
     }
   }
 

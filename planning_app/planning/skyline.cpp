@@ -199,7 +199,6 @@ const char* Skyline::Blocking::name() const {
 std::optional<Skyline::Blocking> Skyline::blocking(const ReachIntervals& box, Ranges ranges, double slack) const {
   for (const std::size_t j : {boom, stick, bucket})
     if (ranges == Ranges::kept && (box.low[j] < machine_->joint[j].low || box.high[j] > machine_->joint[j].high)) return Blocking{Blocking::What::joint_range};
-  constexpr double scatter = 0.020;  // m, of where a bucket that comes down is foreseen: speeds as measured waver
   const LowerEdge edge(*machine_, box);
   if (!clears_own_body(*machine_, edge)) return Blocking{Blocking::What::own_body};
   const bool contact_allowed = box.swing_speed < machine_->dig_swing_limit && edge.lowest() > floor_ + over_floor + scatter;

@@ -35,7 +35,8 @@ public:
       : Skyline(machine, site, by_rows(ground), over_high, Rows{}) {}
 
   static constexpr double own_slack = 0.10;   // m beyond the kernel's margin: the kernel's slices are wider than the implements
-  static constexpr double over_floor = 0.1;  // m: so far over a dig zone's floor contact is asked for at the lowest
+  static constexpr double over_floor = 0.1;  // m: so far over a dig zone's floor contact is to be asked for at the lowest, ...
+  static constexpr double scatter = 0.02;    // ... and asked for with so much more: where a bucket that comes down is foreseen wavers with the speeds as measured
 
   // Whether the implements stay clear, by the kernel's margin and a little more, of everything under the intervals. In the dig zone contact is
   // allowed while the swing is slow and the lower edge above the zone's floor.

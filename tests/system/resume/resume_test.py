@@ -126,7 +126,7 @@ def goes_on_by_itself(reason, tables="", fault=()):
 
 
 def the_app_is_late():
-    """Of ten cycles' silence the kernel makes a hold: a swing is stopped, and goes on when the app talks again."""
+    """After 50 ms of silence the kernel holds: a swing is stopped, and goes on when the app talks again."""
     result, rows, _ = goes_on_by_itself("request_hold", fault=("--fault", f"pause-app@{WRONG_S}+0.15"))
     assert result["kernel_stops"] == {"request_hold": 1}, result["kernel_stops"]
     held = [t for t, _, why, _ in rows if why == 5]
