@@ -45,9 +45,9 @@ void RecognitionThread::add(Task task) {
   changed_.notify_all();
 }
 
-void RecognitionThread::begin(const std::array<double, 3>& viewpoint) { add({Task::What::begin, viewpoint, {}, 0}); }
-void RecognitionThread::take(std::vector<ScanPoint> scanline, std::uint64_t cycle) { add({Task::What::scanline, {}, std::move(scanline), cycle}); }
-void RecognitionThread::end(std::uint64_t cycle) { add({Task::What::end, {}, {}, cycle}); }
+void RecognitionThread::begin(const std::array<double, 3>& viewpoint) { add({Task::What::begin, viewpoint, {}, 0.0, 0}); }
+void RecognitionThread::take(std::vector<ScanPoint> scanline, double turned, std::uint64_t cycle) { add({Task::What::scanline, {}, std::move(scanline), turned, cycle}); }
+void RecognitionThread::end(std::uint64_t cycle) { add({Task::What::end, {}, {}, 0.0, cycle}); }
 
 std::optional<RecognisedTruck> RecognitionThread::answer(std::uint64_t cycle) {
   std::unique_lock lock(mutex_);
@@ -88,7 +88,7 @@ void RecognitionThread::work() {
         asks = false;
         break;
       case Task::What::scanline:
-        asks = recognition->take(task.scanline) || asks;
+        asks = recognition->take(task.scanline, task.turned) || asks;
         if (!asks || catches_up) break;
         asks = false;
         if (const RecognisedTruck& truck = recognition->ask(); recognition->stands()) answer = Answer{truck, task.cycle};

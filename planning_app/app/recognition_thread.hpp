@@ -21,7 +21,7 @@ public:
   RecognitionThread& operator=(const RecognitionThread&) = delete;
 
   void begin(const std::array<double, 3>& viewpoint) override;
-  void take(std::vector<ScanPoint> scanline, std::uint64_t cycle) override;
+  void take(std::vector<ScanPoint> scanline, double turned, std::uint64_t cycle) override;
   void end(std::uint64_t cycle) override;
   std::optional<RecognisedTruck> answer(std::uint64_t cycle) override;
 
@@ -30,6 +30,7 @@ private:
     enum class What { begin, scanline, end } what = What::end;
     std::array<double, 3> viewpoint{};
     std::vector<ScanPoint> scanline;
+    double turned = 0.0;
     std::uint64_t cycle = 0;
   };
   struct Answer {

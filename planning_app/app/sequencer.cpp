@@ -61,16 +61,19 @@ void Sequencer::begin_script(const Script& script) {
 void Sequencer::begin_approach(const Observation& o, bool lower) {
   goal_kg_ = next_goal_kg(o, middle_of_digs(site_));
   plan_next_dig(o, 0.0);
+  if (!approach_dig(o, site_.bed->wall_top, lower)) miss_approach(o);
+}
+
+// To the dig that was planned, over what is so high. False where there is no way.
+bool Sequencer::approach_dig(const Observation& o, double top, bool lower) {
   std::optional<PlanePoint> entry;
   if (lower) entry = PlanePoint{dig_.drag.front().r, dig_.drag.front().z};
-  const auto script = approach_script(scripts_, machine_, {o.angle, dig_.bearing, site_.bed->wall_top, entry, brings_load_});
-  if (!script) {
-    miss_approach(o);
-    return;
-  }
+  const auto script = approach_script(scripts_, machine_, {o.angle, dig_.bearing, top, entry, brings_load_});
+  if (!script) return false;
   begin_script(*script);
   task_.next_bearing = dig_.bearing;
   enter(Stage::approach, o);
+  return true;
 }
 
 void Sequencer::hear(const Observation& o) {
@@ -144,29 +147,31 @@ Joints Sequencer::approach(const Observation& o) {
 
 Joints Sequencer::settle(const Observation& o) {
   const Joints goals = script_.goals();
-  if (swing_stands_at_goal(o)) begin_dig(o);
+  if (swing_stands_at_goal(o) && site_.bed) begin_dig(o);
   return arm_.toward(goals, script_.paces(), tempos(), o.angle, o.velocity);
 }
 
 Joints Sequencer::plan(const Observation& o) {
   switch (stage_) {
     case Stage::survey:
-      if (scanners_.full_sweep_done()) enter(after_survey_, o);
+      if (scanners_.full_sweep_done()) end_survey(o);
       return {};
     case Stage::wait_truck:
       if (o.truck_parked) {
         log_.event("truck", {{"truck", truck_}, {"time_s", o.time_s}});
-        waits_raised_ = false;
         if (presence_.gone() != TruckPresence::Gone::no) expect_another_truck();
         presence_.begin();
-        begin_look(o);
+        waits_raised_ = false;
+        if (!go_look_on_the_way(o)) begin_look(o);
         return {};
       }
       return waits_raised_ ? run_script(o, event_none) : Joints{};
     case Stage::go_look: return go_look(o);
     case Stage::look: return look_for_truck(o);
-    case Stage::approach: return approach(o);
-    case Stage::settle: return settle(o);
+    case Stage::approach:
+    case Stage::settle:
+      if (looks_on_the_way()) look_on_the_way(o);
+      return stage_ == Stage::approach ? approach(o) : stage_ == Stage::settle ? settle(o) : Joints{};
     case Stage::dig: return dig(o);
     case Stage::curl: return curl(o);
     case Stage::pass: return pass(o);
@@ -263,8 +268,9 @@ Answer Sequencer::step(const Observation& o) {
   if (advice.in_charge) {
     look_ahead_.rest();
     answer.velocity = advice.velocity;
-    if (stage_ == Stage::look) look_.stop(scanners_);
-    if (stage_ == Stage::survey && scanners_.full_sweep_done()) enter(after_survey_, o);
+    if (stage_ == Stage::look || stage_ == Stage::go_look) look_.stop(scanners_);
+    if (looks_on_the_way()) begin_look(o);
+    if (stage_ == Stage::survey && scanners_.full_sweep_done()) end_survey(o);
   } else {
     const Joints wanted = plan(o);
     const bool moves = std::any_of(wanted.begin(), wanted.end(), [](double v) { return v != 0.0; });

@@ -102,11 +102,17 @@ private:
   void hold_fill(double in_bucket_kg);
   void begin_script(const Script& script);
   void begin_approach(const Observation& o, bool lower);
+  bool approach_dig(const Observation& o, double top, bool lower);
   static constexpr double over_heaps = 0.4;  // z, on the ground that it stands on: what raised implements are clear of
   std::optional<Script> raised(const Observation& o, double bearing) const;  // to that bearing, the implements up
   void begin_look(const Observation& o);
-  void raise_to_wait(const Observation& o);
+  void raise_to_wait(const Observation& o, double bearing);
   void wait_raised(const Observation& o);
+  void end_survey(const Observation& o);
+  std::optional<double> bearing_on_the_way(const Observation& o) const;
+  bool go_look_on_the_way(const Observation& o);
+  bool looks_on_the_way() const;              // swings to its first dig, or stands over it, and does not know the truck yet
+  void look_on_the_way(const Observation& o);
   void follow_truck(const Observation& o);    // trucks come and go while the kernel keeps the machine, too
   void next_truck(const Observation& o);
   void expect_another_truck();                // what the operator was told of the one before is not said of it
@@ -133,6 +139,8 @@ private:
   bool sounds_full(const Observation& o) const;
   Joints go_look(const Observation& o);
   Joints look_for_truck(const Observation& o);
+  void begin_books(const Observation& o);
+  void take_bed(const Observation& o, const TruckBed& bed);
   void begin_truck(const Observation& o, const TruckBed& bed);
   void begin_dig(const Observation& o);
   bool comes_down_to_goal(const Observation& o, const ArmPoints& now) const;
@@ -258,6 +266,7 @@ private:
   bool run_was_off_ = false;                  // since the operator took over for a bench move
   bool saw_run_ = false, part_filled_ = false;  // part_filled_: of this truck the bed is not known any more, or not yet again; what is in it is
   bool waits_raised_ = false;                 // for the next truck
+  bool digs_next_ = false;                    // the look goes on on the way to the first dig
   TruckPresence presence_;                    // of the truck that is looked at, loaded or full
   bool called_for_truck_ = false;             // in this stage
   bool brings_load_ = false;                  // the bucket still holds what was meant for a truck that is gone

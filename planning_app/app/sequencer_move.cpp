@@ -143,7 +143,7 @@ void Sequencer::begin_anew_after_slip(const Observation& o) {
   const bool full_stands = stage_ == Stage::horn || stage_ == Stage::wait_leave || (stage_ == Stage::survey && after_survey_ == Stage::wait_leave);
   after_survey_ = full_stands ? Stage::wait_leave : Stage::wait_truck;
   enter_phase(BERM_PHASE_WAIT, o);
-  raise_to_wait(o);  // when all has been seen
+  raise_to_wait(o, o.angle[swing]);  // when all has been seen
   enter(Stage::survey, o);
 }
 

@@ -46,7 +46,7 @@ void Sequencer::go_on_from_a_stand(const Observation& o) {
   if (++stands_ == most_tries)
     log_.event("operator_needed", {{"time_s", o.time_s}, {"reason", "work stands"}, {"stopped_s", most_tries * StandingWatch::patience},
                                    {"advice", "the app has begun the work anew and stands again: lift the implements by hand; if it stands after that, end the app, check its scripts and start it anew"}});
-  if (stage_ == Stage::go_look) {
+  if (stage_ == Stage::go_look || looks_on_the_way()) {
     begin_look(o);
     return;
   }

@@ -17,8 +17,9 @@ std::optional<Script> Sequencer::raised(const Observation& o, double bearing) co
   return approach_script(scripts_, machine_, {o.angle, bearing, over_heaps, std::nullopt, brings_load_});
 }
 
-// Raised, to where the scanner on the truck's side sees the whole place.
+// Raised, to where the scanner on the truck's side sees the whole place, for a look in a stop.
 void Sequencer::begin_look(const Observation& o) {
+  look_.stop(scanners_);
   const auto script = raised(o, look_.bearing());
   if (!script) {
     log_.event("unreachable", {{"time_s", o.time_s}, {"what", "where the truck is looked for"}});
@@ -28,25 +29,41 @@ void Sequencer::begin_look(const Observation& o) {
     return;
   }
   begin_script(*script);
+  digs_next_ = false;
   enter(Stage::go_look, o);
 }
 
 // Between two trucks: a bucket that stays low hides the ground round it until that is too old to move over.
-void Sequencer::raise_to_wait(const Observation& o) {
-  const auto script = raised(o, o.angle[swing]);
+void Sequencer::raise_to_wait(const Observation& o, double bearing) {
+  const auto script = raised(o, bearing);
   waits_raised_ = script.has_value();
   if (script) begin_script(*script);
 }
 
 void Sequencer::wait_raised(const Observation& o) {
-  raise_to_wait(o);
+  raise_to_wait(o, bearing_on_the_way(o).value_or(o.angle[swing]));
   enter(Stage::wait_truck, o);
+}
+
+// After a bench move the next truck is waited for as after a full one.
+void Sequencer::end_survey(const Observation& o) {
+  if (after_survey_ == Stage::wait_truck && !o.truck_parked && truck_ > 1) wait_raised(o);
+  else enter(after_survey_, o);
+}
+
+// Over a dig zone, high: from where the next truck will be seen, and none passes there.
+std::optional<double> Sequencer::bearing_on_the_way(const Observation& o) const {
+  const auto pose = raised_pose(machine_, over_heaps, brings_load_);
+  return pose ? look_.bearing_on_the_way(o.angle[swing], reach_of(machine_, *pose)) : std::nullopt;
 }
 
 Joints Sequencer::go_look(const Observation& o) {
   enter_phase(BERM_PHASE_WAIT, o);
   const Joints command = run_script(o, event_none);
-  if (script_.at_last() && swing_stands_at_goal(o)) {
+  if (digs_next_) {
+    if (const auto bed = look_.step(o, scanners_, truck_, log_)) begin_truck(o, *bed);
+    else if (look_.missed() || (look_.way_is_free(o, scanners_) && !approach_dig(o, over_heaps, true))) begin_look(o);
+  } else if (script_.at_last() && swing_stands_at_goal(o)) {
     look_.begin(o, scanners_);
     enter(Stage::look, o);
   }
@@ -58,7 +75,38 @@ Joints Sequencer::look_for_truck(const Observation& o) {
   return {};
 }
 
-void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
+// Not the first truck after a start, for nothing was learned yet of how the machine answers; nor one whose books go on, for what is in its bed has to be seen
+// before a dig's goal can be told.
+bool Sequencer::go_look_on_the_way(const Observation& o) {
+  if (truck_ == 1 || part_filled_ || brings_load_) return false;
+  const auto bearing = bearing_on_the_way(o);
+  const auto script = bearing ? raised(o, *bearing) : std::nullopt;
+  if (!script) return false;
+  begin_books(o);
+  goal_kg_ = fill_.next_goal_kg();
+  plan_next_dig(o, 0.0);
+  look_.begin_on_the_way(o, scanners_, *bearing, dig_.bearing);
+  begin_script(*script);
+  digs_next_ = true;
+  enter(Stage::go_look, o);
+  return true;
+}
+
+bool Sequencer::looks_on_the_way() const { return !site_.bed && (stage_ == Stage::approach || stage_ == Stage::settle); }
+
+void Sequencer::look_on_the_way(const Observation& o) {
+  if (const auto bed = look_.step(o, scanners_, truck_, log_)) take_bed(o, *bed);
+  else if (look_.missed()) begin_look(o);
+}
+
+void Sequencer::begin_books(const Observation& o) {
+  fill_ = TruckFill(site_.place.target_kg, full_bucket_kg());
+  dumps_.clear();
+  pass_ = 0;
+  truck_began_s_ = pass_began_s_ = o.time_s;
+}
+
+void Sequencer::take_bed(const Observation& o, const TruckBed& bed) {
   site_.bed = bed;
   bed_slipped_ = false;
   bed_.emplace(bed, scale_);
@@ -70,17 +118,18 @@ void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
   skyline_.reset();
   ahead_.reset();
   look(o);
+  stands_ = 0;
+}
+
+void Sequencer::begin_truck(const Observation& o, const TruckBed& bed) {
+  take_bed(o, bed);
   const bool goes_on = part_filled_;
   if (goes_on) {
     for (const Dump& dump : dumps_) bed_->note_dump(dump.at, dump.kg);
   } else {
-    fill_ = TruckFill(site_.place.target_kg, full_bucket_kg());
-    dumps_.clear();
-    pass_ = 0;
-    truck_began_s_ = o.time_s;
+    begin_books(o);
   }
   part_filled_ = false;
-  stands_ = 0;
   pass_began_s_ = o.time_s;
   if (goes_on && fill_.full()) go_on_after_pass(o, false);  // by the pass with which it was left
   else begin_approach(o, true);
@@ -120,6 +169,7 @@ void Sequencer::next_truck(const Observation& o) {
 // What is in the bucket goes back to the face. A truck that is no longer admitted but was not seen to leave is looked at again, and its books go on.
 void Sequencer::leave_truck(const Observation& o) {
   const bool left = presence_.gone() == TruckPresence::Gone::left;
+  if (looks_on_the_way()) look_.stop(scanners_);
   take_load_back(o);
   log_.event("truck_lost", {{"time_s", o.time_s}, {"truck", truck_}, {"why", left ? "left" : "no longer admitted"}, {"loaded_kg", fill_.loaded_kg()}, {"target_kg", site_.place.target_kg}});
   enter_phase(BERM_PHASE_WAIT, o);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/recognised_bed.hpp"
+#include "planning/skyline.hpp"
 #include "planning/truck_place.hpp"
 
 namespace berm::app {
@@ -13,6 +14,7 @@ namespace {
 constexpr std::size_t left_scanner = 0, right_scanner = 1;
 constexpr double look_aside = radians(60.0);        // of the truck: beside the implements, and the pans reach beyond its far end
 constexpr double place_half_length = 6.0, place_half_width = 1.6;  // m: a bed of 6 m that may be off, and a cab, either way round
+constexpr double bed_half_length = 3.6;             // m: the bed alone
 constexpr double beyond = radians(3.0);             // the sweep goes on so far
 constexpr double moved = radians(0.3);              // of the swing: the sweep is worth nothing
 constexpr double drain_s = 0.1;                     // until the last scanline has come through the kernel
@@ -47,16 +49,59 @@ double TruckLook::head_bearing_of(double x, double y, double swing_angle) const 
   return swing_angle + std::remainder(std::atan2(y - head[1], x - head[0]) - swing_angle, 2.0 * std::numbers::pi);
 }
 
-void TruckLook::begin(const Observation& o, ScanScheduler& scanners) {
+PanSector TruckLook::bearings_of_place(double half_length, double swing_angle) const {
   const double c = std::cos(site_.place.yaw), s = std::sin(site_.place.yaw);
   PanSector bearings{1e9, -1e9};
-  for (const double u : {-place_half_length, place_half_length})
+  for (const double u : {-half_length, half_length})
     for (const double v : {-place_half_width, place_half_width}) {
-      const double b = head_bearing_of(site_.place.x + u * c - v * s, site_.place.y + u * s + v * c, o.angle[swing]);
+      const double b = head_bearing_of(site_.place.x + u * c - v * s, site_.place.y + u * s + v * c, swing_angle);
       bearings.low = std::min(bearings.low, b - beyond);
       bearings.high = std::max(bearings.high, b + beyond);
     }
-  scanners.begin_look(scanner_, bearings);
+  return bearings;
+}
+
+// How much farther towards the truck than that angle the machine has to stand for its scanner to see the place's far end.
+double TruckLook::needed_for(double half_length, double swing_angle) const {
+  const PanSector bearings = bearings_of_place(half_length, swing_angle);
+  const ScannerMount& mount = machine_.scanner[scanner_];
+  return side_ > 0.0 ? bearings.high - swing_angle - mount.pan_high : swing_angle + mount.pan_low - bearings.low;
+}
+
+std::optional<double> TruckLook::bearing_on_the_way(double swing_angle, double reach) const {
+  constexpr double step = radians(1.0), clear = 0.5;  // m, beside the bucket
+  const auto over_dig_zone = [&](double angle) {
+    const double c = std::cos(angle), s = std::sin(angle), across = side_ * (0.5 * bucket_width(machine_) + clear);
+    return in_dig_zone(site_, reach * c - across * s, reach * s + across * c) && angle >= machine_.joint[swing].low && angle <= machine_.joint[swing].high;
+  };
+  double best = swing_angle;
+  while (needed_for(place_half_length, best) > 0.0 && over_dig_zone(best + side_ * step)) best += side_ * step;
+  if (!over_dig_zone(best) || needed_for(bed_half_length, best) > 0.0) return std::nullopt;
+  return best;
+}
+
+bool TruckLook::way_is_free(const Observation& o, const ScanScheduler& scanners) const {
+  constexpr double lags = radians(5.0);  // the swing's overshoot
+  if (!on_the_way() || !(scanners.look_sweeps() || scanners.look_done())) return false;
+  const ScannerMount& mount = machine_.scanner[scanner_];
+  const double farthest = *dig_bearing_ + (side_ > 0.0 ? mount.pan_high - lags : mount.pan_low + lags);
+  return side_ * (o.pan[scanner_] + o.angle[swing] - farthest) <= 0.0;
+}
+
+void TruckLook::begin_on_the_way(const Observation& o, ScanScheduler& scanners, double from, double dig_bearing) {
+  dig_bearing_ = dig_bearing;
+  const PanSector here = bearings_of_place(place_half_length, from), there = bearings_of_place(place_half_length, dig_bearing);
+  scanners.begin_look_on_the_way(scanner_, side_ > 0.0 ? PanSector{std::min(here.low, there.low), here.high} : PanSector{here.low, std::max(here.high, there.high)});
+  begin_sweep(o);
+}
+
+void TruckLook::begin(const Observation& o, ScanScheduler& scanners) {
+  dig_bearing_.reset();
+  scanners.begin_look(scanner_, bearings_of_place(place_half_length, o.angle[swing]));
+  begin_sweep(o);
+}
+
+void TruckLook::begin_sweep(const Observation& o) {
   sweep_.end();
   bed_.reset();
   swing_ = o.angle[swing];
@@ -98,13 +143,13 @@ Awaited TruckLook::awaits(const Observation& o, const ScanScheduler& scanners) c
 void TruckLook::feed(const Observation& o) {
   const std::size_t whole = sweep_.whole();
   visit_scanlines(std::span(sweep_.points()).subspan(told_, whole - told_), [&](std::span<const ScanPoint> scanline) {
-    finder_.take({scanline.begin(), scanline.end()}, o.cycle);
+    finder_.take({scanline.begin(), scanline.end()}, dig_bearing_ ? sweep_.swing_of(scanline.front()) - swing_ : 0.0, o.cycle);
   });
   told_ = whole;
 }
 
 bool TruckLook::passed(const TruckBed& bed, const Observation& o) const {
-  const double sense = o.pan[scanner_] >= pan_began_ ? 1.0 : -1.0, c = std::cos(bed.yaw), s = std::sin(bed.yaw);
+  const double sense = o.pan[scanner_] + o.angle[swing] >= bearing_began_ ? 1.0 : -1.0, c = std::cos(bed.yaw), s = std::sin(bed.yaw);
   for (const double u : {-0.5 * bed.length, 0.5 * bed.length})
     for (const double v : {-0.5 * bed.width, 0.5 * bed.width}) {
       const double pan = head_bearing_of(bed.centre_x + u * c - v * s, bed.centre_y + u * s + v * c, o.angle[swing]) - o.angle[swing];
@@ -125,7 +170,7 @@ void TruckLook::take_answer(const Observation& o, ScanScheduler& scanners, int t
 
 std::optional<TruckBed> TruckLook::step(const Observation& o, ScanScheduler& scanners, int truck, const ProgressLog& log) {
   const bool looks = stage_ == Stage::sweeps || stage_ == Stage::drains || stage_ == Stage::passes;
-  if (looks && std::fabs(o.angle[swing] - swing_) > moved) {
+  if (looks && !dig_bearing_ && std::fabs(o.angle[swing] - swing_) > moved) {
     ++restarts_;
     begin(o, scanners);
   }
@@ -135,8 +180,9 @@ std::optional<TruckBed> TruckLook::step(const Observation& o, ScanScheduler& sca
       if (scanners.look_sweeps() && !sweep_.recording()) {
         sweep_.begin(scanner_);
         told_ = 0;
-        pan_began_ = o.pan[scanner_];
-        finder_.begin(viewpoint(o.angle[swing]));
+        bearing_began_ = o.pan[scanner_] + o.angle[swing];
+        swing_ = o.angle[swing];
+        finder_.begin(viewpoint(swing_));
       }
       if (scanners.look_done()) {
         stage_ = Stage::drains;
@@ -162,6 +208,7 @@ std::optional<TruckBed> TruckLook::step(const Observation& o, ScanScheduler& sca
       stop(scanners);
       return bed_;
     case Stage::pauses:
+      if (dig_bearing_) break;  // missed
       if (vain_ < vain_until_operator || o.time_s - stage_s_ >= vain_pause_s) begin(o, scanners);
       break;
   }

@@ -175,24 +175,35 @@ void ScanScheduler::begin_look(std::size_t scanner, const PanSector& bearings) {
   looker_ = scanner;
   look_bearings_ = bearings;
   look_ = Look::goes;
+  look_on_the_way_ = false;
   const std::size_t other = scanner == left ? right : left;
   head_[other].up = other == right;
   feet_seen_ = false;
 }
 
-PanRequest ScanScheduler::look(double swing_angle, double pan) {
-  constexpr double there = radians(0.5);
+void ScanScheduler::begin_look_on_the_way(std::size_t scanner, const PanSector& bearings) {
+  begin_look(scanner, bearings);
+  look_on_the_way_ = true;
+}
+
+PanRequest ScanScheduler::look(double swing_angle, double swing_speed, double pan) {
+  constexpr double there = radians(0.5), nearly_there = radians(2.0);
   const ScannerMount& mount = machine_.scanner[looker_];
   const auto to_pan = [&](double bearing) { return std::clamp(bearing - swing_angle, mount.pan_low, mount.pan_high); };
   const double low = to_pan(look_bearings_.low), high = to_pan(look_bearings_.high);
   if (look_ == Look::goes) {
-    look_up_ = pan < 0.5 * (low + high);
-    if (std::fabs(pan - (look_up_ ? low : high)) < there) look_ = Look::sweeps;
+    look_up_ = look_on_the_way_ ? looker_ == right : pan < 0.5 * (low + high);
+    // The pan's range may end before it, until the machine has swung to where it waits.
+    const double begin = look_on_the_way_ ? (look_up_ ? look_bearings_.low : look_bearings_.high) - swing_angle : look_up_ ? low : high;
+    if (std::fabs(pan - begin) < (look_on_the_way_ ? nearly_there : there)) look_ = Look::sweeps;
   }
-  if (look_ == Look::goes) return {look_up_ ? low : high, std::min(azimuth_rate, mount.pan_rate_max)};
-  const double end = look_up_ ? high : low;
-  if (std::fabs(pan - end) < there) look_ = Look::done;
-  return {end, std::min(look_rate, mount.pan_rate_max)};
+  if (look_ == Look::goes) return {look_up_ ? low : high, look_on_the_way_ ? mount.pan_rate_max : std::min(azimuth_rate, mount.pan_rate_max)};
+  const double end = look_up_ ? high : low, sense = look_up_ ? 1.0 : -1.0;
+  // A swing carries the end past it.
+  if (std::fabs(pan - end) < there || (look_on_the_way_ && sense * (pan - end) > 0.0)) look_ = Look::done;
+  if (!look_on_the_way_ || look_ == Look::done) return {end, std::min(look_rate, mount.pan_rate_max)};
+  const double rate = look_rate - sense * swing_speed;  // negative: the swing alone is faster than the sweep
+  return {rate > 0.0 ? end : look_up_ ? mount.pan_low : mount.pan_high, std::min(std::fabs(rate), mount.pan_rate_max)};
 }
 
 std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, double truck, double swing_angle, double swing_speed, const std::array<double, 2>& pan,
@@ -214,7 +225,7 @@ std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, d
     const ScannerMount& mount = machine_.scanner[i];
     Head& head = head_[i];
     if (look_ != Look::none && i == looker_) {
-      request[i] = look(swing_angle, pan[i]);
+      request[i] = look(swing_angle, swing_speed, pan[i]);
       continue;
     }
     if (!slowed) note_seen(i, pan[i], back_soon && i != ahead, side * (dig - pan[i] - swing_angle));

@@ -48,6 +48,8 @@ public:
   // the other sees the ground on the way to the dig, from under the boom outwards: what is near the machine's feet there the boom hides once it digs. Until
   // end_look the scanner then stays where it came to.
   void begin_look(std::size_t scanner, const PanSector& bearings);
+  // The same on the way to a dig: hurries to the end that is farther from straight ahead, and keeps to the rate over the ground while the machine swings.
+  void begin_look_on_the_way(std::size_t scanner, const PanSector& bearings);
   void end_look() { look_ = Look::none; }
   bool look_sweeps() const { return look_ == Look::sweeps; }
   bool look_done() const { return look_ == Look::done; }
@@ -80,7 +82,7 @@ private:
   void plan_lead(std::uint16_t phase, double dig_bearing, double truck_bearing, double swing_angle, double swing_speed, const ComingSwing& coming);
   void note_bed(std::size_t scanner, double truck_bearing, double swing_angle, double pan);
   void note_face(std::size_t scanner, double dig_bearing, double truck_bearing, double swing_angle, double pan);
-  PanRequest look(double swing_angle, double pan);
+  PanRequest look(double swing_angle, double swing_speed, double pan);
   bool end_beyond_dig_seen(std::size_t scanner) const;
   PanSector end_beyond_dig(std::size_t scanner) const;
   void note_seen(std::size_t scanner, double pan, bool goes_beyond, double beyond_dig_by);
@@ -96,7 +98,7 @@ private:
   enum class Look { none, goes, sweeps, done } look_ = Look::none;
   std::size_t looker_ = 0;
   PanSector look_bearings_;
-  bool look_up_ = true;
+  bool look_up_ = true, look_on_the_way_ = false;
   bool was_slowed_ = false;  // the whole sweep is one for slowness
   double at_end_s_ = 0.0;    // waits at the end beyond the dig
   bool feet_seen_ = false;

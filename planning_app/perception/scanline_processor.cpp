@@ -42,7 +42,10 @@ void ScanlineProcessor::locate(const berm_scan_block& block, const MachineHistor
   part.count = block.count;
   const std::int64_t begin_ns = block.time_us * 1000;
   // In half a block's time the implements move by less than 0.05 m, of a margin of 0.3.
-  if (const auto middle = history.at(begin_ns + std::int64_t{block.sample_period_ns} * block.count / 2)) own_.pose(middle->angle);
+  if (const auto middle = history.at(begin_ns + std::int64_t{block.sample_period_ns} * block.count / 2)) {
+    own_.pose(middle->angle);
+    part.swing = middle->angle[swing];
+  }
   const double pan_start = block.pan_start_urad * 1e-6, pan_end = block.pan_end_urad * 1e-6;
   for (int i = 0; i < part.count; ++i) {
     ScanReturn& s = part.sample[static_cast<std::size_t>(i)];

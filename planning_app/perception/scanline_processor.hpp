@@ -36,6 +36,7 @@ struct ScanlinePart {
   std::size_t scanner = 0;
   std::uint32_t scanline = 0;
   int first_index = 0, samples_per_revolution = 0;
+  double swing = 0.0;           // the machine's in the middle of it; 0: its pose is not known, and nothing came back
   int count = 0;
   std::array<ScanReturn, BERM_SCAN_BLOCK_SAMPLES> sample{};
 

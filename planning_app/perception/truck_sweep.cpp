@@ -15,6 +15,7 @@ void TruckSweep::take(const ScanlinePart& part) {
     whole_ = points_.size();
   }
   any_ = true;
+  if (swing_.size() <= lines_) swing_.push_back(part.swing);
   line_ = part.scanline;
   for (const ScanReturn& s : part.samples()) {
     if (points_.size() >= most_points) break;

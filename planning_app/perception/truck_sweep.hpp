@@ -23,6 +23,8 @@ public:
   // Of points, those of scanlines to which nothing will be added: all when the sweep has ended.
   std::size_t whole() const { return recording_ ? whole_ : points_.size(); }
   const std::vector<ScanPoint>& points() const { return points_; }  // base frame
+  // Of a point's scanline: the machine's swing angle where the first of its points were measured.
+  double swing_of(const ScanPoint& point) const { return swing_[point.scanline]; }
   bool flagged(std::size_t point) const { return flagged_[point]; }
   // Of the samples with a return, the share with an echo before the last: dust, or edges.
   double several_echoes() const { return returns_ == 0 ? 0.0 : static_cast<double>(several_) / static_cast<double>(returns_); }
@@ -34,6 +36,7 @@ private:
   std::size_t scanner_ = 0;
   std::vector<ScanPoint> points_;
   std::vector<bool> flagged_;  // by point: an echo before the last
+  std::vector<double> swing_;  // by scanline
   bool any_ = false;
   std::uint32_t line_ = 0, lines_ = 0;  // the scanner's number of the newest scanline; how many before it
   std::size_t whole_ = 0;

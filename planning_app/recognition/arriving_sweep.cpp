@@ -30,9 +30,10 @@ ArrivingSweep::Thinned ArrivingSweep::thin(const FanSweep& whole, std::size_t st
   return out;
 }
 
-void ArrivingSweep::take(std::span<const ScanPoint> scanline) {
-  const auto plane = append_fan(whole_, scanline, head_);
+void ArrivingSweep::take(std::span<const ScanPoint> scanline, double turned) {
+  auto plane = append_fan(whole_, scanline, head_turned(head_, turned));
   if (!plane) return;
+  plane->turned = turned;
   if (!planes_.empty()) {
     const double step = turn_between(planes_.back(), *plane);
     steps_.insert(std::upper_bound(steps_.begin(), steps_.end(), std::abs(step)), std::abs(step));
@@ -53,7 +54,8 @@ void ArrivingSweep::take(std::span<const ScanPoint> scanline) {
 bool ArrivingSweep::passed(const Eigen::Vector2d& at) const {
   if (planes_.empty()) return false;
   const FanPlane& newest = planes_.back();
-  const bool ahead = newest.normal.y() * (at.x() - head_.x()) - newest.normal.x() * (at.y() - head_.y()) > 0.0;  // where the normal is to the left of the fan
+  const Eigen::Vector3d head = head_turned(head_, newest.turned);
+  const bool ahead = newest.normal.y() * (at.x() - head.x()) - newest.normal.x() * (at.y() - head.y()) > 0.0;  // where the normal is to the left of the fan
   const double to_left = (ahead ? 1.0 : -1.0) * (newest.normal.dot(at) - newest.offset);
   return turned_ * to_left < 0.0;
 }

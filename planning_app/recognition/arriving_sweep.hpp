@@ -20,8 +20,9 @@ public:
   // viewpoint: of the sensor in the middle of the sweep, or, where it stands, at any time.
   explicit ArrivingSweep(const std::array<double, 3>& viewpoint);
 
-  // The points of the next scanline in measuring order, as many as there are. Linear in them, but for the steps between the fans so far, which are kept in order.
-  void take(std::span<const ScanPoint> scanline);
+  // The points of the next scanline in measuring order, as many as there are; turned: by how much the machine was told to have swung by then from where the
+  // sensor stands at the viewpoint, rad. Linear in them, but for the steps between the fans so far, which are kept in order.
+  void take(std::span<const ScanPoint> scanline, double turned = 0.0);
 
   // What a search is made in, of the scanlines so far. Where the machine swings the heads depend on all scanlines, and everything is made anew with
   // the heads as they are now. Valid until the next call of either.

@@ -59,6 +59,13 @@ void find_directions(FanSweep& sweep, std::size_t fan) {
 
 }  // namespace
 
+Eigen::Vector3d head_turned(const Eigen::Vector3d& head, double angle) {
+  if (angle == 0.0) return head;
+  Eigen::Vector3d out = head;
+  out.head<2>() = turned(head.head<2>(), angle);
+  return out;
+}
+
 std::optional<FanPlane> append_fan(FanSweep& sweep, std::span<const ScanPoint> scanline, const Eigen::Vector3d& head) {
   if (scanline.empty()) return std::nullopt;
   const std::size_t first = sweep.returns.size();
@@ -66,7 +73,7 @@ std::optional<FanPlane> append_fan(FanSweep& sweep, std::span<const ScanPoint> s
     const FanReturn r{{p.x, p.y, p.z}};
     if ((r.at() - head).squaredNorm() < kRangeLimit * kRangeLimit) sweep.returns.push_back(r);
   }
-  FanPlane plane{Vector2d::Zero(), 0.0, 0.5 * (scanline.front().time_s + scanline.back().time_s)};
+  FanPlane plane{Vector2d::Zero(), 0.0, 0.5 * (scanline.front().time_s + scanline.back().time_s), 0.0};
   const std::span<const FanReturn> own(sweep.returns.data() + first, sweep.returns.size() - first);
   if (own.size() < kLeastReturns || !fit_plane(own, plane)) {
     sweep.returns.resize(first);
@@ -99,8 +106,13 @@ SwingOfHead swing_of_head(const std::vector<FanPlane>& planes, const Eigen::Vect
     swing.reason = "the sweep has fewer than 10 scanlines with 8 returns within 30 m";
     return swing;
   }
-  for (const FanPlane& p : planes) swing.middle += p.time / static_cast<double>(planes.size());
-  const auto residual = [&](const FanPlane& p) { return p.normal.dot(turned(head.head<2>(), swing.at(p.time))) - p.offset; };
+  bool told = false;
+  for (const FanPlane& p : planes) {
+    swing.middle += p.time / static_cast<double>(planes.size());
+    told = told || p.turned != 0.0;
+  }
+  const double as_told = told ? kOffPlane * kOffPlane : 1e-6;  // a fan that is measured while the machine swings is twisted a little
+  const auto residual = [&](const FanPlane& p) { return p.normal.dot(turned(head.head<2>(), p.turned + swing.at(p.time))) - p.offset; };
   double error = 0.0;
   for (int round = 0; round < 8; ++round) {
     Eigen::Matrix2d normal = Eigen::Matrix2d::Identity() * 1e-9;
@@ -108,13 +120,13 @@ SwingOfHead swing_of_head(const std::vector<FanPlane>& planes, const Eigen::Vect
     error = 0.0;
     for (const FanPlane& p : planes) {
       const double e = residual(p), dt = p.time - swing.middle;
-      const Vector2d place = turned(head.head<2>(), swing.angle + swing.rate * dt), way(-place.y(), place.x());
+      const Vector2d place = turned(head.head<2>(), p.turned + swing.angle + swing.rate * dt), way(-place.y(), place.x());
       const Vector2d slope = p.normal.dot(way) * Vector2d(1.0, dt);
       normal += slope * slope.transpose();
       right -= slope * e;
       error += e * e / static_cast<double>(planes.size());
     }
-    if (round == 0 && error < 1e-6) break;
+    if (round == 0 && error < as_told) break;
     const Vector2d step = normal.ldlt().solve(right);
     swing.angle += step.x();
     swing.rate += step.y();
@@ -127,7 +139,7 @@ SwingOfHead swing_of_head(const std::vector<FanPlane>& planes, const Eigen::Vect
 void place_heads(FanSweep& sweep, const std::vector<FanPlane>& planes, const Eigen::Vector3d& head, const SwingOfHead& swing) {
   for (std::size_t fan = 0; fan < planes.size(); ++fan) {
     sweep.heads[fan] = head;
-    sweep.heads[fan].head<2>() = turned(head.head<2>(), swing.at(planes[fan].time));
+    sweep.heads[fan].head<2>() = turned(head.head<2>(), planes[fan].turned + swing.at(planes[fan].time));
     find_directions(sweep, fan);
   }
 }

@@ -53,9 +53,13 @@ struct FanSweep {
 struct FanPlane {
   Eigen::Vector2d normal;  // horizontal, unit
   double offset, time;
+  double turned = 0.0;     // rad, by which the machine was told to have swung by then
 };
 
-// How the sensor moved on a circle about the frame's z axis: at a time it stands at the viewpoint turned by this angle. Radians, seconds.
+// A head at the viewpoint after a turn about the frame's z axis.
+Eigen::Vector3d head_turned(const Eigen::Vector3d& head, double angle);
+
+// How the sensor moved on a circle about the frame's z axis: at a time it stands at the viewpoint turned by this angle, besides what was told. Radians, seconds.
 struct SwingOfHead {
   double angle = 0.0, rate = 0.0;  // in the middle; rad/s
   double middle = 0.0;             // the planes' mean time
@@ -68,7 +72,7 @@ struct SwingOfHead {
 // 30 m or they lie too near to one another to tell a plane.
 std::optional<FanPlane> append_fan(FanSweep& sweep, std::span<const ScanPoint> scanline, const Eigen::Vector3d& head);
 
-// Angle and rate by least squares; where the head stands both are exactly 0.
+// Angle and rate by least squares; where the head stands, or turned as it was told, both are exactly 0.
 SwingOfHead swing_of_head(const std::vector<FanPlane>& planes, const Eigen::Vector3d& head);
 
 // Puts the heads of a sweep, whose fans have these planes, where the swing had them, and finds their rays' directions again.

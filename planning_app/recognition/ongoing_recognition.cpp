@@ -28,9 +28,9 @@ double length_deviation(const RecognisedTruck& truck) { return std::sqrt(truck.p
 
 }  // namespace
 
-bool OngoingRecognition::take(std::span<const ScanPoint> scanline) {
+bool OngoingRecognition::take(std::span<const ScanPoint> scanline, double turned) {
   const std::size_t before = sweep_.fans();
-  sweep_.take(scanline);
+  sweep_.take(scanline, turned);
   if (sweep_.fans() == before) return false;
   if (sweep_.turn() - asked_turn_ >= kAskEvery || sweep_.wall_pauses(kWall)) return true;
   return answer_ && answer_->found && length_deviation(*answer_) < kEndsPassed;

@@ -17,10 +17,10 @@ public:
   // viewpoint as ArrivingSweep's; ranges must outlive it.
   OngoingRecognition(const std::array<double, 3>& viewpoint, const TruckRangeSet& ranges) : ranges_(ranges), sweep_(viewpoint) {}
 
-  // The points of the next scanline, in measuring order. True: something may have come to its end, and asking is worth its time.
-  bool take(std::span<const ScanPoint> scanline);
+  // The points of the next scanline, in measuring order; turned as ArrivingSweep's. True: something may have come to its end, and asking is worth its time.
+  bool take(std::span<const ScanPoint> scanline, double turned = 0.0);
 
-  // recognise_truck over the scanlines so far, bit for bit. Asked again without a scanline in between it is not searched for again.
+  // recognise_truck over the scanlines so far, bit for bit where none was told to have turned. Asked again without a scanline in between it is not searched for again.
   const RecognisedTruck& ask();
 
   // Whether more scanlines would hardly change the last answer: a truck was found, with evidence that leaves no doubt, and while the scanner turned on

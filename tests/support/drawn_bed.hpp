@@ -21,6 +21,10 @@ struct DrawnBed {
   bool block = false;                                        // another, higher one beyond the end at -x
   double load = -1e9;                                        // height of a level load, where that is over the floor
   double swing_rate = 0.0;                                   // rad/s, of the sensor about z
+  double swings_from = 0.0, swings_until = 3.0;              // s; it stands before and after
+
+  // rad, from the viewpoint, which is where it stands 1.5 s after the sweep's beginning.
+  [[nodiscard]] double turned(double time) const { return swing_rate * (std::clamp(time, swings_from, swings_until) - 1.5); }
 };
 
 constexpr std::array<double, 3> drawn_viewpoint{1.30, 1.35, 3.30};
@@ -33,7 +37,7 @@ inline std::vector<ScanPoint> sweep_of(const DrawnBed& bed) {
   std::vector<ScanPoint> points;
   for (int sample = 0; sample < 36000; ++sample) {
     const int line = sample / 400;
-    const double time = sample / 12000.0, turn = bed.swing_rate * (time - 1.5), elevation = 2 * pi * (sample % 400) / 400;
+    const double time = sample / 12000.0, turn = bed.turned(time), elevation = 2 * pi * (sample % 400) / 400;
     const double pan = pi / 4 + pi / 2 * line / 90.0, c = std::cos(turn), s = std::sin(turn);
     const double head[3] = {c * drawn_viewpoint[0] - s * drawn_viewpoint[1], s * drawn_viewpoint[0] + c * drawn_viewpoint[1], drawn_viewpoint[2]};
     const double d[3] = {std::cos(elevation) * std::cos(pan), std::cos(elevation) * std::sin(pan), std::sin(elevation)};

@@ -22,7 +22,7 @@ std::uint64_t tell(RecognitionThread& finder, const std::vector<ScanPoint>& swee
   std::uint64_t answered = 0;
   visit_scanlines(sweep, [&](std::span<const ScanPoint> scanline) {
     if (answer) return;
-    finder.take({scanline.begin(), scanline.end()}, cycle);
+    finder.take({scanline.begin(), scanline.end()}, 0.0, cycle);
     for (std::uint64_t k = 0; k < cycles_between && !answer; ++k, ++cycle)
       if ((answer = finder.answer(cycle))) answered = cycle;
   });
@@ -97,7 +97,7 @@ TEST(RecognitionThread, ANewerSweepReplacesOneThatGoesOn) {
   RecognitionThread finder(ranges(), 10);
   const std::vector<ScanPoint> sweep = sweep_of({});
   finder.begin(drawn_viewpoint);
-  visit_scanlines(sweep, [&](std::span<const ScanPoint> scanline) { finder.take({scanline.begin(), scanline.end()}, 1); });
+  visit_scanlines(sweep, [&](std::span<const ScanPoint> scanline) { finder.take({scanline.begin(), scanline.end()}, 0.0, 1); });
   finder.end(1);
   finder.begin(drawn_viewpoint);
   finder.end(2);
@@ -112,7 +112,7 @@ TEST(RecognitionThread, EndsWithAQuestionOpen) {
   RecognitionThread finder(ranges(), 10);
   finder.begin(drawn_viewpoint);
   const std::vector<ScanPoint> sweep = sweep_of({});
-  visit_scanlines(sweep, [&](std::span<const ScanPoint> scanline) { finder.take({scanline.begin(), scanline.end()}, 1); });
+  visit_scanlines(sweep, [&](std::span<const ScanPoint> scanline) { finder.take({scanline.begin(), scanline.end()}, 0.0, 1); });
   finder.end(1);
 }
 

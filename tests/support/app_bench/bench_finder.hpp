@@ -27,11 +27,12 @@ inline app::RecognisedTruck bench_truck() {
 class BenchFinder final : public app::TruckFinder {
 public:
   void begin(const std::array<double, 3>& viewpoint) override {
-    looks.push_back({{}, viewpoint});
+    looks.push_back({{}, viewpoint, {}});
     due_.reset();
     answered_ = false;
   }
-  void take(std::vector<app::ScanPoint> scanline, std::uint64_t cycle) override {
+  void take(std::vector<app::ScanPoint> scanline, double turned, std::uint64_t cycle) override {
+    looks.back().turned.push_back(turned);
     std::vector<app::ScanPoint>& points = looks.back().points;
     points.insert(points.end(), scanline.begin(), scanline.end());
     if (!due_ && ++looks.back().scanlines >= stands_after) due_ = cycle + cycles;
@@ -49,6 +50,7 @@ public:
   struct Look {
     std::vector<app::ScanPoint> points;
     std::array<double, 3> viewpoint{};
+    std::vector<double> turned;  // of each scanline
     std::size_t scanlines = 0;
     bool ended = false;
   };

@@ -160,6 +160,40 @@ TEST(ScanScheduler, ALookSweepsItsSectorOnceAndSlowly) {
   EXPECT_GT(std::fabs(pans.pan[0] - stays), radians(5.0));
 }
 
+// From the far end, which the dig does not see, inward, at its rate over the ground also while the machine swings away faster than that.
+TEST(ScanScheduler, ALookOnTheWayKeepsItsRateOverTheGroundWhileTheMachineSwings) {
+  for (const double side : {1.0, -1.0}) {
+    const std::size_t looker = side > 0.0 ? 0 : 1;
+    Pans pans(berm::app_bench::zx200(), side * radians(96.0));
+    double angle = side * radians(24.0), speed = 0.0, seconds = 0.0, goes_s = 0.0, farthest = 0.0, fastest_swing = 0.0;
+    const double one = side * radians(25.0), far = side * radians(150.0), dig = side * radians(-12.0);
+    pans.pan[looker] = side * radians(10.0);
+    pans.scheduler.begin_look_on_the_way(looker, {std::min(one, far), std::max(one, far)});
+    double before = 0.0;
+    for (; !pans.scheduler.look_done() && seconds < 12.0; seconds += 0.01) {
+      const bool sweeps = pans.scheduler.look_sweeps(), free = sweeps && side * before < side * dig + radians(125.0);
+      const double way = side * (angle - dig);
+      speed = free && way > 0.0 ? -side * std::min({radians(45.0), std::fabs(speed) + 0.006, std::sqrt(2.0 * 0.6 * way)}) : 0.0;
+      angle += 0.01 * speed;
+      fastest_swing = std::max(fastest_swing, std::fabs(speed));
+      pans.step(BERM_PHASE_SWING_TO_DIG, angle, speed);
+      const double bearing = pans.pan[looker] + angle;
+      if (!sweeps) goes_s += 0.01;
+      if (sweeps && !pans.scheduler.look_done()) {
+        EXPECT_NEAR(side * (before - bearing) / 0.01, ScanScheduler::look_rate, radians(0.1)) << side << " " << seconds;
+      }
+      if (pans.scheduler.look_sweeps()) farthest = std::max(farthest, side * bearing);
+      before = bearing;
+    }
+    ASSERT_TRUE(pans.scheduler.look_done()) << side;
+    EXPECT_GT(fastest_swing, ScanScheduler::look_rate);
+    EXPECT_NEAR(angle, dig, radians(2.0));
+    EXPECT_LT(goes_s, 1.2) << "116 degrees at the pan's largest speed";
+    EXPECT_GT(farthest, side * far - radians(2.5)) << "the place's end is 3 degrees short of it";
+    EXPECT_LT(side * before, side * one + radians(1.0));
+  }
+}
+
 // Of the ground at the machine's feet on the way from there to the dig, which the boom hides during the dig: wherever the other scanner was when the look
 // began, and not much after the shortest look. A truck on the right is looked at by the right scanner.
 TEST(ScanScheduler, BesideALookTheOtherScannerSeesTheGroundAtTheFeet) {

@@ -94,6 +94,19 @@ TEST(TruckSweep, AScanlineIsWholeWhenItsTurnEndsOrTheNextBegins) {
   EXPECT_EQ(sweep.whole(), 18u);
 }
 
+TEST(TruckSweep, KnowsWhereTheMachineStoodForEachScanline) {
+  TruckSweep sweep;
+  sweep.begin(0);
+  for (const auto& [line, swing] : {std::pair{5u, 0.30}, {5u, 0.29}, {6u, 0.28}, {7u, 0.25}}) {
+    ScanlinePart p = part(0, line, line == 6u ? 0 : 2);
+    p.swing = swing;
+    sweep.take(p);
+  }
+  ASSERT_EQ(sweep.points().size(), 6u);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(sweep.swing_of(sweep.points()[i]), 0.30);
+  for (std::size_t i = 4; i < 6; ++i) EXPECT_EQ(sweep.swing_of(sweep.points()[i]), 0.25) << "the one before is empty";
+}
+
 TEST(TruckSweep, ASweepWithoutEndIsCut) {
   TruckSweep sweep;
   sweep.begin(0);

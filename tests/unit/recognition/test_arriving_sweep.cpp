@@ -73,6 +73,37 @@ TEST(ArrivingSweep, IsWhatTheScanlinesSoFarAreAsAWhole) {
   }
 }
 
+// It stands, swings, and stands: no swing of one rate. Told of each scanline where the machine was, the heads are where they were.
+TEST(ArrivingSweep, TakesAnySwingThatItIsTold) {
+  DrawnBed bed;
+  bed.swing_rate = -0.35, bed.swings_from = 0.8, bed.swings_until = 2.0;
+  ArrivingSweep told(drawn_viewpoint), untold(drawn_viewpoint);
+  std::vector<double> turns;
+  visit_scanlines(sweep_of(bed), [&](std::span<const ScanPoint> scanline) {
+    const double turned = bed.turned(0.5 * (scanline.front().time_s + scanline.back().time_s));
+    told.take(scanline, turned);
+    untold.take(scanline);
+    turns.push_back(turned);
+  });
+  EXPECT_NE(untold.view().reason, "");
+  const auto view = told.view();
+  ASSERT_EQ(view.reason, "");
+  ASSERT_EQ(view.whole.heads.size(), turns.size());
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    const double c = std::cos(turns[i]), s = std::sin(turns[i]);
+    EXPECT_NEAR(view.whole.heads[i].x(), c * drawn_viewpoint[0] - s * drawn_viewpoint[1], 1e-6);
+    EXPECT_NEAR(view.whole.heads[i].y(), s * drawn_viewpoint[0] + c * drawn_viewpoint[1], 1e-6);
+  }
+  for (const FanSweep* sweep : {&view.whole, &view.thin})
+    for (std::size_t fan = 0; fan < sweep->heads.size(); ++fan)
+      for (std::size_t k = sweep->begin[fan]; k < sweep->begin[fan + 1]; ++k) {
+        const Eigen::Vector3d d = sweep->returns[k].at() - sweep->heads[fan];
+        if (std::hypot(d.x(), d.y()) > 0.1) {
+          ASSERT_NEAR(sweep->directions.x[k], d.x() / std::hypot(d.x(), d.y()), 1e-4);
+        }
+      }
+}
+
 TEST(ArrivingSweep, TellsWhatTheNewestFanHasPassedInEitherSense) {
   for (const bool back : {false, true}) {
     std::vector<ScanPoint> points = sweep_of({});
