@@ -139,19 +139,31 @@ class LoadRun {
     std::fflush(stdout);
   }
 
+  // Time is the kernel's: as long as that stands still in real time, none passes here.
+  bool pause_is_over() const {
+    const ProcessFault& fault = *options_.fault;
+    if (fault.kind == FaultKind::pause_kernel && options_.realtime) return std::chrono::duration<double>(Clock::now() - injected_at_).count() >= fault.for_s;
+    return (fault.kind == FaultKind::pause_app || fault.kind == FaultKind::pause_kernel) && recorder_.time_s() >= fault.at_s + fault.for_s;
+  }
+
   void inject() {
-    if (injected_ && !continued_ && options_.fault->kind == FaultKind::pause_app && recorder_.time_s() >= options_.fault->at_s + options_.fault->for_s) {
+    if (injected_ && !continued_ && pause_is_over()) {
       continued_ = true;
-      app_.signal(SIGCONT);
-      events_.say(fmt::format("{:7.1f} s  the app goes on", recorder_.time_s()));
+      const bool app = options_.fault->kind == FaultKind::pause_app;
+      (app ? app_ : kernel_).signal(SIGCONT);
+      events_.say(fmt::format("{:7.1f} s  the {} goes on", recorder_.time_s(), app ? "app" : "kernel"));
     }
     if (!options_.fault || injected_ || recorder_.time_s() < options_.fault->at_s) return;
     injected_ = true;
+    injected_at_ = Clock::now();
     switch (options_.fault->kind) {
       case FaultKind::kill_app: app_.signal(SIGKILL); break;
       case FaultKind::stop_app:
       case FaultKind::pause_app: app_.signal(SIGSTOP); break;
       case FaultKind::kill_kernel: kernel_.signal(SIGKILL); break;
+      case FaultKind::pause_kernel:
+        if (options_.realtime) kernel_.signal(SIGSTOP);  // in lockstep the plant gives it no cycle
+        break;
       case FaultKind::kill_journal: processes_.journal.signal(SIGKILL); break;
     }
     events_.say(fmt::format("{:7.1f} s  fault injected", recorder_.time_s()));
@@ -175,6 +187,7 @@ class LoadRun {
   }
 
   void finish() {
+    kernel_.signal(SIGCONT);
     kernel_.signal(SIGTERM);
     app_.signal(SIGCONT);
     app_.signal(SIGTERM);
@@ -238,7 +251,7 @@ class LoadRun {
   RunFolder folder_;
   RunInputs inputs_;
   std::string out_;
-  Clock::time_point begin_;
+  Clock::time_point begin_, injected_at_;
   RunProcesses processes_{options_, inputs_, addresses_, folder_, out_};
   ChildProcess &kernel_ = processes_.kernel, &app_ = processes_.app, &plant_ = processes_.plant;
   Recorder recorder_;

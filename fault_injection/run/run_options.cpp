@@ -1,5 +1,7 @@
 #include "run/run_options.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdlib>
 
@@ -9,6 +11,8 @@
 namespace berm::run {
 
 namespace {
+
+constexpr double kLongestKernelPause_s = 0.5;  // what is sent in it the kernel's first cycle afterwards takes in whole
 
 std::optional<double> time_of(const std::string& text) {
   char* end = nullptr;
@@ -25,15 +29,18 @@ ProcessFault parse_fault(const std::string& text) {
   else if (kind == "stop-app") fault.kind = FaultKind::stop_app;
   else if (kind == "pause-app") fault.kind = FaultKind::pause_app;
   else if (kind == "kill-kernel") fault.kind = FaultKind::kill_kernel;
+  else if (kind == "pause-kernel") fault.kind = FaultKind::pause_kernel;
   else if (kind == "kill-journal") fault.kind = FaultKind::kill_journal;
-  else throw CLI::ValidationError("--fault", "unknown fault '" + kind + "': kill-app, stop-app, kill-kernel or kill-journal, then @SECONDS, or pause-app, then @SECONDS+SECONDS");
-  const bool pauses = fault.kind == FaultKind::pause_app;
+  else throw CLI::ValidationError("--fault", "unknown fault '" + kind + "': kill-app, stop-app, kill-kernel or kill-journal, then @SECONDS, or pause-app or pause-kernel, then @SECONDS+SECONDS");
+  const bool pauses = fault.kind == FaultKind::pause_app || fault.kind == FaultKind::pause_kernel;
   const std::string seconds = at == std::string::npos ? "" : text.substr(at + 1);
   const auto plus = pauses ? seconds.find('+') : std::string::npos;
   const auto at_s = time_of(seconds.substr(0, plus));
   const auto for_s = pauses && plus != std::string::npos ? time_of(seconds.substr(plus + 1)) : std::nullopt;
   if (!at_s || (pauses && !for_s))
-    throw CLI::ValidationError("--fault", "'" + text + (pauses ? "' wants a time and how long: e.g. pause-app@12.5+4" : "' wants a time: e.g. kill-app@12.5"));
+    throw CLI::ValidationError("--fault", "'" + text + (pauses ? "' wants a time and how long: e.g. " + kind + (fault.kind == FaultKind::pause_app ? "@12.5+4" : "@12.5+0.1") : "' wants a time: e.g. kill-app@12.5"));
+  if (fault.kind == FaultKind::pause_kernel && !(*for_s > 0.0 && *for_s <= kLongestKernelPause_s))
+    throw CLI::ValidationError("--fault", fmt::format("'{}': a kernel is held up for more than 0 and at most {} s", text, kLongestKernelPause_s));
   fault.at_s = *at_s;
   fault.for_s = for_s.value_or(0.0);
   return fault;
@@ -55,7 +62,7 @@ std::optional<int> read_options(int argc, char** argv, RunOptions& options) {
   app.add_flag("--realtime", options.realtime, "run on the wall clock instead of as fast as the computer allows");
   berm::config::output(app.add_option("--json", options.json, "write the result as one flat JSON object"));
   app.add_option("--out", options.out, "folder for trace.csv, truth.json, journal.mcap, app.jsonl, site.svg and result.json; those of an earlier run there are removed first");
-  app.add_option("--fault", fault, "a process fault in the run: kill-app@S, stop-app@S, kill-kernel@S or kill-journal@S, S in simulated seconds; then status 0 means that the machine stood still in time, untouched (kill-journal: that nothing came of it). pause-app@S+T: an app that does nothing for T seconds and then goes on; status as without a fault");
+  app.add_option("--fault", fault, "a process fault in the run: kill-app@S, stop-app@S, kill-kernel@S or kill-journal@S, S in simulated seconds; then status 0 means that the machine stood still in time, untouched (kill-journal: that nothing came of it). pause-app@S+T: an app that does nothing for T seconds and then goes on; pause-kernel@S+T: a kernel that does, T up to 0.5; status as without a fault");
   app.add_flag("--quiet", options.quiet, "no progress, only the summary");
   if (const auto status = config::parse_options(app, argc, argv)) return status;
   options.report_when_interrupted = true;

@@ -10,13 +10,13 @@
 
 namespace berm::run {
 
-enum class FaultKind { kill_app, stop_app, pause_app, kill_kernel, kill_journal };
+enum class FaultKind { kill_app, stop_app, pause_app, kill_kernel, pause_kernel, kill_journal };
 
-// A fault of a process at a virtual time, for demonstrations and tests: "kill-app@12.5", "pause-app@12.5+4".
+// A fault of a process at a virtual time, for demonstrations and tests: "kill-app@12.5", "pause-app@12.5+4", "pause-kernel@12.5+0.1".
 struct ProcessFault {
   FaultKind kind;
   double at_s;
-  double for_s = 0.0;  // of pause_app: from then on the app goes on
+  double for_s = 0.0;  // of a pause: after this it goes on
 };
 
 struct RunOptions {

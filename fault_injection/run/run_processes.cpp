@@ -67,6 +67,8 @@ void RunProcesses::start_plant() {
   child.arguments.insert(child.arguments.end(), {"--silence", std::to_string(options_.silence_s)});
   // An app that will go on is waited for.
   if (options_.fault && options_.fault->kind == FaultKind::pause_app) child.arguments.insert(child.arguments.end(), {"--alone", std::to_string(kAlone_s + options_.fault->for_s)});
+  if (!options_.realtime && options_.fault && options_.fault->kind == FaultKind::pause_kernel)
+    child.arguments.insert(child.arguments.end(), {"--pause-kernel", std::to_string(options_.fault->at_s), std::to_string(options_.fault->for_s)});
   if (options_.trace_every > 1) child.arguments.insert(child.arguments.end(), {"--trace-every", std::to_string(options_.trace_every)});
   if (!options_.realtime && options_.journal) {
     child.arguments.insert(child.arguments.end(), {"--journal-fd", std::to_string(kPaceDescriptor)});

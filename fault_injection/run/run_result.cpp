@@ -204,8 +204,9 @@ std::vector<std::string> shortcomings(const RunResult& r) {
     if (r.interrupted.empty()) reasons.push_back(fmt::format("the run ended before the fault ({:g} s): after {:.1f} s", r.options.fault->at_s, r.truth.value("simulated_seconds", 0.0)));
     return reasons;
   }
-  // The journal's end must not be felt, and an app that goes on has its work to do: such a run is judged as any other.
-  const bool goes_on = r.options.fault && (r.options.fault->kind == FaultKind::kill_journal || r.options.fault->kind == FaultKind::pause_app);
+  // The journal's end must not be felt, and who goes on has his work to do: such a run is judged as any other.
+  const auto fault_is = [&](FaultKind kind) { return r.options.fault->kind == kind; };
+  const bool goes_on = r.options.fault && (fault_is(FaultKind::kill_journal) || fault_is(FaultKind::pause_app) || fault_is(FaultKind::pause_kernel));
   if (r.options.fault && !goes_on) {
     const auto standstill = standstill_after_fault(r);
     if (!standstill.is_number()) reasons.emplace_back("the machine did not come to a standstill after the fault");

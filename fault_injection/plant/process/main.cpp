@@ -66,6 +66,7 @@ int run(int argc, char** argv) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--silence", options.peers.silence_s, "seconds of wall clock after which a peer that says nothing is absent")->check(CLI::Range(1, 3600))->capture_default_str();
   app.add_option("--alone", options.alone_s, "seconds at standstill without kernel or app after which the run ends")->check(CLI::Range(1.0, 3600.0))->capture_default_str();
+  app.add_option("--pause-kernel", options.pause_kernel_s, "FROM FOR: seconds of the run in which the kernel is held up, in lockstep: it begins no cycle")->check(CLI::Range(0.0, 36000.0));
   app.add_option("--trace-every", options.trace_every, "cycles from one row of trace.csv to the next")->check(CLI::Range(1, 6000))->capture_default_str();
   app.add_option("--out", options.out, "folder for the results, made when missing")->required();
   auto* step = app.add_flag("--lockstep", lockstep, "virtual time, in step with kernel and app (default)");

@@ -233,7 +233,7 @@ void PlantRun::send(double t) {
   if (stop && !panel_stop_) record_.fault(t, snapshot.panel.stop ? "operator stop" : "emergency stop");
   panel_stop_ = stop;
   std::vector<berm_can_frame> out = frames_.frames(cycle_, snapshot);
-  if (!options_.realtime) {
+  if (!options_.realtime && !kernel_held_up(cycle_)) {
     const berm_sim_clock clock{static_cast<std::uint32_t>(cycle_), datagrams()};
     out.push_back(berm_encode_sim_clock(&clock));
   }
@@ -244,15 +244,23 @@ void PlantRun::send(double t) {
 // as they do, until it has answered.
 void PlantRun::use_spare_time(double t) {
   verdict_ = world_.judge(t, dynamics_.state());
-  if (options_.realtime || !side_) return;
+  if (options_.realtime || !side_ || kernel_held_up(cycle_)) return;
   JointDynamics next = dynamics_;
   next.step(kCycle, controller_.drive(), controller_.command(), soil_, world_.payload_kg());
   world_.foresee(time_of(cycle_ + 1), kCycle, dynamics_.state(), next.state(), [this] { return peers_.kernel_has_answered(cycle_); });
 }
 
+// Its computer does something else, and it begins no cycle: what is sent meanwhile waits for it, and neither it nor the app has anything to answer.
+bool PlantRun::kernel_held_up(std::uint64_t cycle) const {
+  constexpr double kRounding = 1e-6;
+  const auto [from_s, for_s] = options_.pause_kernel_s;
+  const double t = time_of(cycle) + kRounding;
+  return t >= from_s && t < from_s + for_s;
+}
+
 // The app answers the newest cycle while the next is computed here: that needs the kernel's answer alone, and nothing of it is sent before.
 void PlantRun::await_others() {
-  if (cycle_ > 1) peers_.wait_for(cycle_ - 1, options_.stop_fd);
+  if (cycle_ > 1 && !kernel_held_up(cycle_ - 1)) peers_.wait_for(cycle_ - 1, options_.stop_fd);
   note_finish();
 }
 
@@ -342,11 +350,11 @@ void PlantRun::run() {
     now_ = t;
     send(t);
     use_spare_time(t);
-    if (!options_.realtime) peers_.wait_for_kernel(cycle_, options_.stop_fd);
+    if (!options_.realtime && !kernel_held_up(cycle_)) peers_.wait_for_kernel(cycle_, options_.stop_fd);
     observe(t);
     reason = end_reason(t);
   }
-  if (!options_.realtime) peers_.wait_for(cycle_, options_.stop_fd);  // what the app says last belongs to the run
+  if (!options_.realtime && !kernel_held_up(cycle_)) peers_.wait_for(cycle_, options_.stop_fd);  // what the app says last belongs to the run
   write_end(t, reason);
   events_.finished(t, reason);
 }

@@ -2,6 +2,7 @@
 // processes, and writes what happened.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -38,6 +39,7 @@ struct RunOptions {
   bool realtime = false;
   int trace_every = 1;      // cycles
   double alone_s = 2.0;     // at standstill without kernel or app, after which the run ends
+  std::array<double, 2> pause_kernel_s{};  // in lockstep: from when on, and for how long, the kernel is held up; for 0 s: never
   Peers::Descriptors peers;
   int stop_fd = -1;         // readable: end the run
 };
@@ -66,6 +68,7 @@ class PlantRun {
   std::uint32_t datagrams() const;  // to all sensor ports
   void use_spare_time(double t);
   void await_others();
+  bool kernel_held_up(std::uint64_t cycle) const;
   void note_finish();
   void observe(double t);
   void observe_trucks(double t);

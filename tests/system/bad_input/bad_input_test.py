@@ -199,6 +199,10 @@ def load_numbers():
         one_clear_line(run("berm_load", "--fault", never, timeout=60), f"'{never}' wants a time")
     for never in ("pause-app", "pause-app@5", "pause-app@5+", "pause-app@+5", "pause-app@5+x", "pause-app@5+-1"):
         one_clear_line(run("berm_load", "--fault", never, timeout=60), f"'{never}' wants a time and how long")
+        kernel = never.replace("app", "kernel")
+        one_clear_line(run("berm_load", "--fault", kernel, timeout=60), f"'{kernel}' wants a time and how long")
+    for never in ("pause-kernel@5+0", "pause-kernel@5+0.51"):
+        one_clear_line(run("berm_load", "--fault", never, timeout=60), f"'{never}'", "at most 0.5 s")
 
 
 def scripts():

@@ -106,6 +106,13 @@ def the_app_is_silent():
     fills_its_truck_after("app_silent", 6, "look what kept the app's computer busy", fault=("--fault", f"pause-app@{WRONG_S}+{MENDED_AFTER_S}"), counted="request_hold")
 
 
+def the_kernel_is_held_up():
+    """Its computer does something else for a tenth of a second in a fast swing: the machine has braked by itself, and does not go on unasked.
+
+    verifies: SK-CY-17"""
+    fills_its_truck_after("clock", 15, "look what else runs on the kernel's computer", fault=("--fault", f"pause-kernel@{WRONG_S}+0.1"))
+
+
 def goes_on_by_itself(reason, tables="", fault=()):
     """What the kernel holds without a latch: no reset, and nobody is called."""
     folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
@@ -146,4 +153,4 @@ def the_ground_is_learned_anew():
     print(f"unknown_ground: from {min(unknown):.2f} to {max(unknown):.2f} s, moves again at {again:.2f} s")
 
 
-main([the_app_is_late, the_ground_is_learned_anew, an_angle_lies, a_scanner_is_silent, the_stop_key, the_emergency_stop, a_brake_is_weak, the_machine_reports_an_error, a_joint_moves_untold, the_app_is_silent])
+main([the_app_is_late, the_ground_is_learned_anew, an_angle_lies, a_scanner_is_silent, the_stop_key, the_emergency_stop, a_brake_is_weak, the_machine_reports_an_error, a_joint_moves_untold, the_app_is_silent, the_kernel_is_held_up])

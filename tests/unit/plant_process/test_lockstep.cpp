@@ -29,10 +29,11 @@ std::string text_of(const std::string& file) {
 struct Result { std::string folder, trace; nlohmann::json truth; };
 
 Result run(const std::string& name, std::uint64_t seed, const std::function<Answer(std::uint32_t)>& policy,
-           const Scenario& scenario = load_scenario(BERM_SCENARIOS "/bench.toml", BERM_PLANT_PROFILES)) {
+           const Scenario& scenario = load_scenario(BERM_SCENARIOS "/bench.toml", BERM_PLANT_PROFILES), std::array<double, 2> pause_kernel_s = {}) {
   FakePeers peers(test_can_address(), policy);
   RunOptions options;
   options.seed = seed;
+  options.pause_kernel_s = pause_kernel_s;
   options.can_address = test_can_address();
   options.scan_port = 9;  // nobody listens
   const test::Scratch scratch;
@@ -100,6 +101,26 @@ TEST(Lockstep, DeadKernelIsAStop) {
   EXPECT_GT(still, fault + 0.05);
   EXPECT_LT(still, fault + 0.05 + 2.0);
   EXPECT_NEAR(r.truth.at("simulated_seconds"), still + 2.0, 0.05);
+}
+
+// Nobody is waited for meanwhile, though the fake's app and kernel say nothing; the machine brakes by itself when it has heard nothing for 50 ms.
+TEST(Lockstep, AKernelThatIsHeldUpBeginsNoCycle) {
+  std::vector<std::uint32_t> cycles;
+  const Result r = run("held_up", 1, [&](std::uint32_t cycle) {
+    cycles.push_back(cycle);
+    return swing_then_finish(cycle);
+  }, load_scenario(BERM_SCENARIOS "/bench.toml", BERM_PLANT_PROFILES), {1.5, 0.2});
+  EXPECT_TRUE(r.truth.at("fault").is_null()) << "a peer was waited for until it was absent: " << r.truth.at("fault");
+  const auto after = std::find(cycles.begin(), cycles.end(), 170U);
+  ASSERT_TRUE(after != cycles.end() && after != cycles.begin());
+  EXPECT_EQ(*(after - 1), 149U);
+  EXPECT_EQ(cycles.size(), 400U - 20U);
+  EXPECT_EQ(r.truth.at("end_reason"), "finished");
+  EXPECT_EQ(r.truth.at("simulated_seconds"), 4.0);
+  const auto speed = [&](std::size_t cycle) { return std::stod(row(r.trace, cycle)[5]); };
+  EXPECT_NEAR(speed(153), speed(149), 0.03);
+  EXPECT_LT(speed(170), speed(155) - 0.05);
+  EXPECT_GT(speed(199), speed(175)) << "heard again, it goes on as commanded";
 }
 
 TEST(Lockstep, DeadAppEndsTheRunAtStandstill) {

@@ -99,7 +99,7 @@ TEST(Shortcomings, AFaultThatTheRunDidNotReachIsOne) {
   for (const FaultKind kind : {FaultKind::kill_app, FaultKind::kill_kernel, FaultKind::kill_journal})
     EXPECT_THAT(shortcomings(with_fault(kind, false)), testing::ElementsAre("the run ended before the fault (999 s): after 60.0 s"));
   EXPECT_THAT(shortcomings(with_fault(FaultKind::kill_app, true)), testing::ElementsAre("the machine did not come to a standstill after the fault"));
-  for (const FaultKind kind : {FaultKind::kill_journal, FaultKind::pause_app}) EXPECT_THAT(shortcomings(with_fault(kind, true)), testing::IsEmpty());
+  for (const FaultKind kind : {FaultKind::kill_journal, FaultKind::pause_app, FaultKind::pause_kernel}) EXPECT_THAT(shortcomings(with_fault(kind, true)), testing::IsEmpty());
   RunResult interrupted = with_fault(FaultKind::kill_app, false);
   interrupted.interrupted = "Interrupt";
   EXPECT_THAT(shortcomings(interrupted), testing::ElementsAre("interrupted (Interrupt) after 60.0 s"));
