@@ -4,7 +4,9 @@ Those of a base that moved are in tests/system/base, of a blocked window in test
 
 verifies: SK-ST-22, SK-MS-7"""
 import csv
+import functools
 import json
+import math
 import pathlib
 import shutil
 import tempfile
@@ -127,6 +129,8 @@ def goes_on_by_itself(reason, tables="", fault=()):
     assert not [e for e in events if e["event"] == "operator_needed"], f"{reason}: the operator was called"
     share = result["payload_kg"][0] / result["target_kg"]
     assert FULL[0] <= share <= FULL[1], f"{reason}: {100 * share:.1f} % of the target in the truck"
+    replayed = run("berm_replay", out / "journal.mcap")
+    assert replayed.returncode == 0, replayed.stdout[-500:]
     shutil.rmtree(out)
     shutil.rmtree(folder)
     return result, rows, text
@@ -153,4 +157,44 @@ def the_ground_is_learned_anew():
     print(f"unknown_ground: from {min(unknown):.2f} to {max(unknown):.2f} s, moves again at {again:.2f} s")
 
 
-main([the_app_is_late, the_ground_is_learned_anew, an_angle_lies, a_scanner_is_silent, the_stop_key, the_emergency_stop, a_brake_is_weak, the_machine_reports_an_error, a_joint_moves_untold, the_app_is_silent, the_kernel_is_held_up])
+@functools.cache
+def first_dig(joint, least_deg_s):
+    """The last moment of the first dig, until its bucket is carried away, in which an undisturbed joint goes as fast, downward."""
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="berm-test-"))
+    path = folder / "undisturbed.toml"
+    path.write_text((ROOT / "fault_injection/scenarios/short.toml").read_text().replace("max_time_s = 1800.0", "max_time_s = 23.5"))
+    _, result, out, text = load("--scenario", path, "--seed", 1)
+    assert result is not None, text[-500:]
+    assert result["kernel_stops"] == {}, result["kernel_stops"]
+    with open(out / "trace.csv", newline="") as file:
+        fast = [float(row["time_s"]) for row in csv.DictReader(file) if math.degrees(float(row[f"{joint}_rad_s"])) < -least_deg_s]
+    assert fast and 15.0 < fast[-1] < 23.0, f"the {joint} goes so fast until {fast[-1:]} s"
+    shutil.rmtree(out)
+    shutil.rmtree(folder)
+    return fast[-1]
+
+
+def a_valve_sticks(reason, code, joint, at_s, for_s, stands_within_s):
+    """The joint goes on as fast when it is told to slow down; too slow a brake it is not called (SK-MS-1, 2), for it is free again before it should stand."""
+    result, rows, _ = goes_on_by_itself(reason, table("machine_fault", kind="stuck_valve", joint=joint, at_s=round(at_s, 2), for_s=for_s))
+    assert result["kernel_stops"] == {reason: 1} and result["kernel_faults"] == 0, f"{reason}: kernel stops {result['kernel_stops']}, {result['kernel_faults']} faults"
+    held = [(t, speed) for t, _, why, speed in rows if why == code]
+    assert held and at_s < held[0][0] < at_s + for_s + 0.1, f"{reason}: held from {held[:1]} on, the valve stuck at {at_s:.2f} s"
+    assert held[0][1] > 0.3, f"{reason}: the machine was not at work"
+    stood = next((t for t, speed in held if speed < STILL_RAD_S), None)
+    assert stood is not None and stood < at_s + for_s + stands_within_s, f"{reason}: stands at {stood}"
+    moves = [t for t, speed in held if t > stood and speed > STILL_RAD_S]
+    assert not moves and held[-1][0] > stood + 0.15, f"{reason}: stands from {stood} s, held until {held[-1][0]} s, moves at {moves[:3]}"
+    again = next(t for t, *_, speed in rows if t > held[-1][0] and speed > 0.1)
+    assert again < held[-1][0] + 2.0, f"{reason}: moves again at {again} s"
+    print(f"{reason}: held from {held[0][0]:.2f} s on, stands at {stood:.2f} s, moves again at {again:.2f} s, {100 * result['payload_kg'][0] / result['target_kg']:.1f} % of the target")
+
+
+def a_joint_would_leave_its_range():
+    """The bucket is curled, full, to ten degrees of its range's end, and the valve sticks as it should come to that.
+
+    verifies: SK-CY-20 (a joint's range), SK-ST-13"""
+    a_valve_sticks("joint_range", 11, "bucket", first_dig("bucket", 60.0) - 0.04, 0.15, 0.5)
+
+
+main([the_app_is_late, the_ground_is_learned_anew, a_joint_would_leave_its_range, an_angle_lies, a_scanner_is_silent, the_stop_key, the_emergency_stop, a_brake_is_weak, the_machine_reports_an_error, a_joint_moves_untold, the_app_is_silent, the_kernel_is_held_up])
