@@ -197,4 +197,11 @@ def a_joint_would_leave_its_range():
     a_valve_sticks("joint_range", 11, "bucket", first_dig("bucket", 60.0) - 0.04, 0.15, 0.5)
 
 
-main([the_app_is_late, the_ground_is_learned_anew, a_joint_would_leave_its_range, an_angle_lies, a_scanner_is_silent, the_stop_key, the_emergency_stop, a_brake_is_weak, the_machine_reports_an_error, a_joint_moves_untold, the_app_is_silent, the_kernel_is_held_up])
+def a_bucket_would_pass_below_the_floor():
+    """The boom comes down to the dig, and its valve sticks: the bucket is in the soil, deeper than it was to dig.
+
+    verifies: SK-CL-9, SK-ST-13"""
+    a_valve_sticks("dig_floor", 4, "boom", first_dig("boom", 25.0) - 0.3, 0.75, 0.5)
+
+
+main([the_app_is_late, the_ground_is_learned_anew, a_joint_would_leave_its_range, a_bucket_would_pass_below_the_floor, an_angle_lies, a_scanner_is_silent, the_stop_key, the_emergency_stop, a_brake_is_weak, the_machine_reports_an_error, a_joint_moves_untold, the_app_is_silent, the_kernel_is_held_up])
