@@ -1,6 +1,8 @@
 """After each kind of stop that latches: what stopped the machine ends, the operator is told what to do and resets, and the app goes on and fills its truck.
+After kinds that do not latch: it goes on by itself, and nobody is called.
 
-Those of a base that moved are in tests/system/base, of a blocked window in tests/system/sight, of somebody behind the machine and of a lidar in tests/system/tail.
+Those of a base that moved are in tests/system/base, of a blocked window and of dust in tests/system/sight, of somebody behind the machine and of a lidar in tests/system/tail, of an
+intruder in tests/system/workspace, of ISO 13855's distance in separation_test.py.
 
 verifies: SK-ST-22, SK-MS-7"""
 import csv
