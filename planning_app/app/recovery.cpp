@@ -98,7 +98,7 @@ bool Recovery::call_operator(const Observation& o, const ProgressLog& log) {
   const double after = reason == BERM_STOP_INTRUDER ? call_after_intruder : call_after, from_s = in_dust ? since_s_ : std::max({since_s_, dust_s_, by_ground(reason) ? other_s_ : -1.0});
   if (!(o.latched || (reason != BERM_STOP_NONE && o.time_s - from_s > after))) return false;
   std::string advice = operator_advice(reason);
-  if (reason == BERM_STOP_SENSOR_BLOCKED && o.blocked_eyes != 0) advice = eye_names(o.blocked_eyes) + ": " + advice;
+  if (reason == BERM_STOP_SENSOR_BLOCKED && blocked_eyes_ != 0) advice = eye_names(blocked_eyes_) + ": " + advice;
   if (std::find(told_.begin(), told_.end(), advice) != told_.end()) return false;
   told_.push_back(advice);
   waits_for_reset_ = o.latched;
@@ -126,6 +126,7 @@ void Recovery::begin_stop(const Observation& o, const ProgressLog& log) {
     next_back_s_ = since_s_ + back_after;
     dust_s_ = other_s_ = -1.0;
     told_.clear();
+    blocked_eyes_ = 0;
     waits_for_reset_ = false;
     moved_ = false;
     over_high_ = false;
@@ -239,9 +240,11 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log, co
   if (by_ground(o.stop_reason)) kept_by_ground(o);
   if (waits_for_reset_ && !o.latched) {  // he has reset, and what keeps the machine now is another trouble
     told_.clear();
+    blocked_eyes_ = 0;
     waits_for_reset_ = false;
     since_s_ = o.time_s;
   }
+  blocked_eyes_ |= o.blocked_eyes;
   if (o.held_by_dust) dust_s_ = o.time_s;
   if (!by_ground(o.stop_reason)) other_s_ = o.time_s;
   if (o.held_by_dust || !by_ground(o.stop_reason)) next_back_s_ = std::max(next_back_s_, o.time_s + back_after);

@@ -7,6 +7,7 @@
 // what to do, once for each thing that keeps it.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -61,6 +62,7 @@ private:
   bool moved_ = false;
   PlaceInMap in_map_;            // newest
   std::vector<std::string> told_;   // advices that the operator was given in this trouble
+  std::uint32_t blocked_eyes_ = 0;      // in this trouble; one half covered is judged blocked and well by turns
   bool waits_for_reset_ = false;        // the newest of them was for a stop that latches
   Joints stopped_at_{};          // rad
   double since_s_ = -1.0;        // begin of the trouble: a stop and those soon after it; negative: none yet

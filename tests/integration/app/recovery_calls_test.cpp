@@ -48,6 +48,31 @@ TEST(RecoveryCalls, CallsTheOperatorForABlockedSensorAtOnce) {
   EXPECT_EQ(advice.velocity, Joints{});
 }
 
+// A window that is half covered is judged blocked and well by turns: he is told of it once, by name, and of another that follows.
+TEST(RecoveryCalls, TellsOfABlockedSensorOnceThoughItIsJudgedWellByTurns) {
+  Recovery recovery(berm::app_bench::zx200());
+  const Events events;
+  const ProgressLog log(events.fd());
+  const auto stands = [&](double from, double to, std::uint32_t eyes) {
+    for (double t = from; t < to; t += 0.1) {
+      Observation o = stopped(t, BERM_STOP_SENSOR_BLOCKED);
+      o.kernel_state = t < 0.3 ? BERM_STATE_STOPPING : BERM_STATE_FAULT;
+      o.latched = t >= 0.3;
+      o.blocked_eyes = eyes;
+      recovery.step(o, log);
+    }
+  };
+  stands(0.0, 0.15, BERM_SIGHT_BLOCKED(4));
+  stands(0.2, 0.95, 0);
+  stands(1.0, 1.95, BERM_SIGHT_BLOCKED(4));
+  stands(2.0, 4.0, 0);
+  ASSERT_EQ(events.named("operator_needed").size(), 1U);
+  EXPECT_EQ(events.named("operator_needed")[0].at("advice").get<std::string>().rfind("lidar 3: look", 0), 0U);
+  stands(4.0, 8.0, BERM_SIGHT_BLOCKED(0));
+  ASSERT_EQ(events.named("operator_needed").size(), 2U);
+  EXPECT_EQ(events.named("operator_needed")[1].at("advice").get<std::string>().rfind("left scanner, lidar 3: look", 0), 0U);
+}
+
 // A reset that is followed by another trouble: he is told of that too.
 TEST(RecoveryCalls, CallsAgainWhenTheGroundKeepsWhatWasReset) {
   Recovery recovery(berm::app_bench::zx200());
