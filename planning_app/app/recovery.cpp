@@ -45,6 +45,12 @@ bool by_place(std::uint8_t reason) {
   return by_ground(reason) || reason == BERM_STOP_INTRUDER || reason == BERM_STOP_SEPARATION || reason == BERM_STOP_DUST;
 }
 
+// By the reset of a stop that latches the ground would have been seen too long ago. Not where the kernel's map is void until then, nor where he is sent to the
+// sensors' heads.
+bool grows_old(const Observation& o) {
+  return o.latched && o.stop_reason != BERM_STOP_BASE_MOVED && o.stop_reason != BERM_STOP_SENSOR_BLOCKED && o.stop_reason != BERM_STOP_SCANNER_SILENT;
+}
+
 nlohmann::ordered_json with_place(const Observation& o, nlohmann::ordered_json fields) {
   if (o.has_place()) fields.update({{"x_m", o.blocked_x}, {"y_m", o.blocked_y}, {"height_m", o.blocked_height}});
   return fields;
@@ -249,6 +255,7 @@ Recovery::Advice Recovery::step(const Observation& o, const ProgressLog& log, co
   if (!by_ground(o.stop_reason)) other_s_ = o.time_s;
   if (o.held_by_dust || !by_ground(o.stop_reason)) next_back_s_ = std::max(next_back_s_, o.time_s + back_after);
   advice.operator_called = call_operator(o, log);
+  if (grows_old(o)) look_again(o, advice);
   if (!by_place(o.stop_reason)) return advice;
   const double blocked = o.time_s - stop_s_;  // with no more than moments in which standing was permitted
   look_again(o, advice);

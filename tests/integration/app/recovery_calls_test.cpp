@@ -48,6 +48,25 @@ TEST(RecoveryCalls, CallsTheOperatorForABlockedSensorAtOnce) {
   EXPECT_EQ(advice.velocity, Joints{});
 }
 
+// What was seen before a stop that latches is too old by the reset, and the plan would creep over it from stop to stop.
+TEST(RecoveryCalls, LooksOnUntilTheResetUnlessTheMapIsVoidOrSomebodyIsAtTheSensors) {
+  const auto looks = [](std::uint8_t reason) {
+    Recovery recovery(berm::app_bench::zx200());
+    const ProgressLog log(-1);
+    int rescans = 0;
+    for (double t = 0.0; t < 20.0; t += 0.1) {
+      Observation o = stopped(t, reason);
+      o.latched = true;
+      const auto advice = recovery.step(o, log);
+      EXPECT_EQ(advice.velocity, Joints{});
+      rescans += advice.rescan;
+    }
+    return rescans;
+  };
+  for (const std::uint8_t reason : {BERM_STOP_OPERATOR, BERM_STOP_CLOCK, BERM_STOP_EMERGENCY}) EXPECT_EQ(looks(reason), 4) << int{reason};
+  for (const std::uint8_t reason : {BERM_STOP_SENSOR_BLOCKED, BERM_STOP_SCANNER_SILENT, BERM_STOP_BASE_MOVED}) EXPECT_EQ(looks(reason), 0) << int{reason};
+}
+
 // A window that is half covered is judged blocked and well by turns: he is told of it once, by name, and of another that follows.
 TEST(RecoveryCalls, TellsOfABlockedSensorOnceThoughItIsJudgedWellByTurns) {
   Recovery recovery(berm::app_bench::zx200());
