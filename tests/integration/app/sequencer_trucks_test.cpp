@@ -241,6 +241,21 @@ TEST_F(LooksOnTheWay, ADigDoesNotBeginBeforeTheTruckIsKnown) {
   finish();
 }
 
+// While the kernel learns the ground: the look must not keep its scanner from the dig until the swing has crept there.
+TEST_F(LooksOnTheWay, AKnownTruckDoesNotWaitForTheOtherScannerForLong) {
+  const double outmost = run.machine.scanner[1].pan_low;
+  come(run);
+  for (const double end = run.seconds + 40.0; events_.named("recognised").size() < 2 && run.seconds < end;) {
+    run.step();
+    run.plant.put_pan(1, outmost);
+  }
+  ASSERT_EQ(events_.named("recognised").size(), 2u);
+  const double known = run.seconds;
+  for (; run.last.phase != BERM_PHASE_DIG && run.seconds < known + 12.0; run.plant.put_pan(1, outmost)) run.step();
+  EXPECT_EQ(run.last.phase, BERM_PHASE_DIG);
+  EXPECT_GT(run.seconds, known + 2.5) << "for a while it does";
+}
+
 // Over its dig it waits for what does not come: no dead end.
 TEST_F(LooksOnTheWay, WhereNoAnswerComesItIsLookedAtInAStop) {
   run.finder.cycles = 1000000;
