@@ -268,8 +268,8 @@ Answer Sequencer::step(const Observation& o) {
   if (advice.in_charge) {
     look_ahead_.rest();
     answer.velocity = advice.velocity;
-    if (stage_ == Stage::look || stage_ == Stage::go_look) look_.stop(scanners_);
     if (looks_on_the_way()) begin_look(o);
+    else if (stage_ == Stage::look || stage_ == Stage::go_look) look_.stop(scanners_);
     if (stage_ == Stage::survey && scanners_.full_sweep_done()) end_survey(o);
   } else {
     const Joints wanted = plan(o);

@@ -266,7 +266,6 @@ private:
   bool run_was_off_ = false;                  // since the operator took over for a bench move
   bool saw_run_ = false, part_filled_ = false;  // part_filled_: of this truck the bed is not known any more, or not yet again; what is in it is
   bool waits_raised_ = false;                 // for the next truck
-  bool digs_next_ = false;                    // the look goes on on the way to the first dig
   TruckPresence presence_;                    // of the truck that is looked at, loaded or full
   bool called_for_truck_ = false;             // in this stage
   bool brings_load_ = false;                  // the bucket still holds what was meant for a truck that is gone

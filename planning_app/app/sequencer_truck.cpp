@@ -29,7 +29,6 @@ void Sequencer::begin_look(const Observation& o) {
     return;
   }
   begin_script(*script);
-  digs_next_ = false;
   enter(Stage::go_look, o);
 }
 
@@ -60,7 +59,7 @@ std::optional<double> Sequencer::bearing_on_the_way(const Observation& o) const 
 Joints Sequencer::go_look(const Observation& o) {
   enter_phase(BERM_PHASE_WAIT, o);
   const Joints command = run_script(o, event_none);
-  if (digs_next_) {
+  if (look_.on_the_way()) {
     if (const auto bed = look_.step(o, scanners_, truck_, log_)) begin_truck(o, *bed);
     else if (look_.missed() || (look_.way_is_free(o, scanners_) && !approach_dig(o, over_heaps, true))) begin_look(o);
   } else if (script_.at_last() && swing_stands_at_goal(o)) {
@@ -87,12 +86,11 @@ bool Sequencer::go_look_on_the_way(const Observation& o) {
   plan_next_dig(o, 0.0);
   look_.begin_on_the_way(o, scanners_, *bearing, dig_.bearing);
   begin_script(*script);
-  digs_next_ = true;
   enter(Stage::go_look, o);
   return true;
 }
 
-bool Sequencer::looks_on_the_way() const { return !site_.bed && (stage_ == Stage::approach || stage_ == Stage::settle); }
+bool Sequencer::looks_on_the_way() const { return look_.on_the_way() && (stage_ == Stage::approach || stage_ == Stage::settle); }
 
 void Sequencer::look_on_the_way(const Observation& o) {
   if (const auto bed = look_.step(o, scanners_, truck_, log_)) take_bed(o, *bed);

@@ -21,7 +21,6 @@ constexpr double drain_s = 0.1;                     // until the last scanline h
 constexpr int vain_until_operator = 3;
 constexpr int restless = 3;                         // looks begun anew, for the swing moved
 constexpr double vain_pause_s = 5.0;
-constexpr double feet_patience_s = 3.0;             // on the way; while the kernel learns the other scanner waits beyond the dig
 
 double dig_middle(const SiteModel& site) { return 0.5 * (site.dig_swing_left + site.dig_swing_right); }
 
@@ -205,8 +204,7 @@ std::optional<TruckBed> TruckLook::step(const Observation& o, ScanScheduler& sca
     case Stage::asked: take_answer(o, scanners, truck, log); break;
     case Stage::passes:
       if (sweep_.recording() && !scanners.look_done() && !passed(*bed_, o)) break;
-      // What is dug next hides them; but a machine that is let out slowly on its way needs this scanner for the dig.
-      if (!scanners.feet_seen() && !(dig_bearing_ && o.time_s - stage_s_ > feet_patience_s)) break;
+      if (!scanners.feet_seen()) break;  // what is dug next hides them
       stop(scanners);
       return bed_;
     case Stage::pauses:

@@ -220,6 +220,7 @@ std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, d
   const std::size_t other = ahead == left ? right : left;
   if (phase == BERM_PHASE_SWING_TO_DIG) note_bed(ahead, truck, swing_angle, pan[ahead]);
   if (phase == BERM_PHASE_SWING_TO_TRUCK) note_face(other, dig, truck, swing_angle, pan[other]);
+  if (slowed && look_ == Look::none && phase == BERM_PHASE_SWING_TO_DIG && phase_ != phase) head_[other].up = other == left;  // beyond the dig first
   phase_ = phase;
   for (std::size_t i = 0; i < head_.size(); ++i) {
     const ScannerMount& mount = machine_.scanner[i];
@@ -229,9 +230,9 @@ std::array<PanRequest, 2> ScanScheduler::step(std::uint16_t phase, double dig, d
       continue;
     }
     if (!slowed) note_seen(i, pan[i], back_soon && i != ahead, side * (dig - pan[i] - swing_angle));
-    const bool whole = !(head.low_seen && head.high_seen);
+    const bool whole = !(head.low_seen && head.high_seen) && !(slowed && look_ != Look::none);  // a slow look goes on beside the way
     // On the swing back the ground beyond the dig comes first, on which only the looks of a dig fall: the swing does not wait until it comes in its turn.
-    const bool end_first = whole && i != ahead && (back_soon || phase == BERM_PHASE_SWING_TO_DIG) && !end_beyond_dig_seen(i);
+    const bool end_first = whole && !slowed && i != ahead && (back_soon || phase == BERM_PHASE_SWING_TO_DIG) && !end_beyond_dig_seen(i);
     const PanSector beside = beside_look(i, dig, truck, swing_angle);
     if (i != looker_ && (i == right ? pan[i] > beside.high - at_end : pan[i] < beside.low + at_end)) feet_seen_ = true;
     const PanSector s = end_first ? end_beyond_dig(i) : whole ? PanSector{mount.pan_low, mount.pan_high} : look_ != Look::none ? beside : sector(i, phase, dig, truck, swing_angle);

@@ -62,8 +62,8 @@ public:
   const Lead& lead() const { return lead_; }
 
   // phase: BERM_PHASE_*, the one the motion is about to enter where that is known (LIFT while a full bucket curls); bearings of dig and truck; measured pans, swing angle and speed.
-  // slowed: the motion is let out slowly for long, and both sweep their whole ranges meanwhile, but that on the swing to the dig the one on the dig's side
-  // stays at its end there. As soon as it is slow no more, over the truck or on the swing back,
+  // slowed: the motion is let out slowly for long, and both sweep their whole ranges meanwhile, on the swing to the dig the one on the dig's side towards its
+  // end there first; during a look at the truck the other keeps to the way to the dig. As soon as it is slow no more, over the truck or on the swing back,
   // the scanner on the dig's side hurries to its end there and stays until the swing has carried it past what lies beyond the dig: from over the truck it does not
   // reach so far, and what it saw there before the swing out is old by then.
   std::array<PanRequest, 2> step(std::uint16_t phase, double dig_bearing, double truck_bearing, double swing_angle, double swing_speed,

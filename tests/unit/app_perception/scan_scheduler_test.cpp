@@ -127,6 +127,55 @@ TEST(ScanScheduler, AfterASlowDumpASwingThatDoesNotComeIsNotWaitedFor) {
   EXPECT_LT(cycles, 1400);
 }
 
+// A swing to a dig that creeps at a tenth for all of its way, as while the kernel learns the ground: no ground that a pan reaches grows old.
+TEST(ScanScheduler, OnASlowSwingToTheDigBothWholeRangesAreSeenAgainAndAgainBeyondTheDigFirst) {
+  constexpr double speed = radians(4.0);
+  for (const double side : {1.0, -1.0})
+    for (int before = 400; before < 1400; before += 50) {
+      const double over_truck = side * radians(94.0), dig = side * radians(-12.0);
+      Pans pans(berm::app_bench::zx200(), over_truck, dig);
+      const std::size_t trails = side > 0.0 ? 1 : 0;
+      for (int k = 0; k < before; ++k) pans.step(BERM_PHASE_DUMP, over_truck, 0.0, true);
+      std::array<std::vector<double>, 2> seen{std::vector<double>(300, 0.0), std::vector<double>(300, 0.0)};
+      double worst = 0.0, seconds = 0.0, end_seen = -1.0;
+      const double end = side > 0.0 ? pans.machine.scanner[trails].pan_low : pans.machine.scanner[trails].pan_high;
+      for (double angle = over_truck; side * (angle - dig) > 0.0; angle -= side * speed * 0.01) {
+        pans.step(BERM_PHASE_SWING_TO_DIG, angle, -side * speed, true);
+        seconds += 0.01;
+        if (end_seen < 0.0 && std::fabs(pans.pan[trails] - end) < radians(2.0)) end_seen = seconds;
+        for (std::size_t i = 0; i < 2; ++i) {
+          const int low = static_cast<int>(std::ceil(degrees(pans.machine.scanner[i].pan_low))), high = static_cast<int>(degrees(pans.machine.scanner[i].pan_high));
+          seen[i][static_cast<std::size_t>(150 + std::lround(degrees(pans.pan[i])))] = seconds;
+          for (int pan = low + 3; pan <= high - 3; ++pan) worst = std::max(worst, seconds - seen[i][static_cast<std::size_t>(150 + pan)]);
+        }
+      }
+      EXPECT_GT(seconds, 26.0);
+      EXPECT_LT(worst, 13.0) << side << ", slow for " << before << " cycles";
+      EXPECT_GE(end_seen, 0.0);
+      EXPECT_LT(end_seen, 5.0) << side << ", slow for " << before << " cycles: a range at 40 degrees a second";
+    }
+}
+
+// The look on the way goes on while the swing creeps: the other scanner comes to the feet all the same.
+TEST(ScanScheduler, OnASlowSwingToTheDigTheFeetAreSeenBesideALook) {
+  const MachineModel machine = berm::app_bench::zx200();
+  constexpr double speed = radians(4.0);
+  for (const double side : {1.0, -1.0}) {
+    const std::size_t looker = side > 0.0 ? 0 : 1, other = 1 - looker;
+    const double waits = side * radians(20.0), one = side * radians(40.0), far = side * radians(150.0);
+    for (double began = machine.scanner[other].pan_low; began <= machine.scanner[other].pan_high; began += radians(5.0)) {
+      Pans pans(machine, side * radians(96.0), side * radians(-12.0));
+      for (int k = 0; k < 2000; ++k) pans.step(BERM_PHASE_WAIT, waits, 0.0);
+      pans.pan[other] = began;
+      pans.scheduler.begin_look_on_the_way(looker, {std::min(one, far), std::max(one, far)});
+      double seconds = 0.0;
+      for (double angle = waits; side * (angle - pans.dig) > 0.0 && !pans.scheduler.feet_seen(); angle -= side * speed * 0.01, seconds += 0.01)
+        pans.step(BERM_PHASE_SWING_TO_DIG, angle, -side * speed, true);
+      EXPECT_TRUE(pans.scheduler.feet_seen()) << side << " " << degrees(began);
+    }
+  }
+}
+
 TEST(ScanScheduler, ALookSweepsItsSectorOnceAndSlowly) {
   Pans pans(berm::app_bench::zx200());
   const double swing_angle = radians(36.0);
