@@ -1,10 +1,10 @@
 // Counts every allocation of the process, GMP's included: malloc itself is replaced.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 
+#include "counted_malloc.hpp"
 #include "geometry/joint_history.hpp"
 #include "geometry/scan_projection.hpp"
 #include "geometry/self_filter.hpp"
@@ -12,36 +12,6 @@
 #include "geometry/swept_slices.hpp"
 #include "machine_profile.hpp"
 #include "pass_over.hpp"
-
-#if defined(__SANITIZE_ADDRESS__)
-#define BERM_COUNTS_MALLOC 0 // the sanitizer has replaced malloc already
-#else
-#define BERM_COUNTS_MALLOC 1
-#endif
-
-namespace {
-long allocations = 0;
-}
-
-#if BERM_COUNTS_MALLOC
-extern "C" {
-void* __libc_malloc(std::size_t);
-void* __libc_calloc(std::size_t, std::size_t);
-void* __libc_realloc(void*, std::size_t);
-void* malloc(std::size_t n) {
-  ++allocations;
-  return __libc_malloc(n);
-}
-void* calloc(std::size_t n, std::size_t m) {
-  ++allocations;
-  return __libc_calloc(n, m);
-}
-void* realloc(void* p, std::size_t n) {
-  ++allocations;
-  return __libc_realloc(p, n);
-}
-}
-#endif
 
 namespace berm::kernel::test {
 namespace {
