@@ -152,7 +152,10 @@ private:
   void begin_pass_search(const Observation& o, const Joints& lifted_from);
   static constexpr double empty_share = 0.05;  // of a full bucket: what holds no more than that and what sticks is empty
   BedPoint along_way_back(double way, double radius) const;
+  bool over_bed_on_way_back(double way) const;
   bool runs_out_over_bed() const;
+  bool let_out_slowly() const;
+  bool waits_with_pour(const Observation& o) const;
   bool pours_onto_heap() const;
   double share_that_may_trail() const;
   BedPoint lies_at(double payload_kg) const;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/sequencer.hpp"
+#include "app/slow_pour.hpp"
 #include "motion/bucket_weight.hpp"
 
 namespace berm::app {
@@ -22,11 +23,27 @@ BedPoint Sequencer::along_way_back(double way, double radius) const {
   return to_bed(*site_.bed, radius * std::cos(bearing), radius * std::sin(bearing));
 }
 
+bool Sequencer::over_bed_on_way_back(double way) const {
+  constexpr double lip_beyond = 0.9;  // m beyond the dump point, of the opened bucket's
+  const BedPoint there = along_way_back(way, task_.dump_radius + lip_beyond * scale_.bucket);
+  return std::fabs(there.u) + 0.5 * bucket_width(machine_) < 0.5 * site_.bed->length && std::fabs(there.v) < 0.5 * site_.bed->width;
+}
+
 // Whether the way back is over the bed until the bucket has run out.
 bool Sequencer::runs_out_over_bed() const {
-  constexpr double trails = 1.1, lip_beyond = 0.9;  // m, of the opened bucket's lip; beyond the dump point
-  const BedPoint there = along_way_back(trails * scale_.arm, task_.dump_radius + lip_beyond * scale_.bucket);
-  return std::fabs(there.u) + 0.5 * bucket_width(machine_) < 0.5 * site_.bed->length && std::fabs(there.v) < 0.5 * site_.bed->width;
+  constexpr double trails = 1.1;  // m
+  return over_bed_on_way_back(trails * scale_.arm);
+}
+
+// By the kernel, for longer than a joint takes to speed up.
+bool Sequencer::let_out_slowly() const {
+  constexpr double slow = 0.5, for_s = 1.0;
+  const Joints shares = arm_.shares();
+  return slow_down_.lasts_s() > for_s && *std::min_element(shares.begin(), shares.end()) < slow;
+}
+
+bool Sequencer::waits_with_pour(const Observation& o) const {
+  return !emptied_ && let_out_slowly() && lip_still_comes(share_beside(machine_, *site_.bed, o.angle, 0.5 * bucket_width(machine_)), script_.goals(), o.angle, o.velocity);
 }
 
 // Whether what is poured comes onto a heap, off whose sides it slides over the walls.
@@ -40,7 +57,12 @@ double Sequencer::share_that_may_trail() const {
   constexpr double over_bed = 0.52, over_heap = 0.42, beyond = 0.22;
   constexpr double less = 0.12;  // besides what sticks, which lets go late and all at once
   const double share = !runs_out_over_bed() ? beyond : pours_onto_heap() ? over_heap : over_bed;
-  return sticking_.sticks() ? share - less + sticking_.share() : share;
+  const double trails = sticking_.sticks() ? share - less + sticking_.share() : share;
+  if (!let_out_slowly()) return trails;
+  constexpr double step = 0.1, farthest = 4.0;  // m
+  double way = 0.0;
+  while (way < farthest && over_bed_on_way_back(way + step)) way += step;
+  return std::min(trails, share_run_out_over(machine_, way / task_.dump_radius) + sticking_.share());
 }
 
 // Where the middle of what this pass brought lies: what runs out over the way back is 0.10 m off in the mean.
@@ -123,6 +145,7 @@ Joints Sequencer::pass(const Observation& o) {
   Joints command = run_script(o, events | scan_event(o, events));
   note_swing_began(o, left_before, returned_before);
   if (tilt >= 0.0) command[bucket] = tilt;
+  if (opens() && waits_with_pour(o)) command[bucket] = std::min(command[bucket], 0.0);
   if (!script_.of(swing).reached(RuleMark::leaves)) enter_phase(BERM_PHASE_LIFT, o);
   else if (script_.of(swing).reached(RuleMark::returns)) enter_phase(BERM_PHASE_SWING_TO_DIG, o);
   else enter_phase(opens() ? BERM_PHASE_DUMP : BERM_PHASE_SWING_TO_TRUCK, o);

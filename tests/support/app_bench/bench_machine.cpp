@@ -148,7 +148,8 @@ void BenchMachine::work_soil() {
   most_carried_ = digging_ ? payload_ : std::max(most_carried_, payload_);
   if (arm.bucket_attitude > radians(-140.0) && arm.tip.z > 0.2 && payload_ > 0.0) {
     const double share = std::clamp((arm.bucket_attitude - radians(-140.0)) / radians(50.0), 0.0, 1.0);
-    const double out = std::min(std::max(0.0, payload_ - sticks * most_carried_), (200.0 + 2500.0 * share) * machine_.cycle);
+    const double empty_at = radians(-50.0), held = pours_by_tilt ? std::clamp((empty_at - arm.bucket_attitude) / (empty_at - radians(-140.0)), 0.0, 1.0) : 0.0;
+    const double out = std::min(std::max(0.0, payload_ - std::max(held, sticks) * most_carried_), (200.0 + 2500.0 * share) * machine_.cycle);
     payload_ -= out;
     site_.dump(tip.x, tip.y, out);
   }

@@ -66,6 +66,7 @@ public:
   bool has_pressures = false;     // the cylinders' are published, and the soil resists
   double held_by_n = -1.0;        // from 0: boom, stick and bucket stand whatever they are told, and so hard the soil pushes the bucket outward
   double sticks = 0.0;            // share of a load that stays in the bucket
+  bool pours_by_tilt = false;     // no more leaves it than its tilt no longer holds: what tells in a bucket that opens slowly
   double holds_kg = 1608.0;       // the bucket, of this soil
   app::Joints most_speed{};       // rad/s, of each joint: what the kernel lets out of a request at most; by default the machine's largest
   app::Joints brake_share{1.0, 1.0, 1.0, 1.0};  // of the deceleration that was identified
