@@ -170,8 +170,8 @@ TEST(SlowedJoints, TheArmIsDrawnInAsTheBucketOpens) {
   EXPECT_LE(slow.plant.site().spilled_mass(), 20.0);
 }
 
-// All of a pass at a tenth: joints have their little speed at once there, and a bucket that opened as early, or a swing that turned round as early, as at full
-// speed is not over the bed yet, or no more, while most runs out. Each pass dumps elsewhere.
+// All of a pass at a tenth: the swing has its little speed at once there, and one that turned round with as much left in the bucket as at full speed has left
+// the bed before that runs out. (On this bench the bucket does not open before its lip is over the bed: slow_pour_test has that.)
 TEST(SlowedJoints, LittleRunsOutBesideTheBed) {
   for (const int pass : {1, 2, 3, 4, 5}) {
     Loading run(1, start_pose());
